@@ -1,0 +1,73 @@
+"""Faults of world files: each says where, what, what was received and what is accepted."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from carom.ecs.errors import CaromError
+
+Path = tuple[str | int, ...]
+
+
+class ValueFault(ValueError):
+    """A value that cannot be read, before it is known where it stands."""
+
+    def __init__(self, what: str, *, received: str = "", accepted: str = "", hint: str = "") -> None:
+        super().__init__(what)
+        self.what, self.received, self.accepted, self.hint = what, received, accepted, hint
+
+
+@dataclass(frozen=True, order=True)
+class Fault:
+    """One thing wrong in a file, at a line and column counted from 1 (0: the file as a whole)."""
+
+    file: str
+    line: int
+    column: int
+    path: str
+    what: str
+    received: str = ""
+    accepted: str = ""
+    hint: str = ""
+
+    def __str__(self) -> str:
+        """Return ``file:line:column: path: what; received; accepted``, without the parts that are not there."""
+        place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
+        parts = [self.what]
+        parts += [f"received {self.received}"] if self.received else []
+        parts += [f"accepted: {self.accepted}"] if self.accepted else []
+        parts += [self.hint] if self.hint else []
+        return ": ".join(part for part in (place, self.path, "; ".join(parts)) if part)
+
+
+class WorldError(CaromError):
+    """A world file that cannot be used; ``faults`` holds everything wrong in it, in order of position."""
+
+    def __init__(self, faults: Iterable[Fault]) -> None:
+        self.faults = sorted(set(faults))
+        super().__init__("\n".join(map(str, self.faults)))
+
+
+def did_you_mean(word: str, choices: Iterable[str]) -> str:
+    """Return a question naming the nearest choice, or nothing when none is near."""
+    near = difflib.get_close_matches(word, list(choices), 1)
+    return f"did you mean {near[0]!r}?" if near else ""
+
+
+def shown(value: Any) -> str:
+    """Return a value as a message shows it: short, in the words of a file."""
+    if value is None:
+        return "nothing"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, dict):
+        return f"a mapping of {', '.join(map(str, value)) or 'nothing'}"
+    if isinstance(value, list) and any(isinstance(item, (dict, list)) for item in value):
+        return f"a list of {len(value)}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(shown, value))}]"
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."

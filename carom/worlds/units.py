@@ -1,0 +1,140 @@
+"""Values with units: ``45 deg``, ``9 ft``, ``1/240``, ``30 km/h``, checked against the unit a place declares."""
+
+from __future__ import annotations
+
+import math
+import re
+from fractions import Fraction
+from functools import cache, lru_cache
+from typing import Any, NamedTuple
+
+from carom.worlds.errors import ValueFault, did_you_mean, shown
+
+Dimension = tuple[int, int, int, int]  # powers of kg, m, s, rad
+LONGEST_VALUE = 80  # characters: longer texts are no numbers, and their fractions would grow without bound
+
+
+class Unit(NamedTuple):
+    """A unit as a multiple of SI units; exact, so that ``57.15 mm`` is the float nearest 0.05715."""
+
+    factor: Fraction
+    dimension: Dimension
+
+
+PURE = Unit(Fraction(1), (0, 0, 0, 0))
+DEGREE = Fraction(math.pi) / 180
+BASE: dict[str, tuple[Dimension, dict[str, Fraction | int | str]]] = {
+    "a mass": ((1, 0, 0, 0), {"kg": 1, "g": "0.001", "mg": "1e-6", "t": 1000, "lb": "0.45359237", "oz": "0.028349523125"}),
+    "a length": (
+        (0, 1, 0, 0),
+        {"m": 1, "mm": "0.001", "cm": "0.01", "km": 1000, "um": "1e-6", "in": "0.0254", "ft": "0.3048", "yd": "0.9144"}
+        | {"mi": "1609.344"},
+    ),
+    "a time": ((0, 0, 1, 0), {"s": 1, "ms": "0.001", "us": "1e-6", "min": 60, "h": 3600, "d": 86400}),
+    "an angle": ((0, 0, 0, 1), {"rad": 1, "deg": DEGREE, "mrad": "0.001", "turn": DEGREE * 360}),
+    "a number": ((0, 0, 0, 0), {"%": "0.01"}),
+    "a frequency": ((0, 0, -1, 0), {"Hz": 1}),
+    "an angular velocity": ((0, 0, -1, 1), {"rpm": DEGREE * 6}),
+    "a speed": ((0, 1, -1, 0), {"mph": "0.44704", "kn": Fraction(1852, 3600)}),
+    "a force": ((1, 1, -2, 0), {"N": 1, "mN": "0.001", "kN": 1000, "MN": 1000000, "lbf": "4.4482216152605"}),
+    "an energy": ((1, 2, -2, 0), {"J": 1, "mJ": "0.001", "kJ": 1000, "MJ": 1000000}),
+    "a power": ((1, 2, -3, 0), {"W": 1, "kW": 1000}),
+    "a pressure": ((1, -1, -2, 0), {"Pa": 1, "kPa": 1000, "MPa": 1000000}),
+}
+UNITS = {name: Unit(Fraction(factor), dim) for dim, names in BASE.values() for name, factor in names.items()}
+COMPOUND = ("m/s", "km/h", "ft/s", "m/s2", "rad/s", "deg/s", "turn/s", "N s", "N m", "kg/m3", "g/cm3", "kg/s", "kg m2", "1/s")
+
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?"
+VALUE = re.compile(rf"\s*({NUMBER})(?:\s*/\s*({NUMBER}))?\s*(.*?)\s*")
+TOKEN = re.compile(r"\s*(?:([A-Za-z%]+)(?:\^?(-?\d))?|(1)|([/()*]))")
+
+
+def read_quantity(value: Any, unit: str, *, above: float | None = None, least: float | None = None) -> float:
+    """Return a number of a file in ``unit`` (SI); plain numbers are taken as they are.
+
+    Raises ValueFault for what is no number, not finite, of another dimension, or out of bounds.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise ValueFault(f"must be {kind_of(unit)}", received=shown(value), accepted=accepted(unit))
+    number = _parse(value, unit) if isinstance(value, str) else float(value)
+    if not math.isfinite(number):
+        raise ValueFault("must be finite", received=shown(value), accepted=accepted(unit))
+    short = "" if unit == "1" else f" {unit}"
+    if above is not None and not number > above:
+        raise ValueFault(f"must be above {above:g}{short}", received=shown(value))
+    if least is not None and not number >= least:
+        raise ValueFault(f"must be at least {least:g}{short}", received=shown(value))
+    return number
+
+
+@lru_cache(4096)
+def _parse(text: str, unit: str) -> float:
+    found = VALUE.fullmatch(text) if len(text) <= LONGEST_VALUE else None
+    if found is None:
+        raise ValueFault(f"is not {kind_of(unit)}", received=shown(text), accepted=accepted(unit))
+    over, under, name = found.groups()
+    try:
+        given = parse_unit(name or unit)
+    except ValueFault as fault:
+        fault.received, fault.accepted = shown(text), accepted(unit)
+        raise
+    if given.dimension != parse_unit(unit).dimension:
+        received = f"{shown(text)}, which is {kind_of(name)}"
+        raise ValueFault(f"must be {kind_of(unit)}", received=received, accepted=accepted(unit))
+    divisor = Fraction(under or 1)
+    if not divisor:
+        raise ValueFault("divides by zero", received=shown(text))
+    try:
+        factor = given.factor if name else 1
+        return float(Fraction(over) / divisor * factor)
+    except OverflowError:
+        return math.inf
+
+
+@cache
+def parse_unit(text: str) -> Unit:
+    """Return a unit written as ``kg m2/s2`` or ``1/(kg m2)``: blank or * multiplies, / divides by what follows it."""
+    if text in UNITS:
+        return UNITS[text]
+    unit, at, sign, levels = PURE, 0, 1, [1]
+    while at < len(text):
+        found = TOKEN.match(text, at)
+        if found is None:
+            raise _unknown(text)
+        at = found.end()
+        name, power, _, mark = found.groups()
+        if mark == "/":
+            sign = -1
+        elif mark == "(":
+            levels.append(levels[-1] * sign)
+            sign = 1
+        elif mark == ")" and len(levels) > 1:
+            levels.pop()
+        elif mark == ")" or (name and name not in UNITS):
+            raise _unknown(name or text)
+        elif name:
+            exponent = levels[-1] * sign * int(power or 1)
+            unit = Unit(unit.factor * UNITS[name].factor**exponent, _sum(unit.dimension, UNITS[name].dimension, exponent))
+            sign = 1
+    return unit
+
+
+def _sum(a: Dimension, b: Dimension, times: int) -> Dimension:
+    return (a[0] + b[0] * times, a[1] + b[1] * times, a[2] + b[2] * times, a[3] + b[3] * times)
+
+
+def _unknown(name: str) -> ValueFault:
+    return ValueFault(f"unknown unit {name!r}", hint=did_you_mean(name, UNITS))
+
+
+def kind_of(unit: str) -> str:
+    """Return what a unit measures, in words: ``a length``."""
+    dimension = parse_unit(unit).dimension
+    return next((word for word, (known, _) in BASE.items() if known == dimension), f"a value in {unit}")
+
+
+def accepted(unit: str) -> str:
+    """Return the sentence on what a place with this unit takes."""
+    dimension = parse_unit(unit).dimension
+    names = [unit, *(name for name in (*UNITS, *COMPOUND) if name != unit and parse_unit(name).dimension == dimension)]
+    return "a number" if unit == "1" else f"a number in {unit}, or one with a unit: {', '.join(names)}"
