@@ -1,0 +1,76 @@
+"""Blueprint: how a recording looks when it is opened."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from carom.ecs import Collider, Transform, World
+from carom.systems.shapes import BY_NUMBER
+from carom.tools.recorder import about, bodies, contacts, happenings, plots
+from carom.tools.recorder.stream import TIME
+
+Point = tuple[float, float, float]
+
+
+class Eye(NamedTuple):
+    """Where the viewer looks from and to, m, world frame."""
+
+    position: Point
+    target: Point
+    up: Point = (0.0, 1.0, 0.0)
+
+
+def blueprint(eye: Eye, *, grid: bool) -> Any:
+    """Return a large view of the world beside the log and the plots, playing on simulated time."""
+    import rerun.blueprint as rrb
+
+    controls = rrb.EyeControls3D(position=eye.position, look_target=eye.target, eye_up=eye.up)
+    scene = rrb.Spatial3DView(
+        origin=bodies.ROOT,
+        contents=["$origin/**", f"- {contacts.NORMALS}"],
+        name="World",
+        eye_controls=controls,
+        line_grid=grid,
+        background=rrb.Background(kind=rrb.BackgroundKind.GradientBright),
+    )
+    curves = rrb.Vertical(
+        rrb.TimeSeriesView(origin=plots.ENERGY, name="Energy (J)"),
+        rrb.TimeSeriesView(origin=plots.OVERLAP, name="Deepest overlap (mm)"),
+        rrb.TimeSeriesView(origin=plots.COUNTS, name="Counts"),
+        name="Plots",
+    )
+    texts = rrb.Tabs(
+        rrb.TextLogView(origin=happenings.PATH, name="Log"), rrb.TextDocumentView(origin=about.PATH, name="About")
+    )
+    return rrb.Blueprint(
+        rrb.Horizontal(scene, rrb.Vertical(curves, texts, row_shares=[2, 1]), column_shares=[3, 1]),
+        rrb.BlueprintPanel(state="collapsed"),
+        rrb.SelectionPanel(state="collapsed"),
+        rrb.TimePanel(timeline=TIME, state="collapsed"),
+        auto_views=False,
+        auto_layout=False,
+    )
+
+
+def default_eye(world: World) -> Eye:
+    """Return an eye that has everything bounded in view, from in front, above and a little to the right."""
+    rows = world.row_numbers(Collider, Transform)
+    collider = world[Collider]
+    reach = np.linalg.norm(collider.bound_half[rows], axis=1) + collider.bound_radius[rows]
+    finite = np.isfinite(reach)
+    if not finite.any():
+        return Eye((3.0, 2.0, 4.0), (0.0, 0.0, 0.0))
+    positions, reach = world[Transform].position[rows][finite], reach[finite, None]
+    lower, upper = (positions - reach).min(axis=0), (positions + reach).max(axis=0)
+    target = (lower + upper) / 2.0
+    distance = 1.2 * float(np.linalg.norm(upper - lower))
+    away = np.array([0.35, 0.55, 0.76]) * distance
+    return Eye(tuple(map(float, target + away)), tuple(map(float, target)))  # type: ignore[arg-type]
+
+
+def has_floor(world: World) -> bool:
+    """Tell whether a plane is drawn, which Rerun's grid would flicker through."""
+    shapes = world[Collider].shape[world.row_numbers(Collider)]
+    return any(BY_NUMBER[int(number)].key == "plane" for number in np.unique(shapes))

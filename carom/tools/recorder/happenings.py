@@ -1,0 +1,50 @@
+"""Happenings: impacts and sensors entered, as lines of a log at the simulated time they happened."""
+
+from __future__ import annotations
+
+from carom.ecs import World
+from carom.ecs.errors import EntityError
+from carom.ecs.relations.enter import Enter
+from carom.ecs.relations.impact import Impact
+from carom.systems.simulation import Simulation
+from carom.tools.recorder.stream import Stamp, Stream
+
+PATH = "log"
+MOST_LINES = 50  # of impacts a step: beyond it nobody reads them, and a pile of bodies has thousands
+
+
+class Happenings:
+    """Lines for what happened in every step, recorded frame or not."""
+
+    def __init__(self) -> None:
+        self._pending: list[tuple[Stamp, str, str]] = []
+
+    def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
+        """Keep a line for each impact and each entering of the last step."""
+        world = simulation.world
+        impact, enter = world[Impact], world[Enter]
+        for row in range(min(impact.count, MOST_LINES)):
+            pair = f"{_name(world, impact.a[row])} and {_name(world, impact.b[row])}"
+            text = f"{pair} strike at {impact.speed[row]:.3g} m/s, {impact.impulse[row]:.3g} N s"
+            self._pending.append((Stamp(stamp.frame, float(impact.time[row])), "DEBUG", text))
+        if impact.count > MOST_LINES:
+            self._pending.append((stamp, "DEBUG", f"{impact.count - MOST_LINES} more impacts in this step"))
+        for row in range(enter.count):
+            text = f"{_name(world, enter.entity[row])} enters {_name(world, enter.sensor[row])}"
+            self._pending.append((Stamp(stamp.frame, float(enter.time[row])), "INFO", text))
+
+    def write(self, stream: Stream) -> None:
+        """Write the kept lines."""
+        import rerun
+
+        if self._pending:
+            stamps, levels, texts = zip(*self._pending, strict=True)
+            stream.rows(PATH, stamps, rerun.TextLog.columns(text=texts, level=levels))
+            self._pending = []
+
+
+def _name(world: World, entity: int) -> str:
+    try:
+        return world.name(entity)
+    except EntityError:
+        return f"[{entity}]"  # gone in the same step

@@ -1,0 +1,48 @@
+"""Plots: the numbers of a whole world over time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs import RigidBody
+from carom.ecs.relations.contact import Contact
+from carom.systems.simulation import Simulation
+from carom.tools.recorder.stream import Stamp, Stream
+
+ENERGY, OVERLAP, COUNTS = "plots/energy", "plots/overlap", "plots/counts"
+MILLIMETRES = 1e3
+
+
+class Plots:
+    """Energies in J, the deepest overlap in mm, and how many bodies and contacts there are."""
+
+    def __init__(self) -> None:
+        self._pending: list[tuple[Stamp, dict[str, float]]] = []
+
+    def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
+        """Keep the numbers of this frame."""
+        from carom.systems.energy import kinetic_energy, potential_energy
+
+        world = simulation.world
+        contact = world[Contact]
+        kinetic, potential = kinetic_energy(world), potential_energy(world)
+        values = {
+            f"{ENERGY}/kinetic": kinetic,
+            f"{ENERGY}/potential": potential,
+            f"{ENERGY}/total": kinetic + potential,
+            f"{OVERLAP}/deepest_mm": MILLIMETRES * max(0.0, float(np.max(contact.depth[: contact.count], initial=0.0))),
+            f"{COUNTS}/bodies": world.count(RigidBody),
+            f"{COUNTS}/contacts": contact.count,
+        }
+        self._pending.append((stamp, values))
+
+    def write(self, stream: Stream) -> None:
+        """Write the kept numbers, one block per curve."""
+        import rerun
+
+        if not self._pending:
+            return
+        stamps = [stamp for stamp, _ in self._pending]
+        for path in self._pending[0][1]:
+            stream.rows(path, stamps, rerun.Scalars.columns(scalars=[values[path] for _, values in self._pending]))
+        self._pending = []

@@ -1,0 +1,94 @@
+"""Recorder: the observer that writes a simulation into a Rerun recording."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from time import monotonic
+
+from carom.systems.simulation import Simulation
+from carom.tools.recorder import about
+from carom.tools.recorder.blueprint import Eye, blueprint, default_eye, has_floor
+from carom.tools.recorder.bodies import ROOT, Bodies
+from carom.tools.recorder.contacts import Contacts
+from carom.tools.recorder.happenings import Happenings
+from carom.tools.recorder.plots import Plots
+from carom.tools.recorder.snapshots import Snapshots
+from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.track import Track
+
+FLUSH_AFTER = 0.9  # s of real time: a kill then loses less than the last second also of a slow run
+
+
+class Recorder:
+    """Record a simulation into an .rrd file.
+
+    Every ``every``-th step is recorded, by default as many as make ``fps`` frames a simulated second; impacts and
+    sensors entered are told of every step. Samples are written in blocks and flushed after a second of simulated or of
+    real time, whichever ends first. ``title`` and ``source`` (the text of the world file) travel in the recording.
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        every: int | None = None,
+        fps: int = 60,
+        *,
+        title: str = "world",
+        source: str | None = None,
+        eye: Eye | None = None,
+    ) -> None:
+        self.path = Path(path)
+        self.frames = 0
+        self._every, self._fps = every, fps
+        self._title, self._source, self._eye = title, source, eye
+        self._stream: Stream | None = None
+        self._happenings = Happenings()
+        self._tracks: tuple[Track, ...] = (Bodies(), Contacts(), Plots(), Snapshots())
+        self._waiting = 0
+        self._flushed = 0.0
+
+    def begin(self, simulation: Simulation) -> None:
+        """Open the file, write what never changes and the first frame."""
+        import rerun
+
+        if self._every is None:
+            self._every = max(1, round(1.0 / (self._fps * simulation.settings.dt)))
+        world = simulation.world
+        layout = blueprint(self._eye or default_eye(world), grid=not has_floor(world))
+        self._stream = Stream(self.path, self._title, layout)
+        self._stream.static(ROOT, rerun.ViewCoordinates.RIGHT_HAND_Y_UP)
+        self._stream.static(about.PATH, *about.about(self._title, simulation.settings, self._source))
+        self._record(simulation, self._stream)
+        self._write(self._stream)
+
+    def observe(self, simulation: Simulation) -> None:
+        """Record the step if it is one of the frames; write and flush about once a second."""
+        assert self._stream is not None and self._every is not None, "begin() comes before observe()"
+        self._happenings.sample(simulation, _stamp(simulation), self._stream)
+        if simulation.frame % self._every == 0:
+            self._record(simulation, self._stream)
+        if self._waiting >= self._fps or monotonic() - self._flushed > FLUSH_AFTER:
+            self._write(self._stream)
+
+    def end(self, simulation: Simulation) -> None:
+        """Write what is left and close the file."""
+        stream, self._stream = self._stream, None
+        if stream is not None:
+            self._write(stream)
+            stream.close()
+
+    def _record(self, simulation: Simulation, stream: Stream) -> None:
+        for track in self._tracks:
+            track.sample(simulation, _stamp(simulation), stream)
+        self.frames += 1
+        self._waiting += 1
+
+    def _write(self, stream: Stream) -> None:
+        for track in (*self._tracks, self._happenings):
+            track.write(stream)
+        stream.flush()
+        self._waiting, self._flushed = 0, monotonic()
+
+
+def _stamp(simulation: Simulation) -> Stamp:
+    return Stamp(simulation.frame, simulation.time)
