@@ -2,31 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from carom.ecs import Collider, Transform, World
 from carom.systems.shapes import BY_NUMBER
+from carom.tools.cameras import Camera
 from carom.tools.recorder import about, bodies, contacts, happenings, plots
 from carom.tools.recorder.stream import TIME
 
-Point = tuple[float, float, float]
 
-
-class Eye(NamedTuple):
-    """Where the viewer looks from and to, m, world frame."""
-
-    position: Point
-    target: Point
-    up: Point = (0.0, 1.0, 0.0)
-
-
-def blueprint(eye: Eye, *, grid: bool) -> Any:
+def blueprint(camera: Camera, *, grid: bool) -> Any:
     """Return a large view of the world beside the log and the plots, playing on simulated time."""
     import rerun.blueprint as rrb
 
-    controls = rrb.EyeControls3D(position=eye.position, look_target=eye.target, eye_up=eye.up)
+    controls = rrb.EyeControls3D(position=camera.position, look_target=camera.target, eye_up=camera.up)
     scene = rrb.Spatial3DView(
         origin=bodies.ROOT,
         contents=["$origin/**", f"- {contacts.NORMALS}"],
@@ -41,8 +32,10 @@ def blueprint(eye: Eye, *, grid: bool) -> Any:
         rrb.TimeSeriesView(origin=plots.COUNTS, name="Counts"),
         name="Plots",
     )
+    columns = rrb.TextLogColumns(timeline_columns=[TIME], text_log_columns=["body"])
     texts = rrb.Tabs(
-        rrb.TextLogView(origin=happenings.PATH, name="Log"), rrb.TextDocumentView(origin=about.PATH, name="About")
+        rrb.TextLogView(origin=happenings.PATH, name="Log", columns=columns),
+        rrb.TextDocumentView(origin=about.PATH, name="About"),
     )
     return rrb.Blueprint(
         rrb.Horizontal(scene, rrb.Vertical(curves, texts, row_shares=[2, 1]), column_shares=[3, 1]),
@@ -54,20 +47,20 @@ def blueprint(eye: Eye, *, grid: bool) -> Any:
     )
 
 
-def default_eye(world: World) -> Eye:
-    """Return an eye that has everything bounded in view, from in front, above and a little to the right."""
+def default_camera(world: World) -> Camera:
+    """Return a camera that has everything bounded in view, from in front, above and a little to the right."""
     rows = world.row_numbers(Collider, Transform)
     collider = world[Collider]
     reach = np.linalg.norm(collider.bound_half[rows], axis=1) + collider.bound_radius[rows]
     finite = np.isfinite(reach)
     if not finite.any():
-        return Eye((3.0, 2.0, 4.0), (0.0, 0.0, 0.0))
+        return Camera((3.0, 2.0, 4.0))
     positions, reach = world[Transform].position[rows][finite], reach[finite, None]
     lower, upper = (positions - reach).min(axis=0), (positions + reach).max(axis=0)
     target = (lower + upper) / 2.0
-    distance = 1.2 * float(np.linalg.norm(upper - lower))
+    distance = 0.9 * float(np.linalg.norm(upper - lower))
     away = np.array([0.35, 0.55, 0.76]) * distance
-    return Eye(tuple(map(float, target + away)), tuple(map(float, target)))  # type: ignore[arg-type]
+    return Camera(tuple(map(float, target + away)), tuple(map(float, target)))  # type: ignore[arg-type]
 
 
 def has_floor(world: World) -> bool:

@@ -11,6 +11,14 @@ from carom.tools.recorder.stream import Stamp, Stream
 
 ENERGY, OVERLAP, COUNTS = "plots/energy", "plots/overlap", "plots/counts"
 MILLIMETRES = 1e3
+COLORS = {
+    f"{ENERGY}/kinetic": (255, 170, 60),
+    f"{ENERGY}/potential": (90, 160, 255),
+    f"{ENERGY}/total": (240, 240, 240),
+    f"{OVERLAP}/deepest_mm": (255, 90, 60),
+    f"{COUNTS}/bodies": (120, 210, 130),
+    f"{COUNTS}/contacts": (255, 90, 60),
+}
 
 
 class Plots:
@@ -18,6 +26,7 @@ class Plots:
 
     def __init__(self) -> None:
         self._pending: list[tuple[Stamp, dict[str, float]]] = []
+        self._styled = False
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the numbers of this frame."""
@@ -43,6 +52,8 @@ class Plots:
         if not self._pending:
             return
         stamps = [stamp for stamp, _ in self._pending]
-        for path in self._pending[0][1]:
+        for path, color in COLORS.items():
+            if not self._styled:
+                stream.static(path, rerun.SeriesLines(colors=[color], widths=[2.0]))
             stream.rows(path, stamps, rerun.Scalars.columns(scalars=[values[path] for _, values in self._pending]))
-        self._pending = []
+        self._pending, self._styled = [], True

@@ -6,8 +6,9 @@ from pathlib import Path
 from time import monotonic
 
 from carom.systems.simulation import Simulation
+from carom.tools.cameras import Camera
 from carom.tools.recorder import about
-from carom.tools.recorder.blueprint import Eye, blueprint, default_eye, has_floor
+from carom.tools.recorder.blueprint import blueprint, default_camera, has_floor
 from carom.tools.recorder.bodies import ROOT, Bodies
 from carom.tools.recorder.contacts import Contacts
 from carom.tools.recorder.happenings import Happenings
@@ -35,12 +36,12 @@ class Recorder:
         *,
         title: str = "world",
         source: str | None = None,
-        eye: Eye | None = None,
+        camera: Camera | None = None,
     ) -> None:
         self.path = Path(path)
         self.frames = 0
         self._every, self._fps = every, fps
-        self._title, self._source, self._eye = title, source, eye
+        self._title, self._source, self._camera = title, source, camera
         self._stream: Stream | None = None
         self._happenings = Happenings()
         self._tracks: tuple[Track, ...] = (Bodies(), Contacts(), Plots(), Snapshots())
@@ -54,7 +55,7 @@ class Recorder:
         if self._every is None:
             self._every = max(1, round(1.0 / (self._fps * simulation.settings.dt)))
         world = simulation.world
-        layout = blueprint(self._eye or default_eye(world), grid=not has_floor(world))
+        layout = blueprint(self._camera or default_camera(world), grid=not has_floor(world))
         self._stream = Stream(self.path, self._title, layout)
         self._stream.static(ROOT, rerun.ViewCoordinates.RIGHT_HAND_Y_UP)
         self._stream.static(about.PATH, *about.about(self._title, simulation.settings, self._source))

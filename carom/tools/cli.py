@@ -1,0 +1,53 @@
+"""The ``carom`` command: one file per subcommand in `carom.tools.commands`, each imported by name."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+
+import carom
+
+COMMANDS = ("run", "view", "render", "check", "test", "worlds", "explain", "doctor", "bench", "schema", "warm")
+DONE, FAILED, WRONG, INTERRUPTED = 0, 1, 2, 130
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run one command; return 0 when done, 1 when a check failed, 2 for wrong usage or input, 130 after Ctrl-C."""
+    arguments = parser().parse_args(words)
+    try:
+        return int(arguments.execute(arguments))
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return INTERRUPTED
+    except Exception as fault:
+        from carom.ecs.errors import CaromError, NonFiniteError
+
+        if not isinstance(fault, CaromError):
+            raise
+        print(fault, file=sys.stderr)
+        return FAILED if isinstance(fault, NonFiniteError) else WRONG
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the whole command line."""
+    whole = argparse.ArgumentParser(
+        prog="carom",
+        description="A 3D game engine whose world is a table.",
+        epilog="exit status: 0 done, 1 a check failed, 2 wrong usage or input",
+    )
+    whole.add_argument("--version", action="version", version=f"carom {carom.__version__}")
+    commands = whole.add_subparsers(metavar="COMMAND", required=True)
+    for name in COMMANDS:
+        module = import_module(f"carom.tools.commands.{name}")
+        summary = module.__doc__.partition("\n")[0].partition(": ")[2]
+        single = commands.add_parser(name, help=summary, description=summary)
+        single.add_argument("--json", action="store_true", help="print the result as JSON, for programs")
+        module.declare(single)
+        single.set_defaults(execute=module.execute)
+    return whole
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,33 @@
+"""Explain: print the frame, system by system, with what each reads, writes and adds."""
+
+from __future__ import annotations
+
+import argparse
+
+from carom.tools.commands.options import print_json
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Declare no arguments."""
+
+
+def execute(arguments: argparse.Namespace) -> int:
+    """Print the schedule."""
+    from carom.ecs.explain import explain
+    from carom.systems.step import STEP
+
+    if not arguments.json:
+        print(explain(STEP), end="")
+        return 0
+    print_json(
+        [
+            {
+                "phase": phase.name,
+                "repeated": phase.repeat is not None,
+                "system": system.name,
+                **{use: [kind.__name__ for kind in getattr(system, use)] for use in ("reads", "writes", "adds")},
+            }
+            for phase, system in STEP
+        ]
+    )
+    return 0
