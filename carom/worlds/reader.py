@@ -44,17 +44,29 @@ class Source:
     data: Any = None
     positions: dict[Path, Position] = field(default_factory=dict)
     faults: list[Fault] = field(default_factory=list)
+    inherits: dict[Path, Path] = field(default_factory=dict)  # an entity or prefab to the prefab it extends
 
     def report(self, path: Path, what: str, *, received: str = "", accepted: str = "", hint: str = "") -> None:
-        """Note a fault at the nearest part of ``path`` that the file has."""
-        line, column = self.position(path)
-        self.faults.append(Fault(self.name, line, column, ".".join(map(str, path)), what, received, accepted, hint))
+        """Note a fault at the nearest part of ``path`` that the file has, or that a prefab has for it."""
+        found = self.locate(path)
+        words = ".".join(map(str, (*found, *path[len(path) - self._missing(path) :])))
+        line, column = self.positions.get(found, (1, 1))
+        self.faults.append(Fault(self.name, line, column, words, what, received, accepted, hint))
 
-    def position(self, path: Path) -> Position:
-        """Return where a path, or the nearest part of it that is there, stands."""
-        while path not in self.positions and path:
-            path = path[:-1]
-        return self.positions.get(path, (1, 1))
+    def locate(self, path: Path) -> Path:
+        """Return where the nearest part of ``path`` is written: itself, or the same words in its prefab."""
+        for end in range(len(path), 0, -1):
+            candidate: Path | None = path[:end]
+            while candidate is not None:
+                if candidate in self.positions:
+                    return candidate
+                base = self.inherits.get(candidate[:2])
+                candidate = None if base is None else (*base, *candidate[2:])
+        return ()
+
+    def _missing(self, path: Path) -> int:
+        """Return how many words at the end of ``path`` are written nowhere."""
+        return next((n for n in range(len(path)) if len(self.locate(path[: len(path) - n])) == len(path) - n), len(path))
 
     def refuse_if_faulty(self) -> None:
         """Raise WorldError when anything was reported."""

@@ -8,27 +8,27 @@ from pydantic import AfterValidator, Field, TypeAdapter, WrapValidator
 
 from carom.ecs.spatial import quaternion
 from carom.worlds.errors import ValueFault, shown
-from carom.worlds.values import Words, quantity, vector
+from carom.worlds.values import In, Vector3, Words
 
 FORMS = "[x, y, z, w] of length 1 within 1 %, {axis, angle}, {euler, order} or {look_at}"
 HAND_TYPED = 0.01  # how far from 1 the length of a quaternion may be that was meant to be unit
 Rotation = tuple[float, float, float, float]
 
 
-def _direction(value: tuple[float, ...]) -> tuple[float, ...]:
+def _direction(value: Vector3) -> Vector3:
     if not any(value):
         raise ValueFault("must have a direction", received=shown(list(value)))
     return value
 
 
-Direction = Annotated[vector(3, "1"), AfterValidator(_direction)]
+Direction = Annotated[Vector3, In("1"), AfterValidator(_direction)]
 
 
 class AxisAngle(Words):
     """A turn by ``angle`` about ``axis``, by the right-hand rule."""
 
     axis: Direction = Field(description="axis of any length but 0")
-    angle: quantity("rad") = Field(description="angle")  # type: ignore[valid-type]
+    angle: Annotated[float, In("rad")] = Field(description="angle")
 
     def rotation(self) -> Any:
         """Return the quaternion xyzw."""
@@ -46,7 +46,7 @@ def _order(value: str) -> str:
 class Euler(Words):
     """Three turns one after another."""
 
-    euler: vector(3, "rad") = Field(description="angles")  # type: ignore[valid-type]
+    euler: Annotated[Vector3, In("rad")] = Field(description="angles")
     order: Annotated[str, AfterValidator(_order)] = Field("XYZ", description="axes: XYZ turning, xyz fixed")
 
     def rotation(self) -> Any:
@@ -65,8 +65,8 @@ class LookAt(Words):
         return quaternion.look_at(self.look_at, self.up)
 
 
-Quaternion = vector(4, "1")
-ADAPTERS = {"axis": TypeAdapter(AxisAngle), "euler": TypeAdapter(Euler), "look_at": TypeAdapter(LookAt)}
+Quaternion = Annotated[Rotation, In("1")]
+ADAPTERS: dict[str, TypeAdapter[Any]] = {"axis": TypeAdapter(AxisAngle), "euler": TypeAdapter(Euler), "look_at": TypeAdapter(LookAt)}
 NUMBERS: TypeAdapter[Rotation] = TypeAdapter(Quaternion)
 
 

@@ -49,7 +49,9 @@ VALUE = re.compile(rf"\s*({NUMBER})(?:\s*/\s*({NUMBER}))?\s*(.*?)\s*")
 TOKEN = re.compile(r"\s*(?:([A-Za-z%]+)(?:\^?(-?\d))?|(1)|([/()*]))")
 
 
-def read_quantity(value: Any, unit: str, *, above: float | None = None, least: float | None = None) -> float:
+def read_quantity(
+    value: Any, unit: str, *, above: float | None = None, least: float | None = None, most: float | None = None
+) -> float:
     """Return a number of a file in ``unit`` (SI); plain numbers are taken as they are.
 
     Raises ValueFault for what is no number, not finite, of another dimension, or out of bounds.
@@ -64,6 +66,8 @@ def read_quantity(value: Any, unit: str, *, above: float | None = None, least: f
         raise ValueFault(f"must be above {above:g}{short}", received=shown(value))
     if least is not None and not number >= least:
         raise ValueFault(f"must be at least {least:g}{short}", received=shown(value))
+    if most is not None and not number <= most:
+        raise ValueFault(f"must be at most {most:g}{short}", received=shown(value))
     return number
 
 

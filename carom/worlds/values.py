@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from typing import Annotated, Any
+from dataclasses import dataclass
+from typing import Annotated, Any, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter, WithJsonSchema, WrapValidator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
+from pydantic import WithJsonSchema, WrapValidator
+from pydantic_core import CoreSchema, core_schema
 
 from carom.ecs.components.name import NAME_LENGTH
 from carom.worlds.errors import ValueFault, shown
 from carom.worlds.units import read_quantity
 
+Vector3 = tuple[float, float, float]
 NAME = re.compile(r"[^\W\d][\w-]*")
 
 
@@ -21,40 +24,52 @@ class Words(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-def quantity(unit: str, *, above: float | None = None, least: float | None = None) -> Any:
-    """Return the type of a number in ``unit``, with bounds."""
-    number: dict[str, Any] = {"type": "number"}
-    number |= {} if above is None else {"exclusiveMinimum": above}
-    number |= {} if least is None else {"minimum": least}
-    text = {"type": "string", "pattern": r"^\s*[-+.0-9]", "description": f"a number with a unit; plain numbers are in {unit}"}
-    schema = {"anyOf": [number, text], "x-unit": unit}
-    read = BeforeValidator(lambda value: read_quantity(value, unit, above=above, least=least))
-    return Annotated[float, read, WithJsonSchema(schema)]
+@dataclass(frozen=True)
+class In:
+    """Marks a number or a tuple of numbers as one in ``unit``, with bounds: ``Annotated[float, In("m", above=0.0)]``."""
+
+    unit: str
+    above: float | None = None
+    least: float | None = None
+    most: float | None = None
+
+    def read(self, value: Any) -> float:
+        """Return the number in SI; raise ValueFault."""
+        return read_quantity(value, self.unit, above=self.above, least=self.least, most=self.most)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Read each number by `read`; a list must have as many as the tuple."""
+        number = core_schema.no_info_plain_validator_function(self.read)
+        size = len(get_args(source))
+        if not size:
+            return number
+
+        def sized(value: Any) -> Any:
+            if not isinstance(value, list) or len(value) != size:
+                raise ValueFault(f"must be a list of {size} numbers", received=shown(value), accepted=f"numbers in {self.unit}")
+            return value
+
+        items = core_schema.tuple_schema([number] * size)
+        return core_schema.no_info_before_validator_function(sized, items, metadata={"size": size})
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Return a number or a text with a unit, or a list of them."""
+        bounds = {"exclusiveMinimum": self.above, "minimum": self.least, "maximum": self.most}
+        number = {"type": "number"} | {key: bound for key, bound in bounds.items() if bound is not None}
+        text = {"type": "string", "pattern": r"^\s*[-+.0-9]", "description": "a number with a unit"}
+        item = {"anyOf": [number, text], "x-unit": self.unit}
+        size = schema.get("metadata", {}).get("size")
+        return {"type": "array", "items": item, "minItems": size, "maxItems": size} if size else item
 
 
-def vector(size: int, unit: str, *, above: float | None = None, least: float | None = None) -> Any:
-    """Return the type of a list of ``size`` numbers in ``unit``."""
-    item = quantity(unit, above=above, least=least)
-    return Annotated[tuple.__class_getitem__((item,) * size), BeforeValidator(_sized(size, unit))]
-
-
-def _sized(size: int, unit: str) -> Callable[[Any], Any]:
-    def check(value: Any) -> Any:
-        if not isinstance(value, list) or len(value) != size:
-            raise ValueFault(f"must be a list of {size}", received=shown(value), accepted=f"{size} numbers in {unit}")
-        return value
-
-    return check
-
-
-def either(plain: Any, mapping: Any) -> Any:
-    """Return the type of what is ``plain`` or, where the file has a mapping, ``mapping``; messages name no third thing."""
-    plain_adapter, mapping_adapter = TypeAdapter(plain), TypeAdapter(mapping)
+def either(plain: Any, other: Any, form: type = dict) -> Any:
+    """Return the type of what is ``plain`` or, where the file has a mapping (or another ``form``), ``other``."""
+    plain_adapter, other_adapter = TypeAdapter(plain), TypeAdapter(other)
 
     def choose(value: Any, handler: Any) -> Any:
-        return (mapping_adapter if isinstance(value, dict) else plain_adapter).validate_python(value)
+        return (other_adapter if isinstance(value, form) else plain_adapter).validate_python(value)
 
-    return Annotated[plain | mapping, WrapValidator(choose)]
+    return Annotated[plain | other, WrapValidator(choose)]
 
 
 def _read_name(value: Any) -> str:
@@ -64,27 +79,35 @@ def _read_name(value: Any) -> str:
     return value
 
 
-Name = Annotated[str, BeforeValidator(_read_name)]
-
-
 def _read_flag(value: Any) -> bool:
     if not isinstance(value, bool):
         raise ValueFault("must be true or false", received=shown(value))
     return value
 
 
+Name = Annotated[str, BeforeValidator(_read_name)]
 Flag = Annotated[bool, BeforeValidator(_read_flag)]
 
 
-def whole_number(least: int) -> Any:
-    """Return the type of an integer of at least ``least``."""
+@dataclass(frozen=True)
+class Whole:
+    """Marks an integer of at least ``least``."""
 
-    def read(value: Any) -> int:
-        if isinstance(value, bool) or not isinstance(value, int) or value < least:
-            raise ValueFault("must be a whole number", received=shown(value), accepted=f"{least} or more")
-        return value
+    least: int
 
-    return Annotated[int, BeforeValidator(read), Field(ge=least)]
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Refuse everything but integers in bounds."""
+
+        def read(value: Any) -> int:
+            if isinstance(value, bool) or not isinstance(value, int) or value < self.least:
+                raise ValueFault("must be a whole number", received=shown(value), accepted=f"{self.least} or more")
+            return value
+
+        return core_schema.no_info_plain_validator_function(read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Return an integer with its bound."""
+        return {"type": "integer", "minimum": self.least}
 
 
 def word_of(*choices: str) -> Any:
@@ -92,7 +115,7 @@ def word_of(*choices: str) -> Any:
 
     def read(value: Any) -> str:
         if value not in choices:
-            raise ValueFault("is not one of its words", received=shown(value), accepted=", ".join(choices))
+            raise ValueFault("unknown word", received=shown(value), accepted=", ".join(choices))
         return str(value)
 
     return Annotated[str, BeforeValidator(read), WithJsonSchema({"enum": list(choices)})]

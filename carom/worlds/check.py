@@ -1,0 +1,134 @@
+"""Check data against the schema, item by item, so that one wrong entity hides nothing about the others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from typing import Any, get_args, get_origin
+
+from pydantic import TypeAdapter, ValidationError
+
+from carom.worlds.errors import Path, ValueFault, did_you_mean, shown
+from carom.worlds.reader import Source
+from carom.worlds.schema import document
+
+WORDING = {
+    "model_type": ("must be a mapping", "keys with values"),
+    "model_attributes_type": ("must be a mapping", "keys with values"),
+    "dict_type": ("must be a mapping", "keys with values"),
+    "list_type": ("must be a list", "[...]"),
+    "tuple_type": ("must be a list", "[...]"),
+    "string_type": ("must be text", "text"),
+}
+
+
+@cache
+def _adapter(section: str, item: bool) -> TypeAdapter[Any]:
+    field = document().model_fields[section]
+    return TypeAdapter(get_args(field.annotation)[-1] if item else field.rebuild_annotation())
+
+
+@cache
+def collection(section: str) -> type[Any] | None:
+    """Return dict or list for a section of many items, None for others."""
+    origin = get_origin(document().model_fields[section].annotation)
+    return origin if origin in (dict, list) else None
+
+
+def check_section(source: Source, section: str, value: Any) -> Any:
+    """Return the section checked and in SI; a list or mapping has None for each item that was reported as faulty."""
+    kind = collection(section)
+    if kind is None:
+        return check(source, _adapter(section, False), value, (section,))
+    if not isinstance(value, kind):
+        what, accepted = WORDING["list_type" if kind is list else "dict_type"]
+        source.report((section,), what, received=shown(value), accepted=accepted)
+        return kind()
+    adapter = _adapter(section, True)
+    if kind is list:
+        return [check(source, adapter, item, (section, index)) for index, item in enumerate(value)]
+    return {key: check(source, adapter, item, (section, key)) for key, item in value.items() if _named(source, section, key)}
+
+
+def _named(source: Source, section: str, key: str) -> bool:
+    names = TypeAdapter(get_args(document().model_fields[section].annotation)[0])
+    return check(source, names, key, (section, key)) is not None
+
+
+def check(source: Source, adapter: TypeAdapter[Any], value: Any, path: Path, *, partial: bool = False) -> Any:
+    """Return ``value`` read by a type, or None when it is faulty; ``partial`` allows required keys to be missing."""
+    try:
+        return adapter.validate_python(value)
+    except ValidationError as fault:
+        for place, error in _flat(fault, path):
+            if not (partial and error["type"] == "missing"):
+                _report(source, adapter, path, place, error)
+        return None
+
+
+def _flat(fault: ValidationError, path: Path) -> Iterator[tuple[Path, Any]]:
+    """Yield each error with its whole path, those of models chosen by a validator included."""
+    for error in fault.errors(include_url=False):
+        place = (*path, *(step for step in error["loc"] if step != "[key]"))
+        inner = error.get("ctx", {}).get("error")
+        if isinstance(inner, ValidationError):
+            yield from _flat(inner, place)
+        else:
+            yield place, error
+
+
+def _report(source: Source, adapter: TypeAdapter[Any], path: Path, place: Path, error: Any) -> None:
+    inner = error.get("ctx", {}).get("error")
+    received = shown(error["input"])
+    if isinstance(inner, ValueFault):
+        source.report(place, inner.what, received=inner.received, accepted=inner.accepted, hint=inner.hint)
+    elif error["type"] == "extra_forbidden":
+        known = keys_at(adapter, place[len(path) : -1])
+        word = str(place[-1])
+        source.report(place, "unknown key", received=repr(word), accepted=", ".join(known), hint=did_you_mean(word, known))
+    elif error["type"] == "missing":
+        source.report(place, "is missing", accepted=_meaning(adapter, place[len(path) :]))
+    elif error["type"] in WORDING:
+        what, accepted = WORDING[error["type"]]
+        source.report(place, what, received=received, accepted=accepted)
+    else:
+        source.report(place, error["msg"][0].lower() + error["msg"][1:], received=received)
+
+
+def keys_at(adapter: TypeAdapter[Any], steps: Path) -> list[str]:
+    """Return the keys a mapping may have that stands ``steps`` below a type."""
+    return [key for node in _nodes(adapter, steps) for key in node.get("properties", {})]
+
+
+def _meaning(adapter: TypeAdapter[Any], steps: Path) -> str:
+    parents = _nodes(adapter, steps[:-1])
+    found = [node["properties"][steps[-1]] for node in parents if steps[-1] in node.get("properties", {})]
+    return found[0].get("description", "") if found else ""
+
+
+@cache
+def _schema(adapter: TypeAdapter[Any]) -> dict[str, Any]:
+    return adapter.json_schema()
+
+
+def _nodes(adapter: TypeAdapter[Any], steps: Path) -> list[dict[str, Any]]:
+    """Return the nodes of the JSON Schema that describe what stands ``steps`` below a type, unions opened."""
+    whole = _schema(adapter)
+    nodes = _opened(whole, [whole])
+    for step in steps:
+        under = []
+        for node in nodes:
+            properties = node.get("properties", {})
+            under += [properties[step]] if step in properties else []
+            under += [node[key] for key in ("items", "additionalProperties") if step not in properties and isinstance(node.get(key), dict)]
+        nodes = _opened(whole, under)
+    return nodes
+
+
+def _opened(whole: dict[str, Any], nodes: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    opened: list[dict[str, Any]] = []
+    for node in nodes:
+        if "$ref" in node:
+            node = whole["$defs"][node["$ref"].rpartition("/")[2]]
+        opened += _opened(whole, node["anyOf"]) if "anyOf" in node else [node]
+    return opened

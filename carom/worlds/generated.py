@@ -1,0 +1,126 @@
+"""Models made from the registries: what components, shapes, force laws and settings declare is not written twice."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+
+import numpy as np
+from pydantic import Field, create_model
+
+from carom.ecs import Combine, Material
+from carom.ecs.column import Column
+from carom.ecs.component import Component
+from carom.systems.assembly import COMBINE_QUANTITIES
+from carom.systems.forces.law import LAWS
+from carom.systems.settings import Settings
+from carom.systems.shapes import SHAPES
+from carom.worlds.color import ColorWord
+from carom.worlds.geometry import GEOMETRY_WORDS
+from carom.worlds.rotation import RotationWord
+from carom.worlds.values import Flag, In, Whole, Words, either, word_of
+
+SPECIAL = {"rotation": RotationWord, "color": ColorWord}
+SETTING_UNITS = {"dt": "s", "gravity": "m/s2"}
+SETTING_BOUNDS: dict[str, dict[str, float]] = {"dt": {"above": 0.0}}
+SETTING_LEAST = {"substeps": 1}
+STEP_WORDS = ("dt", "substeps", "integrator")
+COLUMN_BOUNDS: dict[str, dict[str, float]] = {
+    "mass": {"above": 0.0},
+    "inertia": {"least": 0.0},
+    "density": {"above": 0.0},
+    "friction": {"least": 0.0},
+    "restitution": {"least": 0.0, "most": 1.0},
+    "rolling_friction": {"least": 0.0},
+    "spinning_friction": {"least": 0.0},
+}
+Fields = dict[str, Any]
+
+
+def numbers(width: int, mark: In) -> Any:
+    """Return the type of one number or of a list of ``width``."""
+    return Annotated[float if width == 1 else tuple.__class_getitem__((float,) * width), mark]
+
+
+def column_fields(kind: type[Component], *names: str) -> Fields:
+    """Return model fields for columns of a component: unit, meaning and default are the column's."""
+    return {name: (_column_type(name, kind.columns[name]), _column_field(kind.columns[name])) for name in names}
+
+
+def _column_type(name: str, column: Column) -> Any:
+    if name in SPECIAL:
+        return SPECIAL[name]
+    if column.dtype == np.bool_:
+        return Flag
+    return numbers(int(np.prod(column.shape)), In(column.unit, **COLUMN_BOUNDS.get(name, {})))
+
+
+def _column_field(column: Column) -> Any:
+    default = np.broadcast_to(np.asarray(column.default, column.dtype), column.shape).tolist()
+    return Field(default, description=_description(column.doc, column.unit))
+
+
+def _description(doc: str, unit: str) -> str:
+    return doc if unit == "1" else f"{doc} ({unit})"
+
+
+def parameter_model(kind: type[Any]) -> type[Words]:
+    """Return the model of a dataclass whose fields are declared by `parameter`: a shape or a force law."""
+    if kind.__dict__.get("key") in GEOMETRY_WORDS:
+        return GEOMETRY_WORDS[kind.key]
+    hints = get_type_hints(kind)
+    fields: Fields = {}
+    for field in dataclasses.fields(kind):
+        unit, doc = field.metadata.get("unit", "1"), field.metadata.get("doc", field.name)
+        kept = ... if field.default is dataclasses.MISSING else field.default
+        fields[field.name] = (_hinted(hints[field.name], unit, field.metadata.get("above")), Field(kept, description=_description(doc, unit)))
+    return create_model(kind.__name__, __base__=Words, __doc__=kind.__doc__, **fields)
+
+
+def _hinted(hint: Any, unit: str, above: float | None = None, least: int = 0) -> Any:
+    if get_origin(hint) is Literal:
+        return word_of(*get_args(hint))
+    if hint is bool:
+        return Flag
+    if hint is int:
+        return Annotated[int, Whole(least)]
+    return numbers(len(get_args(hint)) or 1, In(unit, above=above))
+
+
+def shape_fields() -> Fields:
+    """Return one optional field per shape."""
+    return {key: (parameter_model(kind), Field(None, description=_first_line(kind))) for key, kind in SHAPES.items()}
+
+
+def law_fields() -> Fields:
+    """Return one optional field per force law."""
+    return {key: (parameter_model(kind), Field(None, description=_first_line(kind))) for key, kind in LAWS.items()}
+
+
+def _first_line(kind: type[Any]) -> str:
+    return (kind.__doc__ or "").strip().split("\n")[0]
+
+
+def setting_fields(*, in_step: bool) -> Fields:
+    """Return the fields of `Settings` that stand under ``step``, or those at the top of a file."""
+    hints = get_type_hints(Settings)
+    fields: Fields = {}
+    for field in dataclasses.fields(Settings):
+        if (field.name in STEP_WORDS) is in_step:
+            unit, bounds = SETTING_UNITS.get(field.name, "1"), SETTING_BOUNDS.get(field.name, {})
+            kind = _hinted(hints[field.name], unit, bounds.get("above"), SETTING_LEAST.get(field.name, 0))
+            fields[field.name] = (kind, Field(field.default, description=f"default {field.default}"))
+    return fields
+
+
+def material_model() -> type[Words]:
+    """Return the model of a material: its columns, where those that combine may say how."""
+    rule = word_of(*(rule.name.lower() for rule in Combine if rule is not Combine.DEFAULT))
+    names = [name for name in Material.columns if not name.endswith("_combine")]
+    fields = column_fields(Material, *names)
+    for name in COMBINE_QUANTITIES:
+        plain, field = fields[name]
+        words: Fields = {"value": (plain, ...), "combine": (rule, ...)}
+        combined = create_model(f"Combined{name.capitalize()}", __base__=Words, **words)
+        fields[name] = (either(plain, combined), field)
+    return create_model("Material", __base__=Words, __doc__="Surface and substance.", **fields)

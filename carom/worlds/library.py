@@ -1,0 +1,42 @@
+"""The worlds that come with carom."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+
+from carom.worlds.errors import Fault, WorldError, did_you_mean
+
+SUFFIXES = (".yaml", ".yml", ".json")
+
+
+def names() -> list[str]:
+    """Return the names of the library's worlds, sorted."""
+    folder = files("carom.worlds").joinpath("library")
+    return sorted(item.name.removesuffix(".yaml") for item in folder.iterdir() if item.name.endswith(".yaml"))
+
+
+def find(world: str | Path) -> Path:
+    """Return the file of a world given by path or by library name; raise WorldError when there is none."""
+    path, text = Path(world), str(world)
+    if text in names() and not path.is_file():
+        return Path(str(files("carom.worlds").joinpath("library", f"{text}.yaml")))
+    if path.is_file():
+        return path
+    if path.is_dir():
+        raise WorldError([Fault(text, 0, 0, "", "is a folder", accepted="a world file, or the name of a library world")])
+    if path.suffix in SUFFIXES or len(path.parts) > 1:
+        raise WorldError([Fault(text, 0, 0, "", "does not exist", accepted="a world file, or the name of a library world")])
+    raise WorldError(
+        [Fault(text, 0, 0, "", "no world of this name", accepted=", ".join(names()), hint=did_you_mean(text, names()))]
+    )
+
+
+def read_text(path: Path, shown: str) -> str:
+    """Return the text of a world file; raise WorldError when it cannot be read or is not UTF-8."""
+    try:
+        return path.read_bytes().decode("utf-8-sig")
+    except OSError as fault:
+        raise WorldError([Fault(shown, 0, 0, "", f"cannot be read: {(fault.strerror or str(fault)).lower()}")]) from None
+    except UnicodeDecodeError as fault:
+        raise WorldError([Fault(shown, 0, 0, "", f"is not text in UTF-8: byte {fault.start} is {fault.object[fault.start]:#04x}")]) from None

@@ -1,0 +1,41 @@
+"""Prefabs: words an entity extends, its own words winning."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from carom.systems.shapes import SHAPES
+from carom.worlds.errors import Path, did_you_mean
+from carom.worlds.reader import Source
+
+
+def extended(source: Source, path: Path, words: Any, prefabs: dict[str, Any]) -> Any:
+    """Return an entity's words laid over those of its prefab and of the prefab's own; report an unknown one."""
+    chain = [path]
+    while isinstance(words, dict) and isinstance(words.get("prefab"), str):
+        name, here = words["prefab"], chain[-1]
+        base: Path = ("prefabs", name)
+        if name not in prefabs:
+            accepted = ", ".join(prefabs) or "none is defined"
+            source.report((*here, "prefab"), "unknown prefab", received=repr(name), accepted=accepted, hint=did_you_mean(name, prefabs))
+        elif base in chain:
+            source.report((*here, "prefab"), "extends itself", received=repr(name))
+        source.inherits[here] = base
+        own = {key: value for key, value in words.items() if key != "prefab"}
+        if name not in prefabs or base in chain:
+            del source.inherits[here]
+            return own
+        words = merged(prefabs[name], own)
+        chain.append(base)
+    return words
+
+
+def merged(under: Any, over: Any) -> Any:
+    """Return mappings merged to the depth; a rotation is taken whole, and a shape takes the place of another shape."""
+    if not (isinstance(under, dict) and isinstance(over, dict)):
+        return over
+    instead = any(key in SHAPES for key in over)
+    result = {key: value for key, value in under.items() if not (instead and key in SHAPES and key not in over)}
+    for key, value in over.items():
+        result[key] = merged(result[key], value) if key in result and key != "rotation" else value
+    return result

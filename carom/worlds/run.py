@@ -1,0 +1,57 @@
+"""How long a run takes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from carom.ecs import BodyType, Collider, Motion, RigidBody
+from carom.systems.simulation import Simulation
+
+if TYPE_CHECKING:
+    from carom.worlds.schema import Run
+
+DEFAULT_DURATION = 5.0
+
+
+@dataclass(frozen=True)
+class RunPlan:
+    """A run ends after ``frames`` steps, or before, once nothing is faster than ``rest_speed`` (m/s, None: not asked)."""
+
+    frames: int
+    rest_speed: float | None = None
+
+    def finished(self, simulation: Simulation) -> bool:
+        """Tell whether the run is over."""
+        resting = self.rest_speed is not None and simulation.frame > 0 and at_rest(simulation, self.rest_speed)
+        return simulation.frame >= self.frames or resting
+
+
+def plan(run: Run | None, dt: float) -> RunPlan:
+    """Return the plan of the file's words for steps of ``dt``."""
+    if run is None:
+        return RunPlan(frames_of(DEFAULT_DURATION, dt))
+    if run.frames is not None:
+        return RunPlan(run.frames)
+    if run.duration is not None:
+        return RunPlan(frames_of(run.duration, dt))
+    return RunPlan(frames_of(run.at_most, dt), run.rest_speed)
+
+
+def frames_of(seconds: float, dt: float) -> int:
+    """Return how many steps reach ``seconds``, whole ones being whole in spite of rounding."""
+    return math.ceil(seconds / dt * (1.0 - 1e-12) - 1e-9)
+
+
+def at_rest(simulation: Simulation, speed: float) -> bool:
+    """Tell whether no dynamic body moves faster than ``speed``, nor any point of its bounds by its rotation."""
+    world = simulation.world
+    rows = world.row_numbers(RigidBody, Motion)
+    rows = rows[world[RigidBody].type[rows] == BodyType.DYNAMIC]
+    motion, collider = world[Motion], world[Collider]
+    reach = np.linalg.norm(collider.bound_half[rows], axis=1) + collider.bound_radius[rows]
+    turning = np.linalg.norm(motion.angular[rows], axis=1) * reach
+    return bool(((np.linalg.norm(motion.linear[rows], axis=1) < speed) & (turning < speed)).all())
