@@ -1,0 +1,61 @@
+"""What exists: the table. Columns, components, entities, world, queries, schedule, snapshots."""
+
+from carom.ecs.column import column
+from carom.ecs.component import Component, Relation, Resource
+from carom.ecs.components.collider import Collider, ColliderPose
+from carom.ecs.components.external_force import ExternalForce
+from carom.ecs.components.force import Force
+from carom.ecs.components.material import Combine, Material
+from carom.ecs.components.motion import Motion
+from carom.ecs.components.name import Name
+from carom.ecs.components.rigid_body import BodyType, RigidBody
+from carom.ecs.components.transform import Transform
+from carom.ecs.components.visual import Visual
+from carom.ecs.entity import Entity
+from carom.ecs.errors import (
+    AccessError,
+    CaromError,
+    DeclarationError,
+    EntityError,
+    NonFiniteError,
+    SnapshotError,
+)
+from carom.ecs.schedule import Phase, Schedule
+from carom.ecs.snapshot import Snapshot, restore_snapshot, state_hash, take_snapshot
+from carom.ecs.system import System, system
+from carom.ecs.world import World
+
+__all__ = [
+    "AccessError",
+    "BodyType",
+    "CaromError",
+    "Collider",
+    "ColliderPose",
+    "Combine",
+    "Component",
+    "DeclarationError",
+    "Entity",
+    "EntityError",
+    "ExternalForce",
+    "Force",
+    "Material",
+    "Motion",
+    "Name",
+    "NonFiniteError",
+    "Phase",
+    "Relation",
+    "Resource",
+    "RigidBody",
+    "Schedule",
+    "Snapshot",
+    "SnapshotError",
+    "System",
+    "Transform",
+    "Visual",
+    "World",
+    "column",
+    "restore_snapshot",
+    "state_hash",
+    "system",
+    "take_snapshot",
+]

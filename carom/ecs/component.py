@@ -1,0 +1,80 @@
+"""Components and relations: classes whose annotated columns declare a table, and whose instances hold the arrays."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, ClassVar, Self
+
+import numpy as np
+
+from carom.ecs.column import Column
+from carom.ecs.errors import DeclarationError
+
+
+class Record:
+    """A set of columns under one name; see `Component` and `Relation`."""
+
+    columns: ClassVar[dict[str, Column]] = {}
+    key: ClassVar[str] = ""
+    registry: ClassVar[dict[str, type[Record]]] = {}
+    kept: ClassVar[bool] = False  # a derived kind that is a result: observers read it although no system does
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls.columns = {name: value for name, value in vars(cls).items() if isinstance(value, Column)}
+        for name in cls.columns:
+            delattr(cls, name)
+        cls.key = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", cls.__name__).lower()
+        if cls.__module__ == __name__:
+            return
+        known = Record.registry.get(cls.key)
+        if known is not None and known.__module__ != cls.__module__:
+            raise DeclarationError(
+                f"two components are named {cls.__name__}: {known.__module__} and {cls.__module__}; rename one of them"
+            )
+        Record.registry[cls.key] = cls
+
+    def __init__(self, **values: Any) -> None:
+        """Hold ``values`` (column name to value, or to one value per row) as a bundle for `World.spawn`."""
+        for name, value in values.items():
+            if name not in self.columns:
+                raise DeclarationError(
+                    f"{type(self).__name__} has no column '{name}'; its columns are {', '.join(self.columns)}"
+                )
+            try:
+                array = np.asarray(value, self.columns[name].dtype)
+            except (TypeError, ValueError) as fault:
+                raise DeclarationError(f"{type(self).__name__}.{name}: {fault}") from None
+            setattr(self, name, array)
+
+    @classmethod
+    def derived(cls) -> bool:
+        """Tell whether every column is rewritten by the step, so that no file or snapshot supplies it."""
+        return all(column.role in ("derived", "cache") for column in cls.columns.values())
+
+    @classmethod
+    def blank(cls) -> Self:
+        """Return an instance without arrays, to be filled by its table."""
+        return cls.__new__(cls)
+
+
+class Component(Record):
+    """Columns over entities: row *i* of every component of a world is the same entity."""
+
+
+class Relation(Record):
+    """Columns over rows of their own (contacts, events, springs): a table beside the entities with a row count."""
+
+    count: int = 0
+
+
+class Resource:
+    """A per-world singleton, reached as ``world[Kind]`` like a table."""
+
+    def state(self) -> bytes | None:
+        """Return what a snapshot must keep of this resource, or None for settings and caches."""
+        return None
+
+    def restore(self, state: bytes) -> None:
+        """Take back what `state` returned."""
+        raise NotImplementedError(f"{type(self).__name__} saves state but does not restore it")

@@ -1,0 +1,1 @@
+"""Components of carom's own, one file each."""

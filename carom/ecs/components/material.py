@@ -1,0 +1,34 @@
+"""Material: one record for how a surface acts and looks."""
+
+from enum import IntEnum
+
+from carom.ecs.column import Floats, Integers, column
+from carom.ecs.component import Component
+
+
+class Combine(IntEnum):
+    """How the values of two materials become one; of two chosen rules the later in this list wins.
+
+    ``DEFAULT`` stands for the quantity's own rule (friction: square root of the product, restitution: max) and yields
+    to any chosen one.
+    """
+
+    DEFAULT = 0
+    AVERAGE = 1
+    SQRT = 2
+    MIN = 3
+    MULTIPLY = 4
+    MAX = 5
+
+
+class Material(Component):
+    """Surface and substance of an entity."""
+
+    friction: Floats = column(unit="1", doc="Coulomb friction", default=0.5)
+    restitution: Floats = column(unit="1", doc="parting over closing speed of an impact")
+    density: Floats = column(unit="kg/m3", doc="density, used where a body states no mass", default=1000.0)
+    rolling_friction: Floats = column(unit="1", doc="torque against rolling over normal force times radius")
+    spinning_friction: Floats = column(unit="1", doc="torque against spinning over normal force times radius")
+    friction_combine: Integers = column(unit="1", doc="rule for friction of a pair", dtype="int64")
+    restitution_combine: Integers = column(unit="1", doc="rule for restitution of a pair", dtype="int64")
+    color: Floats = column(4, unit="1", doc="colour, red green blue alpha in 0..1", default=(0.8, 0.8, 0.8, 1.0))

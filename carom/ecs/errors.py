@@ -1,0 +1,32 @@
+"""Errors of the table: each says what, where, what was received, what is accepted and how to mend it."""
+
+from __future__ import annotations
+
+
+class CaromError(Exception):
+    """Base of every error carom raises on purpose; the command line prints it without a traceback and exits 2."""
+
+
+class DeclarationError(CaromError):
+    """A component, system or schedule is declared wrongly."""
+
+
+class AccessError(CaromError):
+    """A system touched what it does not declare, or something outside the step wrote to a column."""
+
+
+class EntityError(CaromError):
+    """An entity handle or name does not lead to a living entity with the wanted component."""
+
+
+class SnapshotError(CaromError):
+    """A snapshot does not fit the world it is restored into."""
+
+
+class NonFiniteError(CaromError):
+    """A NaN or an infinity appeared in a state column."""
+
+    def __init__(self, frame: int, column: str, entity: str, value: str, system: str | None = None) -> None:
+        by = f"written by system '{system}'" if system else "found at the end of the step"
+        super().__init__(f"frame {frame}: {column} of entity '{entity}' is {value}, {by}")
+        self.frame, self.column, self.entity, self.value, self.system = frame, column, entity, value, system

@@ -1,0 +1,1 @@
+"""Relations of carom's own, one file each: tables with rows of their own."""

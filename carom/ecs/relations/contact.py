@@ -1,0 +1,46 @@
+"""Contact: where two colliders touch or are about to."""
+
+from carom.ecs.column import Booleans, Floats, Integers, column
+from carom.ecs.component import Relation
+
+
+class Contact(Relation):
+    """One row per contact point, sorted by (a, b, feature), a the lower entity row.
+
+    The normal points from a to b and is unit; depth > 0 is overlap and depth < 0 a gap within the step's reach; the
+    point lies midway. Impulses are summed over the step. Rows live from step to step by feature, which keeps the warm
+    starts.
+    """
+
+    kept = True
+    a: Integers = column(unit="1", doc="first collider", entity=True)
+    b: Integers = column(unit="1", doc="second collider", entity=True)
+    feature: Integers = column(unit="1", doc="which point of the pair", dtype="int64")
+    normal: Floats = column(3, unit="1", doc="unit normal from a to b, world frame")
+    depth: Floats = column(unit="m", doc="overlap, negative for a gap")
+    point: Floats = column(3, unit="m", doc="point midway between the surfaces, world frame")
+    impulse: Floats = column(unit="N s", doc="normal impulse on b, summed over the step")
+    friction_impulse: Floats = column(3, unit="N s", doc="friction impulse on b, world frame, summed over the step")
+    warm_normal: Floats = column(unit="N s", doc="normal impulse of the last substep")
+    warm_friction: Floats = column(3, unit="N s", doc="friction impulse of the last substep")
+    warm_rolling: Floats = column(3, unit="N m s", doc="angular impulse of rolling and spinning friction of the last substep")
+    friction: Floats = column(unit="1", doc="combined friction", role="derived")
+    restitution: Floats = column(unit="1", doc="combined restitution", role="derived")
+    rolling: Floats = column(unit="m", doc="rolling friction times radius", role="derived")
+    spinning: Floats = column(unit="m", doc="spinning friction times radius", role="derived")
+    by_fcl: Booleans = column(unit="1", doc="answered by FCL, not by a kernel", dtype="bool", role="derived")
+    resting: Booleans = column(unit="1", doc="in the resting stage of the last substep", dtype="bool", role="derived")
+    row_a: Integers = column(unit="1", doc="row of a", dtype="int64", role="derived")
+    row_b: Integers = column(unit="1", doc="row of b", dtype="int64", role="derived")
+    body_a: Integers = column(unit="1", doc="row of the body of a, -1 static", dtype="int64", role="derived")
+    body_b: Integers = column(unit="1", doc="row of the body of b, -1 static", dtype="int64", role="derived")
+    offset_a: Floats = column(3, unit="m", doc="point on a from the centre of mass of its body", role="derived")
+    offset_b: Floats = column(3, unit="m", doc="point on b from the centre of mass of its body", role="derived")
+    kind: Integers = column(unit="1", doc="exact impacts: how to read extent; -1 for others", dtype="int64", role="derived")
+    ball: Integers = column(unit="1", doc="exact impacts: row of the ball's body", dtype="int64", role="derived")
+    other: Integers = column(unit="1", doc="exact impacts: row of the other body, -1 static", dtype="int64", role="derived")
+    sign: Floats = column(unit="1", doc="exact impacts: 1 where the ball is a, -1 where it is b", role="derived")
+    radius: Floats = column(unit="m", doc="exact impacts: radius of the ball", role="derived")
+    extent: Floats = column(3, unit="m", doc="exact impacts: radius, half edges or normal of the other", role="derived")
+    other_position: Floats = column(3, unit="m", doc="exact impacts: where a static other is", role="derived")
+    other_rotation: Floats = column(4, unit="1", doc="exact impacts: how a static other is turned", role="derived")

@@ -1,0 +1,21 @@
+"""Enter: something came into a sensor."""
+
+from carom.ecs.column import Floats, Integers, column
+from carom.ecs.component import Relation
+
+
+class Enter(Relation):
+    """Who entered which sensor in the last step, in order of sensor and entity row."""
+
+    kept = True
+    time: Floats = column(unit="s", doc="simulated time at the start of the step that saw it", role="derived")
+    sensor: Integers = column(unit="1", doc="the sensor", dtype="int64", role="derived")
+    entity: Integers = column(unit="1", doc="who entered", dtype="int64", role="derived")
+
+
+class Inside(Relation):
+    """Who is inside which sensor, so that entering is told once."""
+
+    kept = True
+    sensor: Integers = column(unit="1", doc="the sensor", entity=True)
+    entity: Integers = column(unit="1", doc="who is inside", entity=True)

@@ -1,0 +1,1 @@
+"""Mathematics of space over arrays: vectors, quaternions, trigonometry that is equal on every machine."""

@@ -1,0 +1,55 @@
+"""Sine, cosine and exponential from + - * / alone, so that their last bit is the same on every machine.
+
+libm and NumPy choose other code by CPU. These are plain functions; kernels compile them as they stand.
+"""
+
+import math
+
+QUARTER_TURN = 1.5707963267341256  # pi/2 to 33 bits, so that small multiples of it are exact
+QUARTER_TURN_REST = 6.077100506506192e-11
+LN2 = 0.6931471803691238  # likewise ln 2
+LN2_REST = 1.9082149292705877e-10
+LARGEST_EXPONENT = 700.0  # e^700 is near the largest float64
+
+
+def sine_cosine(angle: float) -> tuple[float, float]:
+    """Return sin and cos of ``angle`` (rad) within 2 units in the last place for |angle| < 1e6.
+
+    Cody and Waite's reduction to [-pi/4, pi/4], then Taylor's series to the term below 1e-19 (Cody and Waite, Software
+    Manual for the Elementary Functions, 1980, chapter 8).
+    """
+    turns = math.floor(angle / QUARTER_TURN + 0.5)
+    x = (angle - turns * QUARTER_TURN) - turns * QUARTER_TURN_REST
+    z = x * x
+    s = 1.0 - z / 272.0 * (1.0 - z / 342.0)
+    s = 1.0 - z / 156.0 * (1.0 - z / 210.0 * s)
+    s = 1.0 - z / 72.0 * (1.0 - z / 110.0 * s)
+    s = x * (1.0 - z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * s)))
+    c = 1.0 - z / 240.0 * (1.0 - z / 306.0)
+    c = 1.0 - z / 132.0 * (1.0 - z / 182.0 * c)
+    c = 1.0 - z / 56.0 * (1.0 - z / 90.0 * c)
+    c = 1.0 - z / 2.0 * (1.0 - z / 12.0 * (1.0 - z / 30.0 * c))
+    quadrant = turns - 4.0 * math.floor(turns / 4.0)
+    if quadrant == 0.0:
+        return s, c
+    if quadrant == 1.0:
+        return c, -s
+    if quadrant == 2.0:
+        return -s, -c
+    return -c, s
+
+
+def exponential(x: float) -> float:
+    """Return e^x within 2 units in the last place; 0 below -700, and x is held to 700 above."""
+    if x < -LARGEST_EXPONENT:
+        return 0.0
+    x = min(x, LARGEST_EXPONENT)
+    halvings = math.floor(x / LN2 + 0.5)
+    r = (x - halvings * LN2) - halvings * LN2_REST
+    total = 1.0
+    for k in range(17, 0, -1):
+        total = 1.0 + r / k * total
+    base, power = (2.0, halvings) if halvings >= 0 else (0.5, -halvings)
+    for _ in range(int(power)):
+        total *= base
+    return total

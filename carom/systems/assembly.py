@@ -1,0 +1,179 @@
+"""Assembly: one entity from the words of a world file, in SI numbers; files and Python both come through here."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from carom.ecs import Collider, Combine, Entity, ExternalForce, Force, Material, Motion, RigidBody, Transform, Visual, World
+from carom.ecs.column import Floats
+from carom.ecs.component import Component, Resource
+from carom.ecs.components.collider import ColliderPose
+from carom.ecs.components.flight import Flight
+from carom.ecs.components.rigid_body import BodyType
+from carom.ecs.errors import DeclarationError
+from carom.ecs.spatial import quaternion
+from carom.systems.layers import EVERYTHING, Layers
+from carom.systems.shapes import SHAPES, Shape
+from carom.systems.shapes.geometry import Geometries
+from carom.systems.shapes.shape import Bounds, MassProperties
+
+Words = Mapping[str, Any]
+COMBINE_QUANTITIES = ("friction", "restitution")
+
+
+class Materials(Resource):
+    """Materials by name, each as the words of a material."""
+
+    def __init__(self) -> None:
+        self.named: dict[str, Words] = {}
+
+
+def add_entity(
+    world: World,
+    *,
+    name: str | None = None,
+    transform: Words | None = None,
+    motion: Words | None = None,
+    body: Words | None = None,
+    collider: Words | None = None,
+    material: str | Words | None = None,
+    visual: Words | bool | None = None,
+) -> Entity:
+    """Add one entity described in the words of a world file, all numbers SI.
+
+    ``body`` makes it move (an empty mapping takes its mass from the shape's volume and the material's density); without
+    one it is static. ``visual`` False hides it. Raises DeclarationError for anything a file would be refused for.
+    """
+    surface = material_of(world, material)
+    bundles: list[Component] = [_transform(transform or {}), surface]
+    shape = shape_of(collider) if collider is not None else None
+    if collider is not None and shape is not None:
+        if shape.static and body is not None:
+            raise DeclarationError(f"collider.{shape.key}: only a static entity may have it; remove body")
+        bundles += [_collider(world, collider, shape), ColliderPose()]
+    if body is not None:
+        bundles += [_body(body, shape, collider or {}, surface), Motion(**(motion or {})), ExternalForce(), Force(), Flight()]
+    elif motion is not None:
+        raise DeclarationError("motion: a static entity does not move; give it a body")
+    seen = _visual(world, visual, collider, shape, surface)
+    if seen is not None:
+        bundles.append(seen)
+    return world.spawn(*bundles, name=name)
+
+
+def shape_of(words: Words) -> Shape:
+    """Return the shape stated in the words of a collider or visual, or given as ``shape``."""
+    if isinstance(words.get("shape"), Shape):
+        return words["shape"]  # type: ignore[no-any-return]
+    keys = [key for key in words if key in SHAPES]
+    if len(keys) != 1:
+        found = f"received {', '.join(keys)}" if keys else "received none"
+        raise DeclarationError(f"state exactly one shape of {', '.join(sorted(SHAPES))}; {found}")
+    value = words[keys[0]]
+    try:
+        return value if isinstance(value, Shape) else SHAPES[keys[0]](**value)
+    except TypeError as fault:
+        raise DeclarationError(f"{keys[0]}: {str(fault).partition('__init__() ')[2] or fault}") from None
+
+
+def material_of(world: World, material: str | Words | None) -> Material:
+    """Return the Material bundle of a name or of words; quantities may be ``{value, combine}``."""
+    if isinstance(material, str):
+        named = world[Materials].named
+        if material not in named:
+            raise DeclarationError(f"unknown material {material!r}; the materials are {', '.join(named) or 'none'}")
+        material = named[material]
+    values: dict[str, Any] = {}
+    for key, value in (material or {}).items():
+        if key in COMBINE_QUANTITIES and isinstance(value, Mapping):
+            values[key] = value["value"]
+            values[f"{key}_combine"] = Combine[value["combine"].upper()].value
+        else:
+            values[key] = opaque(value) if key == "color" else value
+    return Material(**values)
+
+
+def opaque(color: Any) -> tuple[float, ...]:
+    """Return a colour with its alpha, 1 where none is stated."""
+    return (*color, 1.0) if len(color) == 3 else tuple(color)
+
+
+def _transform(words: Words) -> Transform:
+    return Transform(**words)
+
+
+def _collider(world: World, words: Words, shape: Shape) -> Collider:
+    layers = world[Layers]
+    layer = words.get("layer", "default")
+    mask = layers.mask(words["collides_with"]) if "collides_with" in words else layers.masks.get(layer, EVERYTHING)
+    values: dict[str, Any] = _shape_columns(world, shape)
+    center, half, radius = _offset_bounds(shape.bounds(), words)
+    values |= {key: words[key] for key in ("position", "rotation", "sensor") if key in words}
+    values |= {"layer": layers.bit(layer), "mask": mask}
+    values |= {"bound_center": center, "bound_half": half, "bound_radius": radius}
+    enters = (words.get("on_enter") or {}).get("layer")
+    if enters is not None:
+        values |= {"enter_layer": layers.bit(enters), "enter_mask": layers.masks[enters]}
+    return Collider(**values)
+
+
+def _offset_bounds(bounds: Bounds, words: Words) -> tuple[Floats, Floats, float]:
+    rotation = words.get("rotation", quaternion.IDENTITY)
+    center = np.asarray(words.get("position", (0.0, 0.0, 0.0))) + quaternion.rotate(rotation, bounds.center)
+    if "rotation" not in words:
+        return center, np.asarray(bounds.half), bounds.radius
+    return center, (np.abs(quaternion.matrix(rotation)) * np.asarray(bounds.half)).sum(axis=1), bounds.radius
+
+
+def _shape_columns(world: World, shape: Shape) -> dict[str, Any]:
+    geometry = getattr(shape, "geometry", None)
+    number = -1 if geometry is None else world[Geometries].number(geometry)
+    return {"shape": shape.number, "size": shape.packed(), "geometry": number}
+
+
+def _body(words: Words, shape: Shape | None, collider: Words, material: Material) -> RigidBody:
+    kind = BodyType[words.get("type", "dynamic").upper()]
+    solid = shape.mass_properties() if shape is not None else MassProperties(0.0, (0.0,) * 3, (0.0,) * 3, (0.0, 0.0, 0.0, 1.0))
+    density = float(getattr(material, "density", 1000.0))
+    mass = float(words.get("mass", density * solid.volume))
+    if kind is BodyType.DYNAMIC and not (math.isfinite(mass) and mass > 0.0):
+        raise DeclarationError(f"body.mass: must be finite and above 0 kg, received {mass:g}; state mass, or a shape with volume")
+    rotation = collider.get("rotation", quaternion.IDENTITY)
+    center = np.asarray(collider.get("position", (0.0, 0.0, 0.0))) + quaternion.rotate(rotation, solid.center)
+    inertia = np.asarray(words.get("inertia", [mass * moment for moment in solid.inertia]), np.float64)
+    axes = solid.axes if "inertia" in words else quaternion.multiply(rotation, solid.axes)
+    moves = kind is BodyType.DYNAMIC
+    with np.errstate(divide="ignore"):
+        inverse = np.where(inertia > 0.0, 1.0 / inertia, 0.0) if moves else np.zeros(3)
+    return RigidBody(
+        type=kind.value,
+        mass=mass,
+        inverse_mass=1.0 / mass if moves else 0.0,
+        inertia=inertia,
+        inverse_inertia=inverse,
+        center_of_mass=words.get("center_of_mass", center),
+        principal_axes=(0.0, 0.0, 0.0, 1.0) if "inertia" in words else axes,
+    )
+
+
+def _visual(
+    world: World, words: Words | bool | None, collider: Words | None, shape: Shape | None, material: Material
+) -> Visual | None:
+    if words is False or (words is None and (collider is None or collider.get("sensor", False))):
+        return None
+    look: Words = words if isinstance(words, Mapping) else {}
+    own = any(key in SHAPES for key in look) or "shape" in look
+    drawn = shape_of(look) if own else shape
+    if drawn is None:
+        raise DeclarationError(f"visual: an entity without a collider states one shape of {', '.join(sorted(SHAPES))}")
+    place = look if own else collider or {}
+    values = _shape_columns(world, drawn)
+    values |= {key: place[key] for key in ("position", "rotation") if key in place}
+    color = look.get("color", getattr(material, "color", None))
+    if color is not None:
+        values["color"] = opaque(color)
+    return Visual(**values, visible=look.get("visible", True))

@@ -1,0 +1,46 @@
+"""Every tolerance of the step: its unit, why this size, and what breaks if it changes."""
+
+# m. Bounds reach this much further than the motion foreseen, so that small pushes do not ask for a new detection.
+# Larger: more pairs to look at. Smaller: more detections in the middle of a step.
+REACH_SLACK = 5e-3
+
+# Factor on the motion foreseen within a step. Below 1 a falling body leaves its bounds in every step.
+REACH_FACTOR = 1.25
+
+# m. A pair nearer than this, not parting and not closing fast, rests: contact and friction act on it as a constraint.
+# Larger: bodies are held before they touch. Smaller than what the solver leaves open: resting pairs fall apart.
+TOUCH = 1e-4
+
+# Resting ends and bouncing begins at this many times (pressing acceleration x substep): a bounce that would land again
+# within about two substeps is a contact. Below 1, gravity alone would make a resting body bounce.
+REST_SPEED_FACTOR = 2.0
+
+# m/s. Closing slower than this is not closing. It ends the infinite row of ever smaller impacts between bodies that
+# nothing presses together; at this speed a pair moves 0.3 mm in a year.
+APPROACH = 1e-11
+
+# m. An impact's gap is solved to this; a thousandth of an atom, far above the rounding of positions below 1 km.
+ROOT_GAP = 1e-12
+
+# Newton steps to the time of an impact; the bound is quadratic, 5 are usual, grazing ones take some 20.
+ROOT_STEPS = 64
+
+# Impacts a substep may hold per near pair, and at least; beyond it bodies pass unseen to the end of the substep, which
+# is counted and reported. A ball wedged between others may need hundreds.
+IMPACTS_PER_PAIR = 64
+IMPACTS_AT_LEAST = 1024
+
+# Sweeps of the resting stage. It ends earlier once no impulse changes a velocity by more than SOLVED.
+SWEEPS = 60
+
+# m/s. What the resting stage calls solved; far below APPROACH's effect within any step.
+SOLVED = 1e-13
+
+# m. Overlap left in place, so that resting contacts keep touching.
+SLOP = 1e-4
+
+# Part of the overlap beyond SLOP that one substep takes away, without adding velocity. Larger overshoots in piles.
+PUSH_OUT = 0.2
+
+# rad. Closest to zero a squared angle may come before the quaternion exponential uses its limit.
+SMALL_ANGLE = 1e-12

@@ -1,0 +1,215 @@
+"""FCL's answers, through guarded calls only: no crash, flipped normal or wrong depth of FCL reaches the contact table."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from carom.ecs import Collider, ColliderPose, World
+from carom.ecs.column import Floats, Integers
+from carom.ecs.component import Resource
+from carom.ecs.spatial import quaternion
+from carom.systems.detection.manifolds import merge_triangles, reduce_points, under_plane
+from carom.systems.shapes import BY_NUMBER, Shape
+from carom.systems.shapes.box import Box
+from carom.systems.shapes.cylinder import Cylinder
+from carom.systems.shapes.geometry import Geometries
+from carom.systems.shapes.mesh import Mesh
+from carom.systems.shapes.orientation import Z_TO_Y, wxyz_from_xyzw
+from carom.systems.shapes.plane import Plane
+from carom.systems.shapes.point import Point
+from carom.systems.shapes.sphere import Sphere
+
+if TYPE_CHECKING:
+    from carom.systems.detection.contacts import Found
+
+Points = list[tuple[Floats, Floats, float]]  # (point, unit normal from the first to the second, depth)
+
+MOST_CONTACTS = 32  # points FCL may return for a pair; a mesh gives one per triangle
+SHALLOW = 0.1  # part of the smaller size up to which FCL's signed distance is safe to call (it may hang beyond)
+LEAST_PART = 1e-9  # m, distance of FCL's two nearest points below which they give no direction
+BALLS = (Sphere, Point)
+# Pairs whose collide() is exact, so that no second opinion is needed.
+EXACT = {
+    frozenset(pair)
+    for pair in ((Box,), (Sphere,), (Point,), (Box, Sphere), (Box, Point), (Sphere, Point), (Sphere, Cylinder))
+}
+
+
+class FclObjects(Resource):
+    """FCL geometries by collider row; a cache, rebuilt whenever a row's shape differs."""
+
+    def __init__(self) -> None:
+        self.shapes: dict[int, tuple[Any, Shape]] = {}
+        self.geometries: dict[tuple[Any, float], Any] = {}
+
+    def shape(self, world: World, row: int) -> Shape:
+        """Return the shape of a collider."""
+        collider = world[Collider]
+        key = (int(collider.shape[row]), collider.size[row].tobytes(), int(collider.geometry[row]))
+        known = self.shapes.get(row)
+        if known is None or known[0] != key:
+            items = world[Geometries].items
+            geometry = items[key[2]] if key[2] >= 0 else None
+            known = (key, BY_NUMBER[key[0]].from_size(collider.size[row], geometry))
+            self.shapes[row] = known
+        return known[1]
+
+    def geometry(self, shape: Shape, margin: float = 0.0) -> Any:
+        """Return FCL's geometry of a shape grown by ``margin``; grown ones are made anew, since margins vary."""
+        if margin > 0.0:
+            return shape.fcl_geometry(margin)
+        key = (id(shape), 0.0)
+        if key not in self.geometries:
+            self.geometries[key] = (shape, shape.fcl_geometry())
+        return self.geometries[key][1]
+
+
+class Side:
+    """One collider of a pair: its shape and pose, and FCL's object of it."""
+
+    def __init__(self, objects: FclObjects, world: World, row: int) -> None:
+        pose = world[ColliderPose]
+        self.objects, self.row = objects, row
+        self.shape = objects.shape(world, row)
+        self.position: Floats = pose.position[row]
+        self.rotation: Floats = pose.rotation[row]
+
+    def fcl(self, margin: float = 0.0) -> Any:
+        """Return the FCL collision object, grown by ``margin`` where that is exact."""
+        import fcl
+
+        turned = quaternion.multiply(self.rotation, Z_TO_Y) if self.shape.along_z else self.rotation
+        placed = fcl.Transform(wxyz_from_xyzw(turned), self.position)
+        return fcl.CollisionObject(self.objects.geometry(self.shape, margin), placed)
+
+    def width(self) -> float:
+        """Return the smallest edge of the shape's bounds (m)."""
+        bounds = self.shape.bounds()
+        return 2.0 * (min(bounds.half) + bounds.radius)
+
+
+def measure_by_fcl(world: World, pairs: Integers, reaches: Floats) -> Found:
+    """Return the contact points of ``pairs`` (n, 2) that are nearer than their ``reaches`` (m), as FCL sees them."""
+    from carom.systems.detection.contacts import Found
+
+    objects = world[FclObjects]
+    rows: list[tuple[int, int, int]] = []
+    normals, depths, places = [], [], []
+    for (a, b), reach in zip(pairs.tolist(), reaches.tolist(), strict=True):
+        points = measure(Side(objects, world, a), Side(objects, world, b), reach)
+        for feature, (point, normal, depth) in enumerate(points):
+            rows.append((a, b, feature))
+            normals.append(normal)
+            depths.append(depth)
+            places.append(point)
+    keys = np.array(rows, np.int64).reshape(-1, 3)
+    return Found(
+        np.ascontiguousarray(keys[:, 0]), np.ascontiguousarray(keys[:, 1]), np.ascontiguousarray(keys[:, 2]),
+        np.array(normals).reshape(-1, 3), np.array(depths, np.float64), np.array(places).reshape(-1, 3),
+        np.ones(len(rows), np.bool_),
+    )  # fmt: skip
+
+
+def measure(a: Side, b: Side, reach: float) -> Points:
+    """Return up to four points (point, normal from a to b, depth) of a pair nearer than ``reach``."""
+    if isinstance(b.shape, Plane) or (isinstance(b.shape, Mesh) and not isinstance(a.shape, Plane)):
+        return [(point, -normal, depth) for point, normal, depth in measure(b, a, reach)]
+    if isinstance(a.shape, Mesh):
+        return [p for p in _on_mesh(a, b, reach) if _valid(p, b)]
+    if isinstance(a.shape, Plane):
+        return [p for p in _on_plane(a, b, reach) if _valid(p, b)]
+    if isinstance(a.shape, BALLS) or isinstance(b.shape, BALLS):
+        ball = a if isinstance(a.shape, BALLS) else b
+        exact = frozenset((type(a.shape), type(b.shape))) in EXACT
+        if exact:  # growing a ball is exact, so that FCL also measures the gap
+            points = collide(a.fcl(reach if ball is a else 0.0), b.fcl(reach if ball is b else 0.0))
+            return [_shrunk(p, reach, ball is a) for p in points if _valid(p, b)]
+    points = collide(a.fcl(), b.fcl())
+    if not points:
+        return _apart(a, b, reach)
+    smaller = min(a.width(), b.width())
+    if frozenset((type(a.shape), type(b.shape))) not in EXACT and len(points) == 1 and points[0][2] < SHALLOW * smaller:
+        points = _refined(a, b, points, smaller)
+    return reduce_points([p for p in points if _valid(p, b)])
+
+
+def collide(one: Any, two: Any) -> Points:
+    """Return FCL's contacts; normals point from one to two, depth is positive."""
+    import fcl
+
+    request = fcl.CollisionRequest(num_max_contacts=MOST_CONTACTS, enable_contact=True)
+    result = fcl.CollisionResult()
+    fcl.collide(one, two, request, result)
+    return [(np.array(c.pos), np.array(c.normal), abs(c.penetration_depth)) for c in result.contacts]
+
+
+def signed_distance(one: Any, two: Any) -> tuple[float, Floats, Floats]:
+    """Return FCL's signed distance and nearest points; never with a half space or a mesh, where it crashes."""
+    import fcl
+
+    request = fcl.DistanceRequest(enable_nearest_points=True, enable_signed_distance=True)
+    result = fcl.DistanceResult()
+    distance = fcl.distance(one, two, request, result)
+    return distance, np.array(result.nearest_points[0]), np.array(result.nearest_points[1])
+
+
+def _apart(a: Side, b: Side, reach: float) -> Points:
+    """Measure a pair that does not overlap: boxes by growing them, others by the nearest points."""
+    if isinstance(a.shape, Box) and isinstance(b.shape, Box):
+        half = 0.5 * reach
+        points = collide(a.fcl(half), b.fcl(half))
+        return reduce_points([(p, n, d - reach) for p, n, d in points if _valid((p, n, d), b)])
+    distance, p, q = signed_distance(a.fcl(), b.fcl())
+    length = float(np.sqrt(((q - p) ** 2).sum()))
+    if not LEAST_PART < distance <= reach or length <= LEAST_PART:
+        return []
+    return [((p + q) / 2.0, (q - p) / length, -distance)]
+
+
+def _refined(a: Side, b: Side, points: Points, smaller: float) -> Points:
+    """Replace a portal-refinement answer, whose normal may be 30 degrees off, by that of the signed distance."""
+    distance, p, q = signed_distance(a.fcl(), b.fcl())
+    length = float(np.sqrt(((p - q) ** 2).sum()))
+    if -SHALLOW * smaller < distance < 0.0 and length > LEAST_PART:
+        return [((p + q) / 2.0, (p - q) / length, -distance)]
+    return points
+
+
+def _on_plane(plane: Side, other: Side, reach: float) -> Points:
+    """Measure against a half space moved out by ``reach``, then complete the manifold from the shape's corners."""
+    points = collide(plane.fcl(reach), other.fcl())
+    if not points:
+        return []
+    corners, radius = other.shape.corners()
+    normal = points[0][1]
+    if len(corners) < 2:
+        return [(p - normal * reach / 2.0, n, d - reach) for p, n, d in points]
+    placed = other.position + quaternion.rotate(other.rotation, corners)
+    shape = plane.shape
+    assert isinstance(shape, Plane)
+    origin = plane.position + shape.offset * normal
+    return reduce_points(under_plane(placed, radius, normal, origin, reach))
+
+
+def _on_mesh(mesh: Side, other: Side, reach: float) -> Points:
+    """Measure against a triangle mesh; balls are grown so that they are seen before they touch."""
+    grown = reach if isinstance(other.shape, BALLS) else 0.0
+    points = collide(mesh.fcl(), other.fcl(grown))
+    return reduce_points([_shrunk(p, grown, False) for p in merge_triangles(points)])
+
+
+def _shrunk(point: tuple[Floats, Floats, float], margin: float, grown_first: bool) -> tuple[Floats, Floats, float]:
+    """Take the growth of one side out of a contact: its surface moves back by the margin."""
+    place, normal, depth = point
+    sense = -1.0 if grown_first else 1.0
+    return place + normal * (sense * margin / 2.0), normal, depth - margin
+
+
+def _valid(point: tuple[Floats, Floats, float], other: Side) -> bool:
+    """Tell whether a contact is finite, with a unit normal and a depth within the size of the body."""
+    place, normal, depth = point
+    if not (np.isfinite(place).all() and np.isfinite(normal).all() and np.isfinite(depth)):
+        return False
+    return bool(abs((normal * normal).sum() - 1.0) < 1e-6)

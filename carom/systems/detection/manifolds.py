@@ -1,0 +1,49 @@
+"""Manifolds: which points stand for a contact area."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs.column import Floats
+
+Points = list[tuple[Floats, Floats, float]]
+
+MOST_POINTS = 4
+SAME_DIRECTION = 0.985  # cosine of 10 degrees: triangle contacts within it are one contact
+SAME_PLACE = 1e-3  # m
+
+
+def under_plane(corners: Floats, radius: float, normal: Floats, origin: Floats, reach: float) -> Points:
+    """Return a point per corner ball (n, 3) nearer than ``reach`` to a half space with outward ``normal`` at ``origin``."""
+    points = []
+    for corner in corners:
+        gap = float(((corner - origin) * normal).sum()) - radius
+        if gap < reach:
+            points.append((corner - normal * (radius + gap / 2.0), normal, -gap))
+    return points
+
+
+def reduce_points(points: Points) -> Points:
+    """Keep at most four points that span the area: the deepest, the farthest from it, and the widest to both sides."""
+    if len(points) <= MOST_POINTS:
+        return points
+    place = np.array([p for p, _, _ in points])
+    depth = np.array([d for _, _, d in points])
+    normal = points[0][1]
+    first = int(np.argmax(depth))
+    second = int(np.argmax(((place - place[first]) ** 2).sum(axis=1)))
+    side = (np.cross(place - place[first], place[second] - place[first]) * normal).sum(axis=1)
+    chosen = list(dict.fromkeys([first, second, int(np.argmax(side)), int(np.argmin(side))]))
+    return [points[k] for k in sorted(chosen)]
+
+
+def merge_triangles(points: Points) -> Points:
+    """Keep the deepest of the points that several triangles report for one contact."""
+    kept: Points = []
+    for point, normal, depth in sorted(points, key=lambda p: -p[2]):
+        near = any(
+            (normal * n).sum() > SAME_DIRECTION and ((point - p) ** 2).sum() < SAME_PLACE**2 for p, n, _ in kept
+        )
+        if not near:
+            kept.append((point, normal, depth))
+    return kept

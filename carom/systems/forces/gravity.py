@@ -1,0 +1,15 @@
+"""Gravity: the uniform field of the settings."""
+
+from __future__ import annotations
+
+from carom.ecs import Force, Motion, RigidBody, World, system
+from carom.systems.kernels.forces import add_weight
+from carom.systems.settings import Settings
+
+
+@system(reads=(RigidBody, Settings), adds=(Force,))
+def apply_gravity(world: World, dt: float) -> None:
+    """Add mass times the world's gravity."""
+    gravity = world[Settings].gravity
+    if any(gravity):
+        add_weight(world.row_numbers(RigidBody, Motion), world[RigidBody].mass, *gravity, world[Force].force)

@@ -1,0 +1,66 @@
+"""Force laws: what a world states about its forces, and the list each force system works through."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import MISSING, dataclass, field
+from typing import Any, ClassVar, TypeVar
+
+import numpy as np
+
+from carom.ecs.column import Integers
+from carom.ecs.component import Resource
+from carom.ecs.components.motion import Motion
+from carom.ecs.components.rigid_body import RigidBody
+from carom.ecs.errors import EntityError
+from carom.ecs.world import World
+from carom.systems.shapes.shape import parameter
+
+LAWS: dict[str, type[Law]] = {}
+L = TypeVar("L", bound="Law")
+
+__all__ = ["LAWS", "Forces", "Law", "parameter", "vector"]
+
+
+def vector(*, unit: str, doc: str, default: Any = MISSING) -> Any:
+    """Declare a parameter that is a vector of three numbers."""
+    return field(default=default, metadata={"unit": unit, "doc": doc, "width": 3})
+
+
+@dataclass(frozen=True)
+class Law:
+    """One force of a world; parameters are fields declared by `parameter`, and ``key`` is its word in files."""
+
+    key: ClassVar[str] = ""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if cls.key:
+            LAWS[cls.key] = cls
+
+
+@dataclass
+class Forces(Resource):
+    """The force laws of a world, each with the entities it acts on (None: every body)."""
+
+    entries: dict[type[Law], list[tuple[Any, tuple[int, ...] | None]]] = field(default_factory=dict)
+
+    def add(self, law: Law, entities: tuple[int, ...] | None = None) -> None:
+        """Let a law act from now on."""
+        self.entries.setdefault(type(law), []).append((law, entities))
+
+    def acting(self, kind: type[L], world: World) -> Iterator[tuple[L, Integers]]:
+        """Yield each law of a kind with the rows of the living bodies it acts on."""
+        for law, entities in self.entries.get(kind, ()):
+            bodies = world.row_numbers(RigidBody, Motion)
+            yield law, bodies if entities is None else _rows(world, entities)
+
+
+def _rows(world: World, entities: tuple[int, ...]) -> Integers:
+    rows = []
+    for entity in entities:
+        try:
+            rows.append(world.row(entity))
+        except EntityError:
+            continue  # despawned: its forces went with it
+    return np.array(rows, np.int64)

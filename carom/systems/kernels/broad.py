@@ -1,0 +1,132 @@
+"""Broad phase: where colliders are, how far they reach within the step, and which bounds overlap."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import REACH_FACTOR, REACH_SLACK
+from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.spatial import product, turn
+from carom.systems.shapes.plane import Plane
+
+PLANE = Plane.number
+
+
+@kernel("reach", "detected_center")
+def foresee_reach(
+    rows, dt, pull, position, rotation, linear, center_of_mass, last_acceleration, reach, detected_center
+):  # fmt: skip
+    """Say how far each body may travel within ``dt``: its speed and acceleration, or gravity's ``pull`` if greater."""
+    for i in rows:
+        ox, oy, oz = turn(
+            rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
+            center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2],
+        )  # fmt: skip
+        detected_center[i, 0], detected_center[i, 1], detected_center[i, 2] = (
+            position[i, 0] + ox, position[i, 1] + oy, position[i, 2] + oz,
+        )  # fmt: skip
+        speed, push = 0.0, 0.0
+        for k in range(3):
+            speed += linear[i, k] * linear[i, k]
+            push += last_acceleration[i, k] * last_acceleration[i, k]
+        reach[i] = REACH_SLACK + REACH_FACTOR * (sqrt(speed) + max(pull, sqrt(push)) * dt) * dt
+
+
+@kernel("pose_position", "pose_rotation", "lower", "upper", "body_row")
+def place_bounds(
+    rows, dt, is_body, angular, reach, position, rotation, local_position, local_rotation,
+    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, body_row,
+):  # fmt: skip
+    """Place each collider in the world and bound all it can reach: |R| half extents + radius + reach + turning."""
+    for i in rows:
+        qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
+        x, y, z = turn(qx, qy, qz, qw, local_position[i, 0], local_position[i, 1], local_position[i, 2])
+        pose_position[i, 0], pose_position[i, 1], pose_position[i, 2] = (
+            position[i, 0] + x, position[i, 1] + y, position[i, 2] + z,
+        )  # fmt: skip
+        pose_rotation[i, 0], pose_rotation[i, 1], pose_rotation[i, 2], pose_rotation[i, 3] = product(
+            qx, qy, qz, qw, local_rotation[i, 0], local_rotation[i, 1], local_rotation[i, 2], local_rotation[i, 3]
+        )
+        hx, hy, hz = bound_half[i, 0], bound_half[i, 1], bound_half[i, 2]
+        wide = bound_radius[i]
+        body_row[i] = -1
+        if is_body[i]:
+            body_row[i] = i
+            spin = sqrt(angular[i, 0] ** 2 + angular[i, 1] ** 2 + angular[i, 2] ** 2)
+            wide += reach[i] + min(spin * dt, 2.0) * sqrt(hx * hx + hy * hy + hz * hz)
+        cx, cy, cz = turn(qx, qy, qz, qw, bound_center[i, 0], bound_center[i, 1], bound_center[i, 2])
+        center = (cx, cy, cz)
+        ax, ay, az = turn(qx, qy, qz, qw, 1.0, 0.0, 0.0)
+        bx, by, bz = turn(qx, qy, qz, qw, 0.0, 1.0, 0.0)
+        gx, gy, gz = turn(qx, qy, qz, qw, 0.0, 0.0, 1.0)
+        half = (
+            abs(ax) * hx + abs(bx) * hy + abs(gx) * hz,
+            abs(ay) * hx + abs(by) * hy + abs(gy) * hz,
+            abs(az) * hx + abs(bz) * hy + abs(gz) * hz,
+        )
+        for k in range(3):
+            lower[i, k] = position[i, k] + center[k] - half[k] - wide
+            upper[i, k] = position[i, k] + center[k] + half[k] + wide
+
+
+@kernel()
+def find_overlaps(rows, shape, size, lower, upper, body_row, layer, mask, sensor, pose_position, pose_rotation):
+    """Return pairs (n, 2) of collider rows, lower first, sorted, whose bounds overlap and whose layers both accept.
+
+    Sort and sweep along x; half spaces are tested against every box. Pairs without a moving body, within one body, or of
+    two sensors are left out.
+    """
+    finite = np.empty(len(rows), np.int64)
+    planes = np.empty(len(rows), np.int64)
+    n, m = 0, 0
+    for i in rows:
+        if shape[i] == PLANE:
+            planes[m] = i
+            m += 1
+        else:
+            finite[n] = i
+            n += 1
+    edges = np.empty(n)
+    for k in range(n):
+        edges[k] = lower[finite[k], 0]
+    order = np.argsort(edges, kind="mergesort")
+    found = np.empty((64, 2), np.int64)
+    count = 0
+    for s in range(n + m):
+        i = finite[order[s]] if s < n else planes[s - n]
+        for t in range(s + 1 if s < n else 0, n):
+            j = finite[order[t]]
+            if s < n:
+                if lower[j, 0] > upper[i, 0]:
+                    break
+                if (
+                    lower[j, 1] > upper[i, 1] or lower[i, 1] > upper[j, 1]
+                    or lower[j, 2] > upper[i, 2] or lower[i, 2] > upper[j, 2]
+                ):  # fmt: skip
+                    continue
+            else:
+                nx, ny, nz = turn(
+                    pose_rotation[i, 0], pose_rotation[i, 1], pose_rotation[i, 2], pose_rotation[i, 3],
+                    size[i, 0], size[i, 1], size[i, 2],
+                )  # fmt: skip
+                nearest = -size[i, 3]
+                for k, d in enumerate((nx, ny, nz)):
+                    nearest += d * ((lower[j, k] if d > 0.0 else upper[j, k]) - pose_position[i, k])
+                if nearest > 0.0:
+                    continue
+            if body_row[i] == body_row[j]:
+                continue
+            if (mask[i] & layer[j]) == 0 or (mask[j] & layer[i]) == 0 or (sensor[i] and sensor[j]):
+                continue
+            if count == len(found):
+                grown = np.empty((2 * count, 2), np.int64)
+                grown[:count] = found
+                found = grown
+            found[count, 0], found[count, 1] = min(i, j), max(i, j)
+            count += 1
+    found = found[:count]
+    keys = found[:, 0] * (rows[-1] + 1 if len(rows) else 1) + found[:, 1]
+    return found[np.argsort(keys, kind="mergesort")]

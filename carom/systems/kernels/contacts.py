@@ -1,0 +1,208 @@
+"""Kernels of the narrow phase: contacts of balls in closed form, and the contact table carried from step to step."""
+
+from __future__ import annotations
+
+import numpy as np
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.ecs.components.material import Combine
+from carom.systems.kernels.balls import BALL, BOX, HALF_SPACE, gap_of_ball
+from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.spatial import turn
+from carom.systems.shapes.box import Box
+from carom.systems.shapes.plane import Plane
+from carom.systems.shapes.point import Point
+from carom.systems.shapes.sphere import Sphere
+
+SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE, PLANE_SHAPE = Sphere.number, Point.number, Box.number, Plane.number
+AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
+
+
+@kernel()
+def reach_of_pairs(pairs, body_row, reach):
+    """Return how near (m) each pair must come to be a contact: what its two bodies reach within the step."""
+    reaches = np.zeros(len(pairs))
+    for p in range(len(pairs)):
+        for side in range(2):
+            body = body_row[pairs[p, side]]
+            if body >= 0:
+                reaches[p] += reach[body]
+    return reaches
+
+
+@kernel()
+def measure_balls(pairs, reaches, shape, size, pose_position, pose_rotation):
+    """Return (answered (n,), normal (n, 3), depth (n,), point (n, 3)) of the pairs a closed form answers.
+
+    These are ball or point against ball, point, box and half space; pairs further apart than they reach are answered
+    with a depth below -reach.
+    """
+    n = len(pairs)
+    answered = np.zeros(n, np.bool_)
+    normal, point, depth = np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n)
+    for p in range(n):
+        a, b = pairs[p, 0], pairs[p, 1]
+        sign = 1.0
+        i, o = a, b
+        if shape[i] != SPHERE_SHAPE and shape[i] != POINT_SHAPE:
+            i, o, sign = b, a, -1.0
+        if shape[i] != SPHERE_SHAPE and shape[i] != POINT_SHAPE:
+            continue
+        kind, ex, ey, ez = kind_and_extent(
+            shape[o], size[o, 0], size[o, 1], size[o, 2],
+            pose_rotation[o, 0], pose_rotation[o, 1], pose_rotation[o, 2], pose_rotation[o, 3],
+        )  # fmt: skip
+        if kind < 0:
+            continue
+        ox, oy, oz = pose_position[o, 0], pose_position[o, 1], pose_position[o, 2]
+        if kind == HALF_SPACE:
+            ox, oy, oz = ox + size[o, 3] * ex, oy + size[o, 3] * ey, oz + size[o, 3] * ez
+        radius = size[i, 0]
+        gap, nx, ny, nz = gap_of_ball(
+            kind, pose_position[i, 0], pose_position[i, 1], pose_position[i, 2], radius, ox, oy, oz,
+            pose_rotation[o, 0], pose_rotation[o, 1], pose_rotation[o, 2], pose_rotation[o, 3], ex, ey, ez,
+        )  # fmt: skip
+        answered[p] = True
+        depth[p] = -gap
+        for k, d in enumerate((nx, ny, nz)):
+            normal[p, k] = -sign * d
+            point[p, k] = pose_position[i, k] - (radius + 0.5 * gap) * d
+    return answered, normal, depth, point
+
+
+@inlined
+def kind_and_extent(shape, sx, sy, sz, qx, qy, qz, qw):
+    """Return how `gap_of_ball` reads a shape, and its extent; kind -1 where it has no closed form."""
+    if shape == SPHERE_SHAPE or shape == POINT_SHAPE:
+        return BALL, sx, 0.0, 0.0
+    if shape == BOX_SHAPE:
+        return BOX, 0.5 * sx, 0.5 * sy, 0.5 * sz
+    if shape == PLANE_SHAPE:
+        nx, ny, nz = turn(qx, qy, qz, qw, sx, sy, sz)
+        return HALF_SPACE, nx, ny, nz
+    return -1, 0.0, 0.0, 0.0
+
+
+@inlined
+def combined(x, y, rule_x, rule_y, default):
+    """Return one value of two materials by the stronger of their rules, or by the quantity's default."""
+    rule = max(rule_x, rule_y)
+    if rule == 0:
+        rule = default
+    if rule == AVERAGE:
+        return 0.5 * (x + y)
+    if rule == SQRT:
+        return np.sqrt(x * y)
+    if rule == MIN:
+        return min(x, y)
+    if rule == MULTIPLY:
+        return x * y
+    return max(x, y)
+
+
+@kernel(
+    "friction", "restitution", "rolling", "spinning", "row_a", "row_b", "body_a", "body_b", "offset_a", "offset_b",
+    "kind", "ball", "other", "sign", "radius", "extent", "other_position", "other_rotation",
+)  # fmt: skip
+def complete_contacts(
+    count, normal, depth, point, row_a, row_b,
+    body_row, shape, size, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
+    material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
+    friction, restitution, rolling, spinning, body_a, body_b, offset_a, offset_b,
+    kind, ball, other, sign, radius, extent, other_position, other_rotation,
+):  # fmt: skip
+    """Fill in what follows from the two colliders: bodies, offsets, combined material, and whether impacts are exact.
+
+    Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces.
+    """
+    for c in range(count):
+        a, b = row_a[c], row_b[c]
+        friction[c] = combined(
+            material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT
+        )
+        restitution[c] = combined(
+            material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
+        )
+        lever = max(bound_radius[a], bound_radius[b])
+        rolling[c] = max(material_rolling[a], material_rolling[b]) * lever
+        spinning[c] = max(material_spinning[a], material_spinning[b]) * lever
+        body_a[c], body_b[c] = body_row[a], body_row[b]
+        for k in range(3):
+            offset_a[c, k] = point[c, k] + 0.5 * depth[c] * normal[c, k]
+            offset_a[c, k] -= center[body_a[c], k] if body_a[c] >= 0 else pose_position[a, k]
+            offset_b[c, k] = point[c, k] - 0.5 * depth[c] * normal[c, k]
+            offset_b[c, k] -= center[body_b[c], k] if body_b[c] >= 0 else pose_position[b, k]
+        kind[c] = -1
+        i, o, sign[c] = a, b, 1.0
+        if not is_free_ball(a, shape, body_row, pose_position, center, inverse_mass):
+            i, o, sign[c] = b, a, -1.0
+            if not is_free_ball(b, shape, body_row, pose_position, center, inverse_mass):
+                continue
+        what, ex, ey, ez = kind_and_extent(
+            shape[o], size[o, 0], size[o, 1], size[o, 2],
+            pose_rotation[o, 0], pose_rotation[o, 1], pose_rotation[o, 2], pose_rotation[o, 3],
+        )  # fmt: skip
+        if what < 0:
+            continue
+        body = body_row[o]
+        if body >= 0 and not is_centred(o, body, pose_position, center):
+            continue
+        if body >= 0 and what == BOX and not is_aligned(o, body, pose_rotation, rotation):
+            continue
+        kind[c], ball[c], other[c], radius[c] = what, body_row[i], body_row[o], size[i, 0]
+        extent[c, 0], extent[c, 1], extent[c, 2] = ex, ey, ez
+        for k in range(3):
+            other_position[c, k] = pose_position[o, k]
+            if what == HALF_SPACE:
+                other_position[c, k] += size[o, 3] * extent[c, k]
+        for k in range(4):
+            other_rotation[c, k] = pose_rotation[o, k]
+
+
+@inlined
+def is_centred(collider, body, pose_position, center):
+    """Tell whether a collider's shape lies about its body's centre of mass."""
+    return (
+        pose_position[collider, 0] == center[body, 0]
+        and pose_position[collider, 1] == center[body, 1]
+        and pose_position[collider, 2] == center[body, 2]
+    )
+
+
+@inlined
+def is_aligned(collider, body, pose_rotation, rotation):
+    """Tell whether a collider's shape is turned as its body is."""
+    return (
+        pose_rotation[collider, 0] == rotation[body, 0]
+        and pose_rotation[collider, 1] == rotation[body, 1]
+        and pose_rotation[collider, 2] == rotation[body, 2]
+        and pose_rotation[collider, 3] == rotation[body, 3]
+    )
+
+
+@inlined
+def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass):
+    """Tell whether a collider is a ball or point about the centre of mass of a body that impulses can move."""
+    body = body_row[collider]
+    if body < 0 or inverse_mass[body] == 0.0:
+        return False
+    if shape[collider] != SPHERE_SHAPE and shape[collider] != POINT_SHAPE:
+        return False
+    return is_centred(collider, body, pose_position, center)
+
+
+@kernel()
+def match_contacts(old_a, old_b, old_feature, new_a, new_b, new_feature):
+    """Return for each new contact the old one of the same colliders (rows) and feature, -1 for none; both are sorted."""
+    found = np.full(len(new_a), -1, np.int64)
+    o = 0
+    for c in range(len(new_a)):
+        while o < len(old_a) and (
+            old_a[o] < new_a[c]
+            or (old_a[o] == new_a[c] and old_b[o] < new_b[c])
+            or (old_a[o] == new_a[c] and old_b[o] == new_b[c] and old_feature[o] < new_feature[c])
+        ):
+            o += 1
+        if o < len(old_a) and old_a[o] == new_a[c] and old_b[o] == new_b[c] and old_feature[o] == new_feature[c]:
+            found[c] = o
+    return found

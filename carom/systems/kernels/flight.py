@@ -1,0 +1,135 @@
+"""Kernels of free motion: prediction to the middle of the substep, acceleration, kick."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.spatial import exponential, inverse_inertia_times, product, spun, turn
+
+EULER, SEMI_IMPLICIT, VERLET = 0, 1, 2
+
+
+@kernel(
+    "position", "rotation", "linear", "angular",
+    "center", "start_center", "start_position", "start_rotation", "start_linear", "start_angular",
+)  # fmt: skip
+def predict_middle(
+    rows, half, center_of_mass, last_acceleration, last_angular_acceleration,
+    position, rotation, linear, angular,
+    center, start_center, start_position, start_rotation, start_linear, start_angular,
+):  # fmt: skip
+    """Save where bodies are and move them ``half`` seconds on along their arcs, for forces to be evaluated there.
+
+    The middle velocity uses the acceleration of the substep before, which keeps velocity Verlet of second order also
+    with forces that depend on velocity.
+    """
+    for i in rows:
+        qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
+        cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
+        ox, oy, oz = turn(qx, qy, qz, qw, cx, cy, cz)
+        offset = (ox, oy, oz)
+        for k in range(3):
+            start_position[i, k] = position[i, k]
+            start_linear[i, k] = linear[i, k]
+            start_angular[i, k] = angular[i, k]
+            center[i, k] = position[i, k] + offset[k]
+            start_center[i, k] = center[i, k]
+        for k in range(4):
+            start_rotation[i, k] = rotation[i, k]
+        if half == 0.0:
+            continue
+        nx, ny, nz, nw = spun(qx, qy, qz, qw, angular[i, 0], angular[i, 1], angular[i, 2], half)
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3] = nx, ny, nz, nw
+        ox, oy, oz = turn(nx, ny, nz, nw, cx, cy, cz)
+        offset = (ox, oy, oz)
+        for k in range(3):
+            position[i, k] = center[i, k] + half * linear[i, k] - offset[k]
+            linear[i, k] += half * last_acceleration[i, k]
+            angular[i, k] += half * last_angular_acceleration[i, k]
+
+
+@kernel("position", "rotation", "linear", "angular", "felt", "angular_acceleration", "time", "touching")
+def accelerate(
+    rows, inverse_mass, inverse_inertia, principal_axes, force, torque, external_force, external_torque,
+    start_position, start_rotation, start_linear, start_angular,
+    position, rotation, linear, angular, felt, angular_acceleration, time, touching,
+):  # fmt: skip
+    """Turn forces into accelerations at the middle of the substep and bring the bodies back to its start."""
+    for i in rows:
+        qx, qy, qz, qw = product(
+            rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
+            principal_axes[i, 0], principal_axes[i, 1], principal_axes[i, 2], principal_axes[i, 3],
+        )  # fmt: skip
+        ax, ay, az = inverse_inertia_times(
+            qx, qy, qz, qw, inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2],
+            torque[i, 0] + external_torque[i, 0],
+            torque[i, 1] + external_torque[i, 1],
+            torque[i, 2] + external_torque[i, 2],
+        )  # fmt: skip
+        angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2] = ax, ay, az
+        for k in range(3):
+            felt[i, k] = (force[i, k] + external_force[i, k]) * inverse_mass[i]
+            position[i, k] = start_position[i, k]
+            linear[i, k] = start_linear[i, k]
+            angular[i, k] = start_angular[i, k]
+        for k in range(4):
+            rotation[i, k] = start_rotation[i, k]
+        time[i] = 0.0
+        touching[i] = False
+
+
+@kernel(
+    "linear", "angular", "acceleration", "angular_acceleration", "decay", "angular_decay", "flow",
+    "last_acceleration", "last_angular_acceleration",
+)  # fmt: skip
+def kick_bodies(
+    rows, h, integrator, inverse_mass, drag, drag_flow, angular_drag, felt, touching,
+    linear, angular, acceleration, angular_acceleration, decay, angular_decay, flow,
+    last_acceleration, last_angular_acceleration,
+):  # fmt: skip
+    """Set each body's arc by the integrator; bodies in contact are stepped semi-implicitly whatever it is.
+
+    Drag relaxes the velocity towards the flow by a factor exp(-rate h): all of it before the drift (semi-implicit),
+    after it (Euler), or half before and half after (Verlet, Strang's splitting, which keeps second order).
+    """
+    for i in rows:
+        scheme = SEMI_IMPLICIT if touching[i] else integrator
+        before = 1.0
+        decay[i], angular_decay[i] = 1.0, 1.0
+        rate = drag[i] * inverse_mass[i]
+        if rate > 0.0:
+            for k in range(3):
+                flow[i, k] = drag_flow[i, k] / drag[i]
+            if scheme == VERLET:
+                before = exponential(-0.5 * rate * h)
+                decay[i] = before
+            elif scheme == SEMI_IMPLICIT:
+                before = exponential(-rate * h)
+            else:
+                decay[i] = exponential(-rate * h)
+            for k in range(3):
+                linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * before
+        if angular_drag[i] > 0.0:
+            angular_decay[i] = exponential(-angular_drag[i] * h)
+        for k in range(3):
+            if scheme == SEMI_IMPLICIT:
+                linear[i, k] += h * felt[i, k]
+                angular[i, k] += h * angular_acceleration[i, k]
+                acceleration[i, k] = 0.0
+                angular_acceleration[i, k] = 0.0
+            else:
+                acceleration[i, k] = felt[i, k]
+            last_acceleration[i, k] = acceleration[i, k]
+            last_angular_acceleration[i, k] = angular_acceleration[i, k]
+
+
+@kernel()
+def first_not_finite(rows, position, rotation, linear, angular):
+    """Return the first row with a NaN or infinity in its pose or velocity, -1 for none."""
+    for i in rows:
+        total = rotation[i, 0] + rotation[i, 1] + rotation[i, 2] + rotation[i, 3]
+        for k in range(3):
+            total += position[i, k] + linear[i, k] + angular[i, k]
+        if not total - total == 0.0:
+            return i
+    return -1

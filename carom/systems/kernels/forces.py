@@ -1,0 +1,89 @@
+"""Kernels of the force laws."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.kernels.kernel import kernel
+
+
+@kernel("force", "torque", "drag", "drag_flow", "angular_drag", "medium")
+def clear_sums(rows, force, torque, drag, drag_flow, angular_drag, medium):
+    """Set what forces add up to back to zero."""
+    for i in rows:
+        drag[i], angular_drag[i] = 0.0, 0.0
+        for k in range(3):
+            force[i, k], torque[i, k], drag_flow[i, k], medium[i, k] = 0.0, 0.0, 0.0, 0.0
+
+
+@kernel("force")
+def add_weight(rows, mass, gx, gy, gz, force):
+    """Add m g."""
+    for i in rows:
+        force[i, 0] += mass[i] * gx
+        force[i, 1] += mass[i] * gy
+        force[i, 2] += mass[i] * gz
+
+
+@kernel("force")
+def add_attraction(rows, mass, position, constant, softening, force):
+    """Add G m1 m2 r / (r^2 + s^2)^(3/2) between every two bodies, equal and opposite."""
+    for s in range(len(rows)):
+        i = rows[s]
+        for t in range(s + 1, len(rows)):
+            j = rows[t]
+            dx = position[j, 0] - position[i, 0]
+            dy = position[j, 1] - position[i, 1]
+            dz = position[j, 2] - position[i, 2]
+            squared = dx * dx + dy * dy + dz * dz + softening * softening
+            pull = constant * mass[i] * mass[j] / (squared * sqrt(squared))
+            for k, d in enumerate((dx, dy, dz)):
+                force[i, k] += pull * d
+                force[j, k] -= pull * d
+
+
+@kernel("drag", "drag_flow")
+def add_linear_drag(rows, coefficient, medium, drag, drag_flow):
+    """Add a drag of ``coefficient`` (kg/s) towards the velocity of the medium."""
+    for i in rows:
+        drag[i] += coefficient
+        for k in range(3):
+            drag_flow[i, k] += coefficient * medium[i, k]
+
+
+@kernel("drag", "drag_flow")
+def add_quadratic_drag(rows, factor, medium, linear, drag, drag_flow):
+    """Add a drag of ``factor`` (kg/m) times the speed through the medium."""
+    for i in rows:
+        squared = 0.0
+        for k in range(3):
+            squared += (linear[i, k] - medium[i, k]) ** 2
+        coefficient = factor * sqrt(squared)
+        drag[i] += coefficient
+        for k in range(3):
+            drag_flow[i, k] += coefficient * medium[i, k]
+
+
+@kernel("force")
+def add_push(rows, h, fx, fy, fz, x, y, z, stroke, inverse_mass, start_center, start_linear, force):
+    """Add a push along its stroke, cut to the part of the substep before the body leaves it."""
+    size = sqrt(fx * fx + fy * fy + fz * fz)
+    if size == 0.0:
+        return
+    dx, dy, dz = fx / size, fy / size, fz / size
+    for i in rows:
+        at = dx * (start_center[i, 0] - x) + dy * (start_center[i, 1] - y) + dz * (start_center[i, 2] - z)
+        left = stroke - at
+        if left <= 0.0:
+            continue
+        part = 1.0
+        speed = dx * start_linear[i, 0] + dy * start_linear[i, 1] + dz * start_linear[i, 2]
+        others = dx * force[i, 0] + dy * force[i, 1] + dz * force[i, 2]
+        pull = (size + others) * inverse_mass[i]
+        inside = speed * speed + 2.0 * pull * left
+        if inside > 0.0 and speed + sqrt(inside) > 0.0:
+            part = min(1.0, 2.0 * left / (speed + sqrt(inside)) / h)
+        force[i, 0] += part * fx
+        force[i, 1] += part * fy
+        force[i, 2] += part * fz

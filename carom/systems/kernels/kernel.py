@@ -1,0 +1,73 @@
+"""Kernels: functions over arrays compiled by Numba, once each and cached on disk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numba
+import numpy as np
+
+from carom.ecs.errors import AccessError
+from carom.ecs.system import GUARDED
+
+KERNELS: list[Kernel] = []
+
+#: A function over scalars that kernels call; LLVM inlines it. Arrays as arguments would cost 230 ns a call.
+inlined = numba.njit(cache=True, error_model="numpy")
+
+
+class Kernel:
+    """A compiled function of one specialisation, that names the arguments it writes.
+
+    Read-only arrays (outside of systems, and what a system declares to read) would make Numba compile a second time, so
+    they are passed as writable views; handing a read-only array to an output is an AccessError.
+    """
+
+    def __init__(self, function: Callable[..., Any], outputs: tuple[str, ...]) -> None:
+        names = function.__code__.co_varnames[: function.__code__.co_argcount]
+        unknown = set(outputs) - set(names)
+        assert not unknown, f"{function.__name__} has no arguments {unknown}"
+        self.name = function.__name__
+        self.__doc__ = function.__doc__
+        self._run = numba.njit(cache=True, error_model="numpy")(function)
+        self._outputs = [names.index(name) for name in outputs]
+        self._names = names
+        self._settled = False
+        KERNELS.append(self)
+
+    def __call__(self, *arguments: Any) -> Any:
+        if self._settled and not GUARDED.get():
+            try:
+                return self._run(*arguments)
+            except TypeError:  # an argument of another type, most often a read-only array
+                pass
+        result = self._run(*self._writable(arguments))
+        if not self._settled and hasattr(self._run, "disable_compile"):
+            self._run.disable_compile()
+            self._settled = True
+        return result
+
+    def _writable(self, arguments: tuple[Any, ...]) -> list[Any]:
+        passed = list(arguments)
+        for position, argument in enumerate(arguments):
+            if not isinstance(argument, np.ndarray) or argument.flags.writeable:
+                continue
+            if position in self._outputs:
+                raise AccessError(
+                    f"kernel '{self.name}' writes '{self._names[position]}', which is read-only here; "
+                    f"declare the component in writes= (or adds=) of the calling @system"
+                )
+            owner = argument if argument.base is None else argument.base
+            passed[position] = owner if owner.shape == argument.shape and owner.flags.writeable else argument.copy()
+        return passed
+
+    @property
+    def compiled(self) -> bool:
+        """Tell whether this process has the machine code."""
+        return self._settled
+
+
+def kernel(*outputs: str) -> Callable[[Callable[..., Any]], Kernel]:
+    """Compile a function over arrays; ``outputs`` are the names of the arguments it writes."""
+    return lambda function: Kernel(function, outputs)

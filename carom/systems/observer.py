@@ -1,0 +1,21 @@
+"""Observers: what looks at a simulation after every step, without a hand in it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from carom.systems.simulation import Simulation
+
+
+class Observer(Protocol):
+    """Something that watches: a recorder, a film, a check. It sees a read-only world."""
+
+    def begin(self, simulation: Simulation) -> None:
+        """See the world before its first step."""
+
+    def observe(self, simulation: Simulation) -> None:
+        """See the world after a step."""
+
+    def end(self, simulation: Simulation) -> None:
+        """Finish, also after an error or an interrupt."""

@@ -1,0 +1,35 @@
+"""Progress: where in the step the current substep is."""
+
+from __future__ import annotations
+
+from carom.ecs import World, system
+from carom.ecs.component import Resource
+from carom.ecs.relations.enter import Enter
+from carom.ecs.relations.impact import Impact
+from carom.systems.settings import Settings
+
+
+class Progress(Resource):
+    """Simulated time at the start of the substep, and what the step has left after it (s)."""
+
+    clock: float = 0.0
+    left: float = 0.0
+    substep: int = 0
+
+
+@system(reads=(Settings,), writes=(Progress, Impact, Enter))
+def begin_step(world: World, dt: float) -> None:
+    """Forget the events of the step before and set the clock."""
+    progress = world[Progress]
+    progress.substep = 0
+    world.resize(Impact, 0)
+    world.resize(Enter, 0)
+
+
+@system(reads=(Settings,), writes=(Progress,))
+def begin_substep(world: World, dt: float) -> None:
+    """Set the clock to the start of the substep."""
+    progress, settings = world[Progress], world[Settings]
+    progress.clock = (world.frame - 1) * settings.dt + progress.substep * dt
+    progress.substep += 1
+    progress.left = (settings.substeps - progress.substep) * dt

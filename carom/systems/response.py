@@ -1,0 +1,111 @@
+"""Response: resting contacts, impacts on the arc, and overlap."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from carom.ecs import Collider, ColliderPose, Material, Motion, RigidBody, Transform, World, system
+from carom.ecs.components.flight import Flight
+from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.enter import Enter, Inside
+from carom.ecs.relations.impact import Impact
+from carom.systems.detection.answered import Answered
+from carom.systems.detection.contacts import detect_again
+from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, fly
+from carom.systems.kernels.resting import finish_drift, hold_contacts, sort_contacts
+from carom.systems.progress import Progress
+from carom.systems.settings import Settings
+from carom.systems.shapes.geometry import Geometries
+
+
+@system(reads=(RigidBody, Transform, Motion, Settings), writes=(Contact, Flight))
+def sort_out_contacts(world: World, dt: float) -> None:
+    """Say which contacts rest in this substep; their bodies count as touching."""
+    contact = world[Contact]
+    if not contact.count:
+        return
+    flight, motion = world[Flight], world[Motion]
+    sort_contacts(
+        contact.count, dt, world[Settings].response == "full", flight.center, world[Transform].rotation,
+        motion.linear, motion.angular, flight.felt,
+        contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
+        contact.other_position, contact.other_rotation, contact.body_a, contact.body_b,
+        contact.normal, contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting,
+        flight.touching, contact.warm_normal, contact.warm_friction, contact.warm_rolling,
+    )  # fmt: skip
+
+
+@system(reads=(RigidBody, Transform, Flight, Settings), writes=(Motion, Contact))
+def hold(world: World, dt: float) -> None:
+    """Solve the resting contacts: they do not close, stick or slide within the cone, and resist rolling."""
+    contact = world[Contact]
+    if not contact.count or not contact.resting[: contact.count].any():
+        return
+    flight, motion, body = world[Flight], world[Motion], world[RigidBody]
+    pull = sqrt(sum(g * g for g in world[Settings].gravity))
+    hold_contacts(
+        contact.count, dt, pull, contact.body_a, contact.body_b, contact.normal, contact.depth,
+        contact.offset_a, contact.offset_b, contact.kind, contact.resting,
+        contact.friction, contact.restitution, contact.rolling, contact.spinning,
+        body.inverse_mass, body.inverse_inertia, body.principal_axes, world[Transform].rotation,
+        flight.start_linear, flight.start_angular, motion.linear, motion.angular,
+        contact.impulse, contact.friction_impulse, contact.warm_normal, contact.warm_friction, contact.warm_rolling,
+    )  # fmt: skip
+
+
+@system(
+    reads=(RigidBody, Collider, Material, Settings, Geometries, Progress),
+    writes=(Transform, Motion, Flight, Contact, Impact, ColliderPose, Enter, Inside, Answered, FclObjects),
+)
+def drift(world: World, dt: float) -> None:
+    """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""
+    at = 0.0
+    while True:
+        at, reason = _fly(world, at, dt)
+        if reason == DONE:
+            return
+        if reason == OUT_OF_REACH:
+            _finish(world, at, ended=False)
+            detect_again(world, world[Progress].left + dt - at)
+
+
+def _fly(world: World, at: float, h: float) -> tuple[float, int]:
+    """Fly to the end of the substep or to what stops the flight; log the impacts on the way."""
+    transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
+    contact, impact, progress, settings = world[Contact], world[Impact], world[Progress], world[Settings]
+    n, logged = slice(0, contact.count), impact.count
+    now, count, reason, cut = fly(
+        world.row_numbers(RigidBody), at, h, progress.left, 0.5 if settings.integrator == "verlet" else 0.0,
+        progress.clock, flight.center, transform.rotation, motion.linear, motion.angular, flight.time,
+        flight.acceleration, flight.angular_acceleration, flight.felt, flight.detected_center, flight.reach,
+        body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes,
+        contact.kind[n], contact.ball, contact.other, contact.extent, contact.radius,
+        contact.other_position, contact.other_rotation, contact.sign, contact.friction, contact.restitution,
+        contact.resting, contact.impulse, contact.friction_impulse,
+        logged, impact.time, impact.a, impact.point, impact.normal, impact.speed, impact.impulse, impact.friction_impulse,
+    )  # fmt: skip
+    world[Answered].impacts_cut += cut
+    world.resize(Impact, count + (1 if count == len(impact.time) else 0))
+    world.resize(Impact, count)
+    impact = world[Impact]
+    new = slice(logged, count)
+    pair = impact.a[new].copy()  # the kernel logs contact rows, which the next detection renumbers
+    impact.a[new], impact.b[new] = contact.a[pair], contact.b[pair]
+    return now, reason
+
+
+@system(reads=(RigidBody,), writes=(Transform, Motion, Flight, Contact))
+def settle(world: World, dt: float) -> None:
+    """End the substep: drag's second half, overlap pushed out without adding velocity, origins placed."""
+    _finish(world, dt, ended=True)
+
+
+def _finish(world: World, dt: float, *, ended: bool) -> None:
+    flight, motion, body, contact = world[Flight], world[Motion], world[RigidBody], world[Contact]
+    finish_drift(
+        world.row_numbers(RigidBody), contact.count if ended else 0, dt, ended, body.center_of_mass, body.inverse_mass,
+        flight.decay, flight.angular_decay, flight.flow, world[Transform].rotation,
+        contact.body_a, contact.body_b, contact.normal, contact.offset_a, contact.offset_b, contact.kind, contact.resting,
+        flight.start_center, motion.linear, motion.angular, world[Transform].position, flight.center, contact.depth,
+    )  # fmt: skip

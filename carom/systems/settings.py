@@ -1,0 +1,66 @@
+"""Settings: how a simulation steps, and the defaults in one table."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Literal, get_args
+
+import numpy as np
+
+from carom.ecs.component import Resource
+from carom.ecs.errors import DeclarationError
+
+Integrator = Literal["euler", "semi_implicit", "verlet"]
+Collision = Literal["auto", "fcl"]
+Response = Literal["full", "reflect"]
+
+
+@dataclass(frozen=True)
+class Settings(Resource):
+    """How a simulation steps; the values here are the defaults of files and Python alike."""
+
+    dt: float = 1.0 / 60.0  # s, one step
+    substeps: int = 4
+    gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)  # m/s2
+    integrator: Integrator = "verlet"
+    collision: Collision = "auto"  # fcl: no kernel stands in for FCL
+    response: Response = "full"  # reflect: impacts only, no resting contacts
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        """Refuse what cannot be stepped; raise DeclarationError naming every fault."""
+        faults = []
+        if not (np.isfinite(self.dt) and self.dt > 0.0):
+            faults.append(f"dt must be finite and above 0 s, received {self.dt:g}")
+        if self.substeps < 1:
+            faults.append(f"substeps must be at least 1, received {self.substeps}")
+        if not np.isfinite(self.gravity).all():
+            faults.append(f"gravity must be finite, received {list(self.gravity)}")
+        for name, choices in (("integrator", Integrator), ("collision", Collision), ("response", Response)):
+            if getattr(self, name) not in get_args(choices):
+                faults.append(f"{name} must be one of {', '.join(get_args(choices))}, received {getattr(self, name)!r}")
+        if faults:
+            raise DeclarationError("; ".join(faults))
+
+
+def defaults() -> dict[str, object]:
+    """Return every setting with its default, as docs and schema print them."""
+    return {field.name: field.default for field in fields(Settings)}
+
+
+class Random(Resource):
+    """The one seeded generator of a world."""
+
+    def __init__(self, seed: int) -> None:
+        self.generator = np.random.Generator(np.random.PCG64(seed))
+
+    def state(self) -> bytes:
+        """Return the generator's position."""
+        inner = self.generator.bit_generator.state["state"]
+        return inner["state"].to_bytes(16, "big") + inner["inc"].to_bytes(16, "big")
+
+    def restore(self, state: bytes) -> None:
+        """Set the generator to a saved position."""
+        whole = dict(self.generator.bit_generator.state)
+        whole["state"] = {"state": int.from_bytes(state[:16], "big"), "inc": int.from_bytes(state[16:], "big")}
+        self.generator.bit_generator.state = whole

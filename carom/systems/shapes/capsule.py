@@ -1,0 +1,55 @@
+"""Capsule."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from carom.ecs.column import Floats
+from carom.systems.shapes.orientation import along_y
+from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
+
+
+@dataclass(frozen=True)
+class Capsule(Shape):
+    """All points within ``radius`` of a segment of ``length`` along local y."""
+
+    key: ClassVar[str] = "capsule"
+    number: ClassVar[int] = 4
+    along_z: ClassVar[bool] = True
+    radius: float = parameter(unit="m", doc="radius", above=0.0)
+    length: float = parameter(unit="m", doc="length of the straight part, caps excluded", above=0.0)
+
+    def mass_properties(self) -> MassProperties:
+        """Return the sums over a cylinder and two half balls (Eberly, Polyhedral Mass Properties, 2009, for the parts)."""
+        r, half = self.radius, self.length / 2.0
+        tube, ball = math.pi * r * r * self.length, 4.0 / 3.0 * math.pi * r**3
+        axial = tube * r * r / 2.0 + ball * 0.4 * r * r
+        across = tube * (r * r / 4.0 + half * half / 3.0) + ball * (0.4 * r * r + half * half + 0.75 * half * r)
+        volume = tube + ball
+        return MassProperties(volume, (0.0, 0.0, 0.0), (across / volume, axial / volume, across / volume), NO_AXES)
+
+    def bounds(self) -> Bounds:
+        """Return the segment widened by the radius."""
+        return Bounds((0.0, 0.0, 0.0), (0.0, self.length / 2.0, 0.0), self.radius)
+
+    def fcl_geometry(self, margin: float = 0.0) -> Any:
+        """Return an FCL capsule, which lies along z (`Shape.along_z`)."""
+        import fcl
+
+        return fcl.Capsule(self.radius + margin, self.length)
+
+    def surface(self) -> Surface:
+        """Return a capsule of 32 by 32 facets."""
+        from trimesh.creation import capsule
+
+        mesh = capsule(height=self.length, radius=self.radius)
+        return Surface(along_y(np.asarray(mesh.vertices)), np.asarray(mesh.faces), True)
+
+    def corners(self) -> tuple[Floats, float]:
+        """Return the ends of the segment with the radius."""
+        half = self.length / 2.0
+        return np.array([[0.0, -half, 0.0], [0.0, half, 0.0]]), self.radius

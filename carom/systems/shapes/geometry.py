@@ -1,0 +1,104 @@
+"""Geometries: triangle data shared by colliders and visuals, kept once per content."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from carom.ecs.column import Floats, Integers
+from carom.ecs.component import Resource
+from carom.ecs.errors import DeclarationError
+from carom.systems.shapes.shape import Bounds, MassProperties
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """Vertices (v, 3) in m and outward faces (f, 3); ``source`` says where they came from."""
+
+    vertices: Floats
+    faces: Integers
+    source: str = ""
+
+    def bounds(self) -> Bounds:
+        """Return the axis-aligned box around the vertices."""
+        lower, upper = self.vertices.min(axis=0), self.vertices.max(axis=0)
+        center, half = (lower + upper) / 2.0, (upper - lower) / 2.0
+        return Bounds(tuple(map(float, center)), tuple(map(float, half)), 0.0)  # type: ignore[arg-type]
+
+    def content(self) -> bytes:
+        """Return what makes two geometries the same."""
+        return self.vertices.tobytes() + self.faces.tobytes()
+
+
+@dataclass
+class Geometries(Resource):
+    """The geometries of a world by number."""
+
+    items: list[Geometry] = field(default_factory=list)
+    numbers: dict[bytes, int] = field(default_factory=dict)
+
+    def number(self, geometry: Geometry) -> int:
+        """Return the number of this content, adding it when new."""
+        return self.numbers.setdefault(geometry.content(), self._append(geometry))
+
+    def _append(self, geometry: Geometry) -> int:
+        known = self.numbers.get(geometry.content())
+        if known is not None:
+            return known
+        self.items.append(geometry)
+        return len(self.items) - 1
+
+
+def hull_of(points: Floats, source: str = "points") -> Geometry:
+    """Return the convex hull of points (n, 3); raise DeclarationError when they span no volume."""
+    from scipy.spatial import QhullError
+    from trimesh.convex import convex_hull
+
+    if len(points) < 4:
+        raise DeclarationError(f"{source}: a convex hull needs at least 4 points, received {len(points)}")
+    try:
+        hull = convex_hull(points)
+    except (QhullError, ValueError):
+        raise DeclarationError(f"{source}: the points lie in one plane, so their hull has no volume") from None
+    return Geometry(np.array(hull.vertices, np.float64), np.array(hull.faces, np.int64), source)
+
+
+def load_geometry(path: Path, scale: float = 1.0) -> Geometry:
+    """Read a closed mesh from OBJ, STL, PLY or glTF; ``scale`` turns its unit into m.
+
+    Raises DeclarationError when the file is missing or unreadable, open, or inverted.
+    """
+    import trimesh
+
+    if not path.is_file():
+        raise DeclarationError(f"mesh file {path} does not exist")
+    try:
+        mesh = trimesh.load_mesh(path)
+    except Exception as fault:
+        raise DeclarationError(f"mesh file {path} cannot be read: {fault}") from None
+    if not mesh.is_watertight:
+        raise DeclarationError(
+            f"mesh file {path} is open: {len(mesh.faces)} faces do not close a volume; close its holes, or use convex"
+        )
+    if mesh.volume <= 0.0:
+        raise DeclarationError(
+            f"mesh file {path} is inverted: its volume is {mesh.volume * scale**3:.6g} m3; turn its faces outward"
+        )
+    return Geometry(np.array(mesh.vertices * scale, np.float64), np.array(mesh.faces, np.int64), str(path))
+
+
+def solid_properties(geometry: Geometry) -> MassProperties:
+    """Return volume, centre of mass and principal moments of the enclosed solid at density 1, by trimesh."""
+    import trimesh
+
+    mesh = trimesh.Trimesh(geometry.vertices, geometry.faces, process=False)
+    moments, axes = np.linalg.eigh(np.asarray(mesh.moment_inertia))
+    if np.linalg.det(axes) < 0.0:
+        axes[:, 2] = -axes[:, 2]
+    wxyz = trimesh.transformations.quaternion_from_matrix(axes)
+    volume = float(mesh.volume)
+    inertia = tuple(float(m) / volume for m in moments)
+    center = tuple(float(c) for c in mesh.center_mass)
+    return MassProperties(volume, center, inertia, tuple(float(wxyz[i]) for i in (1, 2, 3, 0)))  # type: ignore[arg-type]

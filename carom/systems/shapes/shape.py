@@ -1,0 +1,120 @@
+"""Shapes: the declaration every shape makes in a file of its own, and their registry."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from carom.ecs.column import Floats, Integers
+from carom.ecs.components.collider import SHAPE_PARAMETERS
+from carom.ecs.errors import DeclarationError
+
+
+class Bounds(NamedTuple):
+    """A shape lies within a box of half extents ``half`` about ``center`` (m, shape frame), widened by ``radius``."""
+
+    center: tuple[float, float, float]
+    half: tuple[float, float, float]
+    radius: float
+
+
+class Surface(NamedTuple):
+    """Triangles to draw: vertices (v, 3) in m in the shape frame, faces (f, 3), ``smooth`` where normals blend."""
+
+    vertices: Floats
+    faces: Integers
+    smooth: bool
+
+
+class MassProperties(NamedTuple):
+    """Of a solid of density 1: volume in m3, centre in m, principal moments over mass in m2, axes as quaternion xyzw."""
+
+    volume: float
+    center: tuple[float, float, float]
+    inertia: tuple[float, float, float]
+    axes: tuple[float, float, float, float]
+
+
+def parameter(*, unit: str, doc: str, default: Any = dataclasses.MISSING, above: float | None = None) -> Any:
+    """Declare a parameter of a shape or force: its unit, meaning and, if any, the value it must lie above."""
+    return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, "above": above})
+
+
+SHAPES: dict[str, type[Shape]] = {}
+BY_NUMBER: dict[int, type[Shape]] = {}
+NO_AXES = (0.0, 0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Shape(ABC):
+    """A geometry, centred, with its axis along local y; parameters are fields declared by `parameter`."""
+
+    key: ClassVar[str] = ""
+    number: ClassVar[int] = -1
+    solid: ClassVar[bool] = True  # False: has no volume, so a dynamic body needs a stated mass and does not rotate
+    static: ClassVar[bool] = False  # True: only an entity without a body may have it
+    along_z: ClassVar[bool] = False  # True: FCL lays this shape along z, carom along y
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if cls.key:
+            SHAPES[cls.key] = cls
+            BY_NUMBER[cls.number] = cls
+
+    def __post_init__(self) -> None:
+        """Refuse parameters outside their bounds; raise DeclarationError naming all of them."""
+        faults = self.faults()
+        if faults:
+            raise DeclarationError("; ".join(f"{self.key}.{name}: {fault}" for name, fault in faults))
+
+    def faults(self) -> list[tuple[str, str]]:
+        """Return (parameter, what is wrong) for every parameter out of bounds."""
+        found = []
+        for field in dataclasses.fields(self):
+            above = field.metadata.get("above")
+            for value in np.atleast_1d(np.asarray(getattr(self, field.name))) if above is not None else ():
+                if not (math.isfinite(value) and value > above):
+                    found.append((field.name, f"must be finite and above {above:g} {field.metadata['unit']}, received {value:g}"))
+                    break
+        return found
+
+    def packed(self) -> tuple[float, ...]:
+        """Return the parameters as the numbers of the size column, padded with zeros."""
+        flat = [float(v) for f in dataclasses.fields(self) for v in np.atleast_1d(getattr(self, f.name))]
+        return (*flat, *[0.0] * (SHAPE_PARAMETERS - len(flat)))
+
+    @classmethod
+    def from_size(cls, size: Floats, geometry: Any = None) -> Shape:
+        """Return the shape whose size column and geometry are these; the inverse of `packed`."""
+        values: dict[str, Any] = {}
+        at = 0
+        for field in dataclasses.fields(cls):
+            width = field.metadata.get("width", 1)
+            values[field.name] = float(size[at]) if width == 1 else tuple(float(v) for v in size[at : at + width])
+            at += width
+        return cls(**values)
+
+    @abstractmethod
+    def mass_properties(self) -> MassProperties:
+        """Return volume, centre and moments in closed form, or by trimesh for meshes."""
+
+    @abstractmethod
+    def bounds(self) -> Bounds:
+        """Return the bounds in the shape frame."""
+
+    @abstractmethod
+    def fcl_geometry(self, margin: float = 0.0) -> Any:
+        """Return the FCL geometry, grown by ``margin`` (m) where growing it is exact."""
+
+    @abstractmethod
+    def surface(self) -> Surface:
+        """Return the triangles to draw."""
+
+    def corners(self) -> tuple[Floats, float]:
+        """Return points (n, 3) and a radius such that a half space touches the shape first in one of those balls."""
+        return np.zeros((0, 3)), 0.0

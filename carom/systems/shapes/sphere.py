@@ -1,0 +1,47 @@
+"""Sphere."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from carom.ecs.column import Floats
+from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
+
+
+@dataclass(frozen=True)
+class Sphere(Shape):
+    """A ball."""
+
+    key: ClassVar[str] = "sphere"
+    number: ClassVar[int] = 0
+    radius: float = parameter(unit="m", doc="radius", above=0.0)
+
+    def mass_properties(self) -> MassProperties:
+        """Return 4/3 pi r^3 and 2/5 r^2."""
+        moment = 0.4 * self.radius * self.radius
+        return MassProperties(4.0 / 3.0 * math.pi * self.radius**3, (0.0, 0.0, 0.0), (moment,) * 3, NO_AXES)
+
+    def bounds(self) -> Bounds:
+        """Return a point widened by the radius."""
+        return Bounds((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), self.radius)
+
+    def fcl_geometry(self, margin: float = 0.0) -> Any:
+        """Return an FCL sphere; growing it is exact."""
+        import fcl
+
+        return fcl.Sphere(self.radius + margin)
+
+    def surface(self) -> Surface:
+        """Return an icosphere of 1,280 triangles."""
+        from trimesh.creation import icosphere
+
+        mesh = icosphere(subdivisions=3, radius=self.radius)
+        return Surface(np.asarray(mesh.vertices), np.asarray(mesh.faces), True)
+
+    def corners(self) -> tuple[Floats, float]:
+        """Return the centre with the radius."""
+        return np.zeros((1, 3)), self.radius

@@ -1,0 +1,118 @@
+"""Simulation: a world, the step and the clock."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import numpy.typing as npt
+
+from carom.ecs import Entity, Schedule, System, World, system
+from carom.ecs.commands import Commands
+from carom.ecs.components.force import Force
+from carom.ecs.components.motion import Motion
+from carom.ecs.components.rigid_body import RigidBody
+from carom.ecs.components.transform import Transform
+from carom.ecs.column import Floats, Integers
+from carom.systems.assembly import Materials, Words, add_entity
+from carom.systems.forces import LAWS
+from carom.systems.forces.law import Forces, Law
+from carom.systems.detection.answered import Answered
+from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.layers import Layers
+from carom.systems.observer import Observer
+from carom.systems.progress import Progress
+from carom.systems.settings import Random, Settings
+from carom.systems.shapes.geometry import Geometries
+from carom.systems.step import STEP
+
+CATCH_UP_LIMIT = 8  # steps per call of advance: beyond it a slow machine would fall behind ever further
+CHECK_VARIABLE = "CAROM_CHECK"
+
+
+class Simulation:
+    """A world that steps: ``Simulation(dt=1/240)``; every option of `Settings` is a keyword.
+
+    ``checked`` enforces what systems declare to touch (default: the environment variable CAROM_CHECK).
+    """
+
+    def __init__(self, *, checked: bool | None = None, **settings: Any) -> None:
+        self.settings = Settings(**settings)
+        self.world = World()
+        self.schedule: Schedule = STEP
+        self.checked = bool(os.environ.get(CHECK_VARIABLE)) if checked is None else checked
+        self.observers: list[Observer] = []
+        self._owed = 0.0
+        made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), Forces(), Commands())
+        for resource in (self.settings, *made, Progress(), Answered(), FclObjects()):
+            self.world.add(resource)
+
+    # Building: the words are those of world files, numbers are SI ------------------------------------------------------
+    def add(self, **words: Any) -> Entity:
+        """Add one entity: ``add(name="ball", collider={"sphere": {"radius": 0.1}}, body={})``; see `add_entity`."""
+        return add_entity(self.world, **words)
+
+    def material(self, name: str, **words: Any) -> None:
+        """Name a material for later `add` calls."""
+        self.world[Materials].named[name] = words
+
+    def layers(self, accepts: dict[str, Iterable[str] | None]) -> None:
+        """Define layers, each with the layers it collides with (None: all)."""
+        self.world[Layers].define(accepts)
+
+    def force(self, law: str | Law, entities: Iterable[int] | None = None, **words: Any) -> None:
+        """Let a force law act, on these entities or on every body: ``force("wind", velocity=(5, 0, 0))``."""
+        made = LAWS[law](**words) if isinstance(law, str) else law
+        self.world[Forces].add(made, None if entities is None else tuple(entities))
+
+    def force_function(self, function: Callable[[World, Integers], npt.ArrayLike], name: str | None = None) -> System:
+        """Let a Python function ``(world, rows) -> forces (n, 3) in N`` act on every body in every substep."""
+
+        def push(world: World, dt: float) -> None:
+            rows = world.row_numbers(RigidBody, Motion)
+            force: Floats = world[Force].force
+            force[rows] += function(world, rows)
+
+        push.__name__ = name or getattr(function, "__name__", "force_function")
+        push.__doc__ = function.__doc__
+        made = system(reads=(Transform, Motion, RigidBody), adds=(Force,))(push)
+        self.schedule = self.schedule.with_system(made, after="apply_quadratic_drag")
+        return made
+
+    # Running ------------------------------------------------------------------------------------------------------------
+    @property
+    def frame(self) -> int:
+        """Steps taken."""
+        return self.world.frame
+
+    @property
+    def time(self) -> float:
+        """Simulated seconds."""
+        return self.world.frame * self.settings.dt
+
+    def step(self, count: int = 1, *, after: Callable[[System], None] | None = None) -> None:
+        """Take ``count`` steps of dt; ``after`` is told of every system run."""
+        for _ in range(count):
+            self.world.frame += 1
+            self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=after)
+            for observer in self.observers:
+                observer.observe(self)
+
+    def advance(self, seconds: float) -> float:
+        """Take as many steps as ``seconds`` of real time ask for; return how far (0 to 1) time is into the next one.
+
+        What a frame leaves over is kept for the next; more than 8 steps are never taken at once, the rest is dropped.
+        """
+        self._owed += seconds
+        steps = math.floor(self._owed / self.settings.dt)
+        self.step(min(steps, CATCH_UP_LIMIT))
+        self._owed -= steps * self.settings.dt
+        return self._owed / self.settings.dt
+
+    def __getitem__(self, key: Any) -> Any:
+        """Return ``world[key]``; a text finds an entity by name."""
+        return self.world[self.world.find(key) if isinstance(key, str) else key]
+
+

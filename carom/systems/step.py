@@ -1,0 +1,56 @@
+"""The frame, as one literal: order of writing is order of execution. ``carom explain`` prints it."""
+
+from __future__ import annotations
+
+from carom.ecs import Phase, Schedule, World
+from carom.systems.detection.bounds import place_colliders
+from carom.systems.detection.contacts import find_contacts
+from carom.systems.finish import check_finite, clear_inputs
+from carom.systems.forces.constant_push import apply_constant_push
+from carom.systems.forces.drag import apply_linear_drag, apply_quadratic_drag
+from carom.systems.forces.gravity import apply_gravity
+from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
+from carom.systems.forces.wind import apply_wind
+from carom.systems.integration import clear_forces, kick, predict, sum_forces
+from carom.systems.progress import begin_step, begin_substep
+from carom.systems.response import drift, hold, settle, sort_out_contacts
+from carom.systems.settings import Settings
+
+
+def substeps(world: World) -> int:
+    """Return how many substeps a step has."""
+    return world[Settings].substeps
+
+
+STEP = Schedule(
+    Phase(
+        "detect",
+        begin_step,
+        place_colliders,  # poses and bounds of all colliders, widened by what they may travel
+        find_contacts,  # the contact table, and who entered a sensor
+    ),
+    Phase(
+        "substep",
+        begin_substep,
+        predict,  # bodies at the middle of the substep (verlet)
+        clear_forces,
+        apply_wind,  # before drags, which are relative to the medium
+        apply_gravity,
+        apply_mutual_gravitation,
+        apply_linear_drag,
+        apply_quadratic_drag,
+        apply_constant_push,  # last: leaving its stroke depends on the forces before
+        sum_forces,  # accelerations; bodies back at the start of the substep
+        sort_out_contacts,  # which pairs rest
+        kick,  # each body's arc
+        hold,  # velocities that respect resting contacts
+        drift,  # the flight along the arcs, with impacts at their exact times
+        settle,  # overlap pushed out, origins placed
+        repeat=substeps,
+    ),
+    Phase(
+        "finish",
+        clear_inputs,
+        check_finite,
+    ),
+)
