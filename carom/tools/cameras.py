@@ -1,0 +1,91 @@
+"""Cameras: where a picture is taken from.
+
+World frame right-handed, +y up by default; a camera looks along its own -z with +x to the right of the picture.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.ecs.column import Floats
+from carom.ecs.errors import CaromError
+
+Vector = tuple[float, float, float]
+NEAR_PER_DISTANCE = 1.0 / 50.0  # with 24 bits of depth this resolves 3e-6 of the distance to the target
+FAR_PER_DISTANCE = 100.0
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A perspective camera.
+
+    ``position``, ``target`` and ``up`` are in the world frame (m, m, 1); ``fov`` is the vertical field of view (rad);
+    only what lies between ``near`` and ``far`` (m along the line of sight) is drawn, by default 1/50 and 100 times the
+    distance to the target.
+    """
+
+    position: Vector
+    target: Vector = (0.0, 0.0, 0.0)
+    up: Vector = (0.0, 1.0, 0.0)
+    fov: float = math.radians(45.0)
+    near: float | None = None
+    far: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse a camera that sees nothing; raise CaromError."""
+        if not all(map(math.isfinite, (*self.position, *self.target, *self.up))) or self.distance == 0.0:
+            raise CaromError(
+                f"camera: position and target must be finite and differ, received {self.position} and {self.target}"
+            )
+        if not 0.0 < self.fov < math.pi:
+            raise CaromError(f"camera: fov must lie between 0 and 180 deg, received {math.degrees(self.fov):g} deg")
+        if not 0.0 < self.planes[0] < self.planes[1]:
+            raise CaromError(
+                f"camera: near must be above 0 m and below far, received {self.planes[0]:g} m and {self.planes[1]:g} m"
+            )
+
+    @property
+    def distance(self) -> float:
+        """Return how far the target is from the camera (m)."""
+        return math.dist(self.position, self.target)
+
+    @property
+    def planes(self) -> tuple[float, float]:
+        """Return the distances of the near and the far plane (m)."""
+        near = self.distance * NEAR_PER_DISTANCE if self.near is None else self.near
+        far = self.distance * FAR_PER_DISTANCE if self.far is None else self.far
+        return near, far
+
+    def pose(self) -> Floats:
+        """Return ``world_from_camera`` (4, 4)."""
+        return look_at(self.position, self.target, self.up)
+
+    def projection(self, aspect: float) -> Floats:
+        """Return the OpenGL projection (4, 4) for pictures of width over height ``aspect``."""
+        near, far = self.planes
+        scale = 1.0 / math.tan(self.fov / 2.0)
+        matrix = np.zeros((4, 4))
+        matrix[0, 0], matrix[1, 1] = scale / aspect, scale
+        matrix[2, 2], matrix[2, 3] = (far + near) / (near - far), 2.0 * far * near / (near - far)
+        matrix[3, 2] = -1.0
+        return matrix
+
+
+def look_at(position: Vector, target: Vector, up: Vector) -> Floats:
+    """Return the pose (4, 4) at ``position`` whose -z points at ``target`` and whose y is as near to ``up`` as can be.
+
+    An ``up`` along the line of sight says nothing; then the next axis of the world takes its place.
+    """
+    pose = np.eye(4)
+    pose[:3, 3] = position
+    back = np.subtract(position, target)
+    back = back / np.linalg.norm(back)
+    right = np.cross(up, back)
+    if np.linalg.norm(right) < 1e-6 * np.linalg.norm(up):  # below this the direction would be rounding
+        right = np.cross(np.roll(up, 1), back)
+    right = right / np.linalg.norm(right)
+    pose[:3, 0], pose[:3, 1], pose[:3, 2] = right, np.cross(back, right), back
+    return pose

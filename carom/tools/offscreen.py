@@ -1,0 +1,101 @@
+"""Offscreen: which OpenGL draws on this machine, and the context it draws in.
+
+OSMesa renders on the CPU into memory. Where its library is not to be had (later Mesa has none), EGL without a surface
+renders on the same machine. PyOpenGL fixes its platform at the first ``import OpenGL``, so `load` comes before it.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import sys
+import warnings
+from typing import Any
+
+from carom.ecs.errors import CaromError
+
+PLATFORM_VARIABLE = "PYOPENGL_PLATFORM"
+LIBRARIES = {
+    "osmesa": (("libOSMesa.so.8",), ("libOSMesa.so.6",), ("libOSMesa.so",)),
+    "egl": (("libEGL.so.1", "libEGL_mesa.so.0"), ("libEGL.so.1",)),
+}
+
+
+class GraphicsError(CaromError):
+    """No picture can be drawn on this machine as it is set up."""
+
+
+def loads(libraries: tuple[str, ...]) -> bool:
+    """Return whether the dynamic loader finds every one of ``libraries``."""
+    try:
+        for library in libraries:
+            ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
+
+
+def backend() -> str:
+    """Return ``osmesa`` or ``egl``: the one the user chose by PYOPENGL_PLATFORM, else the first whose library loads.
+
+    Raises GraphicsError, which says how to mend it, when there is neither.
+    """
+    chosen = os.environ.get(PLATFORM_VARIABLE)
+    if chosen in LIBRARIES:
+        return chosen
+    for name, alternatives in LIBRARIES.items():
+        if any(loads(libraries) for libraries in alternatives):
+            return name
+    raise GraphicsError(
+        "pictures need software OpenGL, and neither libOSMesa.so nor libEGL.so.1 was found; accepted: either of them; "
+        "run: sudo apt-get install -y libosmesa6 (or, where that package does not exist, libegl1 libgl1-mesa-dri); "
+        "simulating, checking and recording work without it"
+    )
+
+
+def load() -> Any:
+    """Import pyrender on the platform of `backend` and return it.
+
+    Raises GraphicsError when there is no OpenGL, or when other code of this process imported it for a screen already.
+    """
+    name = backend()
+    if "OpenGL" in sys.modules and os.environ.get(PLATFORM_VARIABLE) != name:
+        raise GraphicsError(
+            "OpenGL was imported before carom could choose how to draw without a screen; "
+            f"set the environment variable {PLATFORM_VARIABLE}={name} before Python starts, or import carom's "
+            "renderer first"
+        )
+    os.environ[PLATFORM_VARIABLE] = name
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # pyrender's dependencies use what their own dependencies will drop one day
+        import pyrender
+    return pyrender
+
+
+def context(width: int, height: int) -> Any:
+    """Return a pyrender platform of ``width`` by ``height`` pixels whose OpenGL context is current."""
+    load()
+    if backend() == "osmesa":
+        from carom.tools.osmesa import OSMesa
+
+        platform = OSMesa(width, height)
+    else:
+        from pyrender.platforms import egl
+
+        platform = egl.EGLPlatform(width, height)
+    try:
+        platform.init_context()
+    except Exception as fault:
+        raise GraphicsError(
+            f"the {backend()} library was found but gives no OpenGL 3.3 context: {fault}; "
+            "run: sudo apt-get install --reinstall -y libosmesa6 (or libegl1 libgl1-mesa-dri)"
+        ) from fault
+    platform.make_current()
+    return platform
+
+
+def driver() -> str:
+    """Return what draws in the current context, such as ``osmesa: llvmpipe (LLVM 15.0.6, 256 bits)``."""
+    from OpenGL import GL
+
+    return f"{backend()}: {GL.glGetString(GL.GL_RENDERER).decode()}"

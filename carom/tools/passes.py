@@ -1,0 +1,117 @@
+"""Passes: pyrender's renderer with carom's shaders, sun, sky and order of drawing.
+
+Import this only after `carom.tools.offscreen.load`.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pyrender
+from OpenGL import GL
+
+from carom.ecs.column import Floats
+from carom.tools.cameras import Camera, look_at
+
+SUN = (-0.75, 1.3, 0.35)  # towards the sun: left of, above and behind the camera's target, seen from it
+SHADOW_TEXELS = 1024  # along each edge of the shadow map
+SHADOW_REACH = 1.5  # half edge of the shadowed cube over half the width of the picture at the target
+SQUARES = 4.0  # squares of a floor between camera and target, rounded to 1, 2 or 5 times a power of ten
+
+
+class Passes(pyrender.Renderer):  # type: ignore[misc]
+    """Draws nodes as a camera sees them; `see` sets both before each picture.
+
+    pyrender sorts nodes by distance and, within one distance, by chance; here they are drawn in the order given, so that
+    pictures of one scene are the same to the last bit.
+    """
+
+    def __init__(self, width: int, height: int) -> None:
+        super().__init__(width, height)
+        self._program_cache.shader_dir = str(Path(__file__).parent / "shaders")
+        self._aspect = width / height
+        self._nodes: list[Any] = []
+        self.see([], Camera((0.0, 0.0, 1.0)))
+
+    def see(self, nodes: list[Any], camera: Camera) -> None:
+        """Take what the next picture shows, and from where."""
+        self._nodes = nodes
+        pose = camera.pose()
+        self._camera_matrices = np.linalg.inv(pose), camera.projection(self._aspect)
+        up = np.array(camera.up) / np.linalg.norm(camera.up)
+        reach = SHADOW_REACH * camera.distance * math.tan(camera.fov / 2.0) * max(self._aspect, 1.0)
+        sun = sun_pose(camera, pose, 4.0 * reach)
+        boxed = np.diag([1.0 / reach, 1.0 / reach, -1.0 / (4.0 * reach), 1.0])
+        boxed[2, 3] = -1.0
+        self._light_matrices = np.linalg.inv(sun), boxed
+        self._uniforms = {
+            "up": up,
+            "focus": camera.distance,
+            "square": round_number(camera.distance / SQUARES),
+            "sun": sun[:3, 2],
+            "texel": 2.0 * reach / SHADOW_TEXELS,
+            "light_matrix": boxed @ self._light_matrices[0],
+        }
+
+    def _sorted_mesh_nodes(self, scene: Any) -> list[Any]:
+        return self._nodes
+
+    def _get_camera_matrices(self, scene: Any) -> tuple[Floats, Floats]:
+        return self._camera_matrices
+
+    def _get_light_cam_matrices(self, scene: Any, light_node: Any, flags: int) -> tuple[Floats, Floats]:
+        return self._light_matrices
+
+    def _configure_shadow_mapping_viewport(self, light: Any, flags: int) -> None:
+        super()._configure_shadow_mapping_viewport(light, flags)
+        GL.glViewport(0, 0, SHADOW_TEXELS, SHADOW_TEXELS)
+
+    def _bind_lighting(self, scene: Any, program: Any, node: Any, flags: int) -> None:
+        for name, value in self._uniforms.items():
+            program.set_uniform(name, value)
+        (light,) = scene.lights
+        self._bind_texture(light.shadow_texture, "shadow_map", program)
+        GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_COMPARE_MODE, GL.GL_COMPARE_REF_TO_TEXTURE)
+        GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_MIN_FILTER, GL.GL_LINEAR)
+
+    def _read_main_framebuffer(
+        self, scene: Any, flags: int
+    ) -> npt.NDArray[Any] | tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+        """Return colours (h, w, 3), or for a pass of ids bytes (h, w, 4) and raw depth (h, w); first row on top."""
+        width, height = self._main_fb_dims
+        area = (0, 0, width, height)
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._main_fb_ms)
+        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, self._main_fb)
+        GL.glBlitFramebuffer(*area, *area, GL.GL_COLOR_BUFFER_BIT, GL.GL_NEAREST)
+        identify = bool(flags & pyrender.RenderFlags.SEG)
+        if identify:
+            GL.glBlitFramebuffer(*area, *area, GL.GL_DEPTH_BUFFER_BIT, GL.GL_NEAREST)
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self._main_fb)
+        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)  # rows of a width that is no multiple of 4 are not padded
+        channels = GL.GL_RGBA if identify else GL.GL_RGB
+        pixels = np.frombuffer(GL.glReadPixels(*area, channels, GL.GL_UNSIGNED_BYTE), np.uint8)
+        colors = np.ascontiguousarray(pixels.reshape(height, width, -1)[::-1])
+        if not identify:
+            return colors
+        depth = np.frombuffer(GL.glReadPixels(*area, GL.GL_DEPTH_COMPONENT, GL.GL_FLOAT), np.float32)
+        return colors, np.ascontiguousarray(depth.reshape(height, width)[::-1])
+
+
+def sun_pose(camera: Camera, pose: Floats, distance: float) -> Floats:
+    """Return the pose (4, 4) of the sun at ``distance`` (m) from the camera's target, SUN being relative to its view."""
+    up = np.array(camera.up) / np.linalg.norm(camera.up)
+    right = pose[:3, 0]
+    direction = np.column_stack([right, up, np.cross(right, up)]) @ SUN
+    target = np.array(camera.target)
+    away = target + distance / float(np.linalg.norm(direction)) * direction
+    return look_at(tuple(away), tuple(target), tuple(right))
+
+
+def round_number(value: float) -> float:
+    """Return the largest of 1, 2 and 5 times a power of ten that is not above ``value``."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return max(factor * power for factor in (1.0, 2.0, 5.0) if factor * power <= value * (1.0 + 1e-9))

@@ -1,0 +1,90 @@
+#version 330 core
+// Light: a sun with soft shadows, a hemisphere of sky and ground, and their reflection in smooth surfaces.
+// A mesh without normals is the sky itself; one with texture coordinates is a floor of squares that ends in haze.
+
+in vec3 frag_position;
+in vec4 frag_color;
+out vec4 color;
+
+uniform vec3 cam_pos;
+uniform vec3 up;
+uniform float focus;  // distance from the camera to its target, m
+
+vec3 sky(vec3 direction)
+{
+    float height = dot(direction, up);
+    vec3 haze = vec3(0.66, 0.71, 0.77);
+    vec3 zenith = vec3(0.13, 0.22, 0.38);
+    return mix(haze, zenith, smoothstep(-0.05, 0.75, height));
+}
+
+// Colours are mixed linear and shown with gamma 2, which is near sRGB and costs a square root.
+vec3 shown(vec3 linear) { return sqrt(min(linear, 1.0)); }
+
+#ifdef NORMAL_LOC
+in vec3 frag_normal;
+#ifdef TEXCOORD_0_LOC
+in vec2 floor_position;
+uniform float square;  // edge of a square, m
+
+// Returns the share of dark squares under the pixel, integrated over it, so that far squares turn even.
+float dark(vec2 at)
+{
+    vec2 width = fwidth(at) + 0.001;
+    vec2 part = 2.0 * (abs(fract((at - 0.5 * width) * 0.5) - 0.5) - abs(fract((at + 0.5 * width) * 0.5) - 0.5)) / width;
+    return 0.5 - 0.5 * part.x * part.y;
+}
+#endif
+
+struct Material { float roughness_factor; };
+uniform Material material;
+uniform vec3 sun;  // direction towards it
+uniform mat4 light_matrix;
+uniform float texel;  // edge of a texel of the shadow map, m
+uniform sampler2DShadow shadow_map;
+
+// Returns the share of the sun that arrives here, from four filtered comparisons.
+float sunlit(vec3 at)
+{
+    vec3 place = (light_matrix * vec4(at, 1.0)).xyz * 0.5 + 0.5;
+    if (any(lessThan(place, vec3(0.0))) || any(greaterThan(place, vec3(1.0)))) return 1.0;
+    float reach = 1.25 / 1024.0;
+    return 0.25 * (texture(shadow_map, place + vec3(-reach, -0.4 * reach, 0.0))
+                 + texture(shadow_map, place + vec3(0.4 * reach, -reach, 0.0))
+                 + texture(shadow_map, place + vec3(reach, 0.4 * reach, 0.0))
+                 + texture(shadow_map, place + vec3(-0.4 * reach, reach, 0.0)));
+}
+#endif
+
+void main()
+{
+    vec3 ray = frag_position - cam_pos;
+    float distance = length(ray);
+    vec3 view = ray / distance;
+#ifdef NORMAL_LOC
+    vec3 albedo = frag_color.rgb * frag_color.rgb;
+#ifdef TEXCOORD_0_LOC
+    albedo *= 1.0 - 0.22 * dark(floor_position / square);
+#endif
+    vec3 normal = normalize(frag_normal);
+    float facing = dot(normal, sun);
+    float sunshine = facing > 0.0 ? facing * sunlit(frag_position + normal * texel * 1.5) : 0.0;
+    vec3 ambient = mix(vec3(0.14, 0.13, 0.12), vec3(0.34, 0.38, 0.45), 0.5 + 0.5 * dot(normal, up));
+    vec3 light = albedo * (ambient + vec3(1.12, 1.04, 0.92) * sunshine);
+
+    float gloss = 1.0 - material.roughness_factor;
+    vec3 mirrored = reflect(view, normal);
+    float grazing = 1.0 - max(-dot(normal, view), 0.0);
+    float grazing_squared = grazing * grazing;
+    float mirror = gloss * (0.03 + 0.35 * grazing_squared * grazing_squared * grazing);
+    light = mix(light, sky(mirrored), mirror);
+    float glint = max(dot(mirrored, sun), 0.0);
+    light += gloss * step(0.001, sunshine) * (0.9 * pow(glint, 220.0) + 0.12 * pow(glint, 24.0));
+#ifdef TEXCOORD_0_LOC
+    light = mix(light, sky(view), smoothstep(3.0, 14.0, distance / focus));
+#endif
+    color = vec4(shown(light), frag_color.a);
+#else
+    color = vec4(shown(sky(view)), 1.0);
+#endif
+}
