@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from bisect import bisect_right
 from collections import defaultdict
 from dataclasses import dataclass, field
@@ -57,7 +58,7 @@ class Series:
 class Recording:
     """What a recording holds, by frame and entity.
 
-    Raises RuntimeError when Rerun cannot read the file; one whose writer was killed is read to its last whole block.
+    Raises RuntimeError when Rerun cannot read the file; warns of one whose writer was killed, and reads what is there.
     """
 
     def __init__(self, path: str | Path) -> None:
@@ -116,10 +117,8 @@ class Recording:
         return [SavedState(frame, state[0], text[0]) for frame, state, text in rows]
 
     def _read(self, path: Path) -> None:
-        from rerun.chunk import RrdReader
-
         lines: list[tuple[int, Line]] = []
-        for chunk in RrdReader(str(path)).stream().to_chunks():
+        for chunk in _chunks(path):
             batch = chunk.to_record_batch()
             columns = {name: batch.column(name) for name in batch.schema.names}
             components = [name for name in columns if name not in (FRAME, TIME, ROW_ID)]
@@ -147,6 +146,20 @@ class Recording:
             order = np.argsort(np.array(series.frames), kind="stable")
             series.frames = [series.frames[i] for i in order]
             series.values = [series.values[i] for i in order]
+
+
+def _chunks(path: Path) -> list[Any]:
+    from rerun.chunk import RrdReader
+
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        chunks: list[Any] = RrdReader(str(path)).stream().to_chunks()
+    for warning in told:
+        text = str(warning.message)
+        if "footer" in text:  # Rerun takes an unfinished file for one of an old format
+            text = f"{path} was not finished: the run that wrote it was killed; its last second may be missing"
+        warnings.warn(text, stacklevel=4)
+    return chunks
 
 
 def _array(value: Any) -> Any:

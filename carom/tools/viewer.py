@@ -9,7 +9,7 @@ from carom.ecs.errors import CaromError
 
 
 def viewer_binary() -> Path:
-    """Return the viewer itself: the ``rerun`` script starts it as a child, which a signal to the script leaves behind."""
+    """Return the viewer itself: the ``rerun`` script starts it as a child, which outlives a signal to the script."""
     package = find_spec("rerun_cli")
     for folder in package.submodule_search_locations or () if package else ():
         for name in ("rerun", "rerun.exe"):

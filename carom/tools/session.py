@@ -1,0 +1,129 @@
+"""Session: a world run to its end under observation, and the summary of it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from carom.ecs import RigidBody
+from carom.ecs.relations.contact import Contact
+from carom.systems.detection.answered import Answered
+from carom.systems.energy import total_energy
+from carom.systems.observer import Observer
+from carom.systems.simulation import Simulation
+from carom.tools.interrupt import deferred_interrupt
+from carom.worlds.builder import LoadedWorld
+
+
+@dataclass
+class Watch:
+    """The observer behind the summary: the deepest overlap so far (m)."""
+
+    deepest: float = 0.0
+
+    def begin(self, simulation: Simulation) -> None:
+        """See the world before its first step."""
+
+    def observe(self, simulation: Simulation) -> None:
+        """Keep the deepest overlap."""
+        contact = simulation.world[Contact]
+        if contact.count:
+            self.deepest = max(self.deepest, float(np.max(contact.depth[: contact.count])))
+
+    def end(self, simulation: Simulation) -> None:
+        """Have nothing to finish."""
+
+
+@dataclass
+class Summary:
+    """What a run was: counts, seconds, energies in J, the deepest overlap in m, expectations."""
+
+    world: str
+    frames: int = 0
+    bodies: int = 0
+    simulated_seconds: float = 0.0
+    real_seconds: float = 0.0
+    energy_before: float = 0.0
+    energy_after: float = 0.0
+    deepest_overlap: float = 0.0
+    pairs_by_fcl: int = 0
+    pairs_by_kernels: int = 0
+    impacts_cut: int = 0
+    expectations: int = 0
+    failures: list[str] = field(default_factory=list)
+    outputs: dict[str, str] = field(default_factory=dict)
+
+    def text(self) -> str:
+        """Return the summary for people."""
+        speed = self.simulated_seconds / self.real_seconds if self.real_seconds else 0.0
+        held = self.expectations - len(self.failures)
+        lines = [
+            f"{self.world}: {self.frames} frames, {self.bodies} bodies",
+            f"  time          {self.simulated_seconds:.2f} s simulated in {self.real_seconds:.2f} s ({speed:.1f} x real time)",
+            f"  energy        {self.energy_before:.6g} J before, {self.energy_after:.6g} J after",
+            f"  overlap       {1e3 * self.deepest_overlap:.3g} mm at the deepest",
+            f"  pairs         {self.pairs_by_fcl} answered by FCL, {self.pairs_by_kernels} by kernels",
+            f"  expectations  {held} of {self.expectations} held",
+            *(f"    failed: {failure}" for failure in self.failures),
+        ]
+        if self.impacts_cut:
+            lines.append(f"  warning       {self.impacts_cut} impacts beyond the limit of a step were put off to the next")
+        lines += [f"  {kind:<13} {path}" for kind, path in self.outputs.items()]
+        if "recording" in self.outputs:
+            lines.append(f"open it with: carom view {self.outputs['recording']}")
+        return "\n".join(lines)
+
+
+def run(loaded: LoadedWorld, observers: Sequence[Observer] = (), *, frames: int | None = None) -> Summary:
+    """Run a world to its end, or for ``frames`` steps, with a progress bar when stderr is a terminal.
+
+    Observers are begun in order, and all ended in whatever way the run ends; Ctrl-C ends it between two steps.
+    """
+    simulation = loaded.simulation
+    watch = Watch()
+    summary = Summary(loaded.name, bodies=simulation.world.count(RigidBody), expectations=len(loaded.expectations))
+    summary.energy_before = total_energy(simulation.world)
+    watching: list[Observer] = [watch, *loaded.expectations, *observers]
+    begun: list[Observer] = []
+    start = perf_counter()
+    try:
+        with deferred_interrupt() as check, _bar(frames or loaded.run.frames) as bar:
+            for observer in watching:
+                begun.append(observer)
+                observer.begin(simulation)
+            simulation.observers = watching
+            while not (simulation.frame >= frames if frames is not None else loaded.run.finished(simulation)):
+                simulation.step()
+                bar.update()
+                check()
+    finally:
+        for observer in reversed(begun):
+            observer.end(simulation)
+    summary.frames, summary.simulated_seconds = simulation.frame, simulation.time
+    summary.real_seconds = perf_counter() - start
+    summary.energy_after = total_energy(simulation.world)
+    summary.deepest_overlap = watch.deepest
+    answered = simulation.world[Answered]
+    summary.pairs_by_fcl, summary.pairs_by_kernels = answered.fcl, answered.kernels
+    summary.impacts_cut = answered.impacts_cut
+    return summary
+
+
+def _bar(frames: int) -> Any:
+    from tqdm import tqdm
+
+    return tqdm(total=frames, unit="frame", leave=False, disable=not sys.stderr.isatty())
+
+
+def relative(path: Path) -> str:
+    """Return a path as short as it can be said from here."""
+    try:
+        return str(path.resolve().relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)

@@ -1,0 +1,287 @@
+"""A recording holds what was simulated: poses exactly in float32, contacts, identities, and all but the last second."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from carom.ecs import Entity, NonFiniteError, Transform, Visual, restore_snapshot, state_hash
+from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.impact import Impact
+from carom.systems.simulation import Simulation
+from carom.tools.recorder import Recorder
+from carom.tools.recorder.snapshot_bytes import bytes_from_snapshot, snapshot_from_bytes
+from carom.tools.recording import Recording
+
+RED, BLUE, GREY = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9), (0.4, 0.4, 0.4)
+
+
+@pytest.fixture(autouse=True)
+def strict_rerun() -> Any:
+    """Let Rerun raise on bad data instead of warning."""
+    import rerun
+
+    rerun.set_strict_mode(True)
+    yield
+    rerun.set_strict_mode(False)
+
+
+def falling_world() -> Simulation:
+    """Return balls of two colours, a capsule and a box with an offset shape above a floor."""
+    simulation = Simulation(dt=1 / 240)
+    simulation.add(name="floor", collider={"plane": {}}, material={"color": GREY})
+    for k in range(6):
+        color = RED if k % 2 else BLUE
+        ball(simulation, f"ball[{k}]", (0.3 * k, 0.3 + 0.1 * k, 0.0), color)
+    simulation.add(
+        name="capsule",
+        transform={"position": (0.0, 0.5, 1.0)},
+        motion={"angular": (1.0, 2.0, 3.0)},
+        collider={"capsule": {"radius": 0.05, "length": 0.2}},
+        body={},
+    )
+    simulation.add(
+        name="hammer",
+        transform={"position": (1.0, 0.5, 1.0), "rotation": (0.0, 0.0, 0.6, 0.8)},
+        collider={"box": {"size": (0.1, 0.2, 0.3)}, "position": (0.0, 0.4, 0.0)},
+        body={},
+    )
+    return simulation
+
+
+def ball(simulation: Simulation, name: str, position: tuple[float, float, float], color: Any = RED) -> Entity:
+    """Add a ball of 10 cm."""
+    return simulation.add(
+        name=name,
+        transform={"position": position},
+        collider={"sphere": {"radius": 0.05}},
+        body={},
+        material={"color": color, "restitution": 0.5},
+    )
+
+
+def poses(simulation: Simulation) -> dict[int, tuple[Any, Any]]:
+    """Return the pose of every visible entity as a recording must hold it."""
+    world = simulation.world
+    rows = world.row_numbers(Visual, Transform)
+    rows = rows[world[Visual].visible[rows]]
+    transform = world[Transform]
+    return {
+        int(entity): (transform.position[row].astype(np.float32), transform.rotation[row].astype(np.float32))
+        for entity, row in zip(world.entities(rows), rows, strict=True)
+    }
+
+
+def assert_same_poses(recording: Recording, frame: int, expected: dict[int, tuple[Any, Any]]) -> None:
+    """Compare one frame bit by bit."""
+    received = recording.poses(frame)
+    assert received.keys() == expected.keys()
+    for entity, (position, rotation) in expected.items():
+        assert np.array_equal(received[entity].position, position)
+        assert np.array_equal(received[entity].rotation, rotation)
+
+
+def record(simulation: Simulation, path: Path, frames: int, **options: Any) -> dict[int, dict[int, tuple[Any, Any]]]:
+    """Run with a recorder; return the poses of every step."""
+    recorder = Recorder(path, **options)
+    simulation.observers.append(recorder)
+    recorder.begin(simulation)
+    seen = {0: poses(simulation)}
+    try:
+        for _ in range(frames):
+            simulation.step()
+            seen[simulation.frame] = poses(simulation)
+    finally:
+        recorder.end(simulation)
+    return seen
+
+
+def test_every_recorded_pose_is_the_simulations_in_float32(tmp_path: Path) -> None:
+    seen = record(falling_world(), tmp_path / "run.rrd", 300)
+    recording = Recording(tmp_path / "run.rrd")
+    assert recording.frames == list(range(0, 301, 4))  # dt 1/240: every fourth step makes 60 frames a second
+    assert recording.times[240] == pytest.approx(1.0, abs=1e-9)
+    for frame in recording.frames:
+        assert_same_poses(recording, frame, seen[frame])
+
+
+def test_every_asks_for_other_frames(tmp_path: Path) -> None:
+    record(falling_world(), tmp_path / "run.rrd", 30, every=10)
+    assert Recording(tmp_path / "run.rrd").frames == [0, 10, 20, 30]
+
+
+def test_bodies_that_come_and_go_keep_their_identity(tmp_path: Path) -> None:
+    simulation = falling_world()
+    recorder = Recorder(tmp_path / "run.rrd", every=1)
+    simulation.observers.append(recorder)
+    recorder.begin(simulation)
+    seen = {0: poses(simulation)}
+    for frame in range(1, 61):
+        if frame == 10:
+            simulation.world.despawn(simulation.world.find("ball[2]"), simulation.world.find("capsule"))
+        if frame == 20:
+            ball(simulation, "late", (0.0, 2.0, 0.0), BLUE)  # takes the row of one that went, as another entity
+        if frame == 30:
+            simulation["late"].visual.color = (*RED, 1.0)
+        if frame == 40:
+            simulation["late"].visual.visible = False
+        simulation.step()
+        seen[frame] = poses(simulation)
+    recorder.end(simulation)
+    recording = Recording(tmp_path / "run.rrd")
+    for frame, expected in seen.items():
+        assert_same_poses(recording, frame, expected)
+    assert "late" in recording.names(25).values()
+    assert "capsule" in recording.names(5).values()
+
+
+def test_contacts_are_recorded_with_both_colliders_and_exact_numbers(tmp_path: Path) -> None:
+    simulation = falling_world()
+    recorder = Recorder(tmp_path / "run.rrd", every=1)
+    simulation.observers.append(recorder)
+    recorder.begin(simulation)
+    seen = {}
+    for _ in range(200):
+        simulation.step()
+        contact = simulation.world[Contact]
+        touching = (contact.depth[: contact.count] >= 0.0) | (contact.impulse[: contact.count] > 0.0)
+        columns = ("a", "b", "point", "normal", "depth", "impulse")
+        seen[simulation.frame] = {name: getattr(contact, name)[: contact.count][touching] for name in columns}
+    recorder.end(simulation)
+    recording = Recording(tmp_path / "run.rrd")
+    assert sum(len(rows["a"]) for rows in seen.values()) > 20
+    for frame, expected in seen.items():
+        received = recording.contacts(frame)
+        assert np.array_equal(received["point"], expected["point"].astype(np.float32))
+        for name in ("a", "b", "normal", "depth", "impulse"):
+            assert np.array_equal(received[name], expected[name]), (frame, name)
+
+
+def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) -> None:
+    simulation = Simulation(dt=1 / 240)
+    simulation.add(name="floor", collider={"plane": {}})
+    ball(simulation, "ball", (0.0, 0.3, 0.0))
+    struck: list[float] = []
+    recorder = Recorder(tmp_path / "run.rrd")
+    simulation.observers.append(recorder)
+    recorder.begin(simulation)
+    for _ in range(120):
+        simulation.step()
+        impact = simulation.world[Impact]
+        struck += list(impact.time[: impact.count])
+    recorder.end(simulation)
+    lines = Recording(tmp_path / "run.rrd").lines
+    assert len(struck) > 0
+    assert [line.time for line in lines] == pytest.approx(struck, abs=1e-9)
+    assert lines[0].text.startswith("floor and ball strike at 2.21 m/s, ")
+
+
+def test_plots_hold_energy_overlap_and_counts(tmp_path: Path) -> None:
+    from carom.systems.energy import total_energy
+
+    simulation = falling_world()
+    before = total_energy(simulation.world)
+    record(simulation, tmp_path / "run.rrd", 40)
+    recording = Recording(tmp_path / "run.rrd")
+    assert recording.plot("plots/energy/total")[0] == before
+    assert recording.plot("plots/energy/total")[40] == total_energy(simulation.world)
+    assert recording.plot("plots/counts/bodies")[40] == 8
+    assert recording.plot("plots/overlap/deepest_mm").keys() == set(recording.frames)
+
+
+def test_a_snapshot_in_the_recording_restores_the_run_bit_by_bit(tmp_path: Path) -> None:
+    simulation = falling_world()
+    record(simulation, tmp_path / "run.rrd", 300)
+    states = Recording(tmp_path / "run.rrd").saved_states()
+    assert [saved.frame for saved in states] == [0, 240]
+    again = falling_world()
+    restore_snapshot(again.world, snapshot_from_bytes(states[1].state, again.world))
+    assert state_hash(again.world) == states[1].hash
+    again.step(60)
+    assert state_hash(again.world) == state_hash(simulation.world)
+
+
+def test_equal_states_make_equal_snapshot_bytes() -> None:
+    from carom.ecs import take_snapshot
+
+    data = [bytes_from_snapshot(take_snapshot(falling_world().world)) for _ in range(2)]
+    assert data[0] == data[1]
+    world = falling_world().world
+    assert bytes_from_snapshot(snapshot_from_bytes(data[0], world)) == data[0]
+
+
+def test_settings_versions_and_the_world_file_travel_along(tmp_path: Path) -> None:
+    record(falling_world(), tmp_path / "run.rrd", 4, title="falling", source="carom: 1\nname: falling\n")
+    values = Recording(tmp_path / "run.rrd").static["/about"]
+    assert values["world_file"] == ["carom: 1\nname: falling\n"]
+    assert values["dt"] == [1 / 240]
+    assert values["seed"] == [0]
+    assert values["version_numpy"] == [np.__version__]
+    assert "falling" in values["TextDocument:text"][0]
+
+
+def test_a_run_that_breaks_off_leaves_a_readable_recording(tmp_path: Path) -> None:
+    simulation = falling_world()
+
+    def poison(world: Any, rows: Any) -> Any:
+        """Push with a NaN from the hundredth frame on."""
+        force = np.zeros((len(rows), 3))
+        force[0] = np.nan if world.frame >= 100 else 0.0
+        return force
+
+    simulation.force_function(poison)
+    with pytest.raises(NonFiniteError):
+        record(simulation, tmp_path / "run.rrd", 300)
+    assert Recording(tmp_path / "run.rrd").frames == list(range(0, 100, 4))
+
+
+KILLED = """
+import sys, time
+sys.path.insert(0, {folder!r})
+from pathlib import Path
+from test_recorder import falling_world
+from carom.tools.recorder import Recorder
+simulation = falling_world()
+recorder = Recorder(Path({path!r}))
+simulation.observers.append(recorder)
+recorder.begin(simulation)
+while True:
+    simulation.step()
+    print(simulation.frame, flush=True)
+    time.sleep(1 / 240)
+"""
+
+
+def test_a_kill_loses_at_most_the_last_second(tmp_path: Path) -> None:
+    path = tmp_path / "killed.rrd"
+    code = KILLED.format(folder=str(Path(__file__).parent), path=str(path))
+    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        start, last, at = time.monotonic(), 0, {}
+        for line in process.stdout:
+            last = int(line)
+            at[last] = time.monotonic()
+            start = min(start, at[last]) if last > 1 else at[last]
+            if at[last] - start > 3.0:
+                break
+        process.send_signal(signal.SIGKILL)
+        killed = time.monotonic()
+    with pytest.warns(UserWarning, match=r"killed\.rrd was not finished: the run that wrote it was killed"):
+        recording = Recording(path)
+    newest = recording.frames[-1]
+    assert newest > 0
+    assert last - newest <= 240 or killed - at[newest] <= 1.0
+    simulation = falling_world()
+    seen = {0: poses(simulation)}
+    for _ in range(newest):
+        simulation.step()
+        seen[simulation.frame] = poses(simulation)
+    for frame in recording.frames:
+        assert_same_poses(recording, frame, seen[frame])
