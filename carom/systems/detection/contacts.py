@@ -16,10 +16,11 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.fcl_pairs import FclObjects, measure_by_fcl
 from carom.systems.detection.sensors import sense
-from carom.systems.kernels.broad import find_overlaps
+from carom.systems.kernels.broad import sweep_bounds
 from carom.systems.kernels.contacts import complete_contacts, match_contacts, measure_balls, reach_of_pairs
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
+from carom.systems.shapes.plane import Plane
 
 CARRIED = ("warm_normal", "warm_friction", "warm_rolling", "resting", "impulse", "friction_impulse")
 
@@ -65,11 +66,7 @@ def detect(world: World) -> None:
 def measure_pairs(world: World) -> Found:
     """Return the contact points of all pairs whose bounds overlap."""
     collider, pose, flight = world[Collider], world[ColliderPose], world[Flight]
-    rows = world.row_numbers(Collider)
-    pairs = find_overlaps(
-        rows, collider.shape, collider.size, pose.lower, pose.upper, pose.body_row,
-        collider.layer, collider.mask, collider.sensor, pose.position, pose.rotation,
-    )  # fmt: skip
+    pairs = overlapping(world)
     reaches = reach_of_pairs(pairs, pose.body_row, flight.reach)
     answered = world[Answered]
     if world[Settings].collision == "fcl":
@@ -92,6 +89,25 @@ def measure_pairs(world: World) -> Found:
     joined = [np.concatenate(columns) for columns in zip(*parts, strict=True)]
     order = np.lexsort((joined[2], joined[1], joined[0]))
     return Found(*(column[order] for column in joined))
+
+
+def overlapping(world: World) -> Integers:
+    """Return the pairs (n, 2) of collider rows whose bounds overlap, sorted."""
+    collider, pose = world[Collider], world[ColliderPose]
+    rows = world.row_numbers(Collider)
+    flat = collider.shape[rows] == Plane.number
+    finite = rows[~flat]
+    finite = finite[np.argsort(pose.lower[finite, 0], kind="stable")]
+    found: Integers = np.empty((8 * len(rows), 2), np.int64)
+    while True:
+        count = sweep_bounds(
+            finite, rows[flat], collider.size, pose.lower, pose.upper, pose.body_row,
+            collider.layer, collider.mask, collider.sensor, pose.position, pose.rotation, found,
+        )  # fmt: skip
+        if count <= len(found):
+            break
+        found = np.empty((count, 2), np.int64)
+    return found[np.argsort(found[:count, 0] * world.capacity + found[:count, 1])]
 
 
 def store(world: World, found: Found) -> None:

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from math import sqrt
 
-import numpy as np
-
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import REACH_FACTOR, REACH_SLACK
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.spatial import product, turn
-from carom.systems.shapes.plane import Plane
-
-PLANE = Plane.number
 
 
 @kernel("reach", "detected_center")
@@ -72,33 +67,27 @@ def place_bounds(
             upper[i, k] = position[i, k] + center[k] + half[k] + wide
 
 
-@kernel()
-def find_overlaps(rows, shape, size, lower, upper, body_row, layer, mask, sensor, pose_position, pose_rotation):
-    """Return pairs (n, 2) of collider rows, lower first, sorted, whose bounds overlap and whose layers both accept.
+@kernel("found")
+def sweep_bounds(finite, planes, size, lower, upper, body_row, layer, mask, sensor, pose_position, pose_rotation, found):
+    """Write pairs of collider rows, lower first, whose bounds overlap and whose layers both accept; return their count.
 
-    Sort and sweep along x; half spaces are tested against every box. Pairs without a moving body, within one body, or of
-    two sensors are left out.
+    Where the count exceeds the rows of ``found`` (n, 2), the caller must call again with more room.
+
+    ``finite`` are the rows with finite bounds in order of their lower x: sort and sweep. Half spaces are tested against
+    every box. Pairs without a moving body, within one body, or of two sensors are left out.
     """
-    finite = np.empty(len(rows), np.int64)
-    planes = np.empty(len(rows), np.int64)
-    n, m = 0, 0
-    for i in rows:
-        if shape[i] == PLANE:
-            planes[m] = i
-            m += 1
-        else:
-            finite[n] = i
-            n += 1
-    edges = np.empty(n)
-    for k in range(n):
-        edges[k] = lower[finite[k], 0]
-    order = np.argsort(edges, kind="mergesort")
-    found = np.empty((64, 2), np.int64)
+    n = len(finite)
     count = 0
-    for s in range(n + m):
-        i = finite[order[s]] if s < n else planes[s - n]
+    for s in range(n + len(planes)):
+        i = finite[s] if s < n else planes[s - n]
+        nx, ny, nz = 0.0, 0.0, 0.0
+        if s >= n:
+            nx, ny, nz = turn(
+                pose_rotation[i, 0], pose_rotation[i, 1], pose_rotation[i, 2], pose_rotation[i, 3],
+                size[i, 0], size[i, 1], size[i, 2],
+            )  # fmt: skip
         for t in range(s + 1 if s < n else 0, n):
-            j = finite[order[t]]
+            j = finite[t]
             if s < n:
                 if lower[j, 0] > upper[i, 0]:
                     break
@@ -108,25 +97,18 @@ def find_overlaps(rows, shape, size, lower, upper, body_row, layer, mask, sensor
                 ):  # fmt: skip
                     continue
             else:
-                nx, ny, nz = turn(
-                    pose_rotation[i, 0], pose_rotation[i, 1], pose_rotation[i, 2], pose_rotation[i, 3],
-                    size[i, 0], size[i, 1], size[i, 2],
-                )  # fmt: skip
-                nearest = -size[i, 3]
-                for k, d in enumerate((nx, ny, nz)):
-                    nearest += d * ((lower[j, k] if d > 0.0 else upper[j, k]) - pose_position[i, k])
-                if nearest > 0.0:
+                x = lower[j, 0] if nx > 0.0 else upper[j, 0]
+                y = lower[j, 1] if ny > 0.0 else upper[j, 1]
+                z = lower[j, 2] if nz > 0.0 else upper[j, 2]
+                x, y, z = x - pose_position[i, 0], y - pose_position[i, 1], z - pose_position[i, 2]
+                if nx * x + ny * y + nz * z > size[i, 3]:
                     continue
             if body_row[i] == body_row[j]:
                 continue
             if (mask[i] & layer[j]) == 0 or (mask[j] & layer[i]) == 0 or (sensor[i] and sensor[j]):
                 continue
-            if count == len(found):
-                grown = np.empty((2 * count, 2), np.int64)
-                grown[:count] = found
-                found = grown
-            found[count, 0], found[count, 1] = min(i, j), max(i, j)
+            if count < len(found):
+                found[count, 0] = i if i < j else j
+                found[count, 1] = j if i < j else i
             count += 1
-    found = found[:count]
-    keys = found[:, 0] * (rows[-1] + 1 if len(rows) else 1) + found[:, 1]
-    return found[np.argsort(keys, kind="mergesort")]
+    return count

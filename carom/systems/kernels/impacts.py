@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import heapq
 from math import sqrt
 
 import numpy as np
@@ -17,7 +16,7 @@ from carom.systems.constants import (
 )
 from carom.systems.kernels.balls import BALL, NEVER, first_touch, gap_of_ball
 from carom.systems.kernels.kernel import inlined, kernel
-from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product
+from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product, spun
 
 DONE, OUT_OF_REACH, TABLE_FULL = 0, 1, 2
 
@@ -92,26 +91,31 @@ def fly(
         begin[i] += begin[i - 1]
     place = begin.copy()
     of_body = np.empty(begin[-1], np.int64)
-    for p in pairs:
-        for body in (ball[p], other[p]):
+    for m in range(len(pairs)):
+        for body in (ball[pairs[m]], other[pairs[m]]):
             if body >= 0:
-                of_body[place[body]] = p
+                of_body[place[body]] = m
                 place[body] += 1
 
-    stamp = np.zeros(len(kind), np.int64)
-    queue = [(NEVER, np.int64(-1), np.int64(0))]
-    todo = pairs.copy()
-    todo_count = len(todo)
-    seek = np.empty(len(pairs) * 2 + 2, np.int64)
+    # A tournament of the foreseen times: node k is the sooner of 2k and 2k + 1, the leaves are the pairs.
+    leaves = 1
+    while leaves < len(pairs):
+        leaves *= 2
+    soonest = np.full(2 * leaves, NEVER)
+    seek = np.empty(2 * len(pairs) + 2, np.int64)
+    seek_count = len(pairs)
+    for m in range(seek_count):
+        seek[m] = m
     now, events, cut = start, 0, 0
     reason = DONE
     first = True
     while True:
         # Foresee the next impact of every pair whose bodies changed course.
-        for index in range(todo_count):
-            p = todo[index] if first else seek[index]
-            stamp[p] += 1
+        for index in range(seek_count):
+            m = seek[index]
+            p = pairs[m]
             i, o = ball[p], other[p]
+            foreseen = NEVER
             ti = now - time[i]
             ci = bend * ti * ti
             x = center[i, 0] + linear[i, 0] * ti + acceleration[i, 0] * ci
@@ -135,14 +139,12 @@ def fly(
                 bx, by, bz = acceleration[o, 0], acceleration[o, 1], acceleration[o, 2]
                 ux, uy, uz = linear[o, 0] + bx * go, linear[o, 1] + by * go, linear[o, 2] + bz * go
                 if kind[p] != BALL:
-                    qx, qy, qz, qw, wx, wy, wz = freely_turned(
-                        rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3],
-                        angular[o, 0], angular[o, 1], angular[o, 2], 0.0, 0.0, 0.0, to,
-                    )  # fmt: skip
-            if resting[p]:
+                    wx, wy, wz = angular[o, 0], angular[o, 1], angular[o, 2]
+                    qx, qy, qz, qw = spun(
+                        rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3], wx, wy, wz, to
+                    )
+            if resting[p] and (not first or start > 0.0):
                 # A resting pair is held by the solver; only a blow on one of its bodies makes it an impact.
-                if first and start == 0.0:
-                    continue
                 gap, nx, ny, nz = gap_of_ball(
                     kind[p], x, y, z, radius[p], ox, oy, oz, qx, qy, qz, qw, extent[p, 0], extent[p, 1], extent[p, 2]
                 )
@@ -150,26 +152,29 @@ def fly(
                 pressing = -(nx * felt[i, 0] + ny * felt[i, 1] + nz * felt[i, 2])
                 if o >= 0:
                     pressing += nx * felt[o, 0] + ny * felt[o, 1] + nz * felt[o, 2]
-                if gap > TOUCH or closing <= max(APPROACH, REST_SPEED_FACTOR * pressing * h):
-                    continue
-                resting[p] = False
-            due = first_touch(
-                kind[p], x, y, z, radius[p], vx, vy, vz, acceleration[i, 0], acceleration[i, 1], acceleration[i, 2],
-                ox, oy, oz, qx, qy, qz, qw, extent[p, 0], extent[p, 1], extent[p, 2],
-                ux, uy, uz, bx, by, bz, wx, wy, wz, bend, h - now,
-            )  # fmt: skip
-            if due < NEVER:
-                heapq.heappush(queue, (now + due, np.int64(p), stamp[p]))
+                if gap <= TOUCH and closing > max(APPROACH, REST_SPEED_FACTOR * pressing * h):
+                    resting[p] = False
+            if not resting[p]:
+                foreseen = now + first_touch(
+                    kind[p], x, y, z, radius[p], vx, vy, vz, acceleration[i, 0], acceleration[i, 1], acceleration[i, 2],
+                    ox, oy, oz, qx, qy, qz, qw, extent[p, 0], extent[p, 1], extent[p, 2],
+                    ux, uy, uz, bx, by, bz, wx, wy, wz, bend, h - now,
+                )  # fmt: skip
+            enter_time(soonest, leaves + m, foreseen)
         first = False
-        todo_count = 0
+        seek_count = 0
 
-        # The earliest that is still foreseen.
-        due, p, mark = heapq.heappop(queue)
-        while p >= 0 and mark != stamp[p]:
-            due, p, mark = heapq.heappop(queue)
-        if p < 0 or due > h:
+        if soonest[1] > h:
             now = h
             break
+        m = 1
+        while m < leaves:
+            m *= 2
+            if soonest[m] > soonest[m + 1]:
+                m += 1
+        now = max(now, soonest[m])
+        m -= leaves
+        p = pairs[m]
         if events >= most:
             cut += 1
             now = h
@@ -177,7 +182,6 @@ def fly(
         if log_count + 1 > capacity:
             reason = TABLE_FULL
             break
-        now = max(now, due)
         i, o = ball[p], other[p]
         for body in (i, o):
             if body >= 0 and time[body] < now:
@@ -247,13 +251,13 @@ def fly(
                     acceleration[i, k] += bent * im / total * n
                     if o >= 0:
                         acceleration[o, k] -= bent * inverse_mass[o] / total * n
-            stamp[p] += 1
+            enter_time(soonest, leaves + m, NEVER)
             for body in (i, o):
                 if body >= 0 and bent > 0.0:
                     for slot in range(begin[body], begin[body + 1]):
-                        if of_body[slot] != p:
-                            seek[todo_count] = of_body[slot]
-                            todo_count += 1
+                        if of_body[slot] != m:
+                            seek[seek_count] = of_body[slot]
+                            seek_count += 1
             continue
         rest = REST_SPEED_FACTOR * max(0.0, pressing) * h
         bounce = restitution[p] if -vn > rest else 0.0
@@ -292,9 +296,9 @@ def fly(
             if body < 0:
                 continue
             for slot in range(begin[body], begin[body + 1]):
-                if body == i or of_body[slot] != p:
-                    seek[todo_count] = of_body[slot]
-                    todo_count += 1
+                if body == i or of_body[slot] != m:
+                    seek[seek_count] = of_body[slot]
+                    seek_count += 1
             away, speed, push = 0.0, 0.0, 0.0
             for k in range(3):
                 away += (center[body, k] - detected_center[body, k]) ** 2
@@ -312,6 +316,15 @@ def fly(
                 inertia, principal_axes,
             )  # fmt: skip
     return now, log_count, reason, cut
+
+
+@inlined
+def enter_time(soonest, leaf, time):
+    """Set a leaf of the tournament and play the games above it again."""
+    soonest[leaf] = time
+    while leaf > 1:
+        leaf //= 2
+        soonest[leaf] = min(soonest[2 * leaf], soonest[2 * leaf + 1])
 
 
 @inlined
