@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pyrender
 from OpenGL import GL
 
@@ -26,8 +25,8 @@ SQUARES = 4.0  # squares of a floor between camera and target, rounded to 1, 2 o
 class Passes(pyrender.Renderer):  # type: ignore[misc]
     """Draws nodes as a camera sees them; `see` sets both before each picture.
 
-    pyrender sorts nodes by distance and, within one distance, by chance; here they are drawn in the order given, so that
-    pictures of one scene are the same to the last bit.
+    pyrender sorts nodes by distance and, within one distance, by chance; here they are drawn in the order given, so
+    that pictures of one scene are the same to the last bit.
     """
 
     def __init__(self, width: int, height: int) -> None:
@@ -41,13 +40,13 @@ class Passes(pyrender.Renderer):  # type: ignore[misc]
         """Take what the next picture shows, and from where."""
         self._nodes = nodes
         pose = camera.pose()
-        self._camera_matrices = np.linalg.inv(pose), camera.projection(self._aspect)
+        self._camera_matrices: tuple[Any, Any] = np.linalg.inv(pose), camera.projection(self._aspect)
         up = np.array(camera.up) / np.linalg.norm(camera.up)
         reach = SHADOW_REACH * camera.distance * math.tan(camera.fov / 2.0) * max(self._aspect, 1.0)
         sun = sun_pose(camera, pose, 4.0 * reach)
         boxed = np.diag([1.0 / reach, 1.0 / reach, -1.0 / (4.0 * reach), 1.0])
         boxed[2, 3] = -1.0
-        self._light_matrices = np.linalg.inv(sun), boxed
+        self._light_matrices: tuple[Any, Any] = np.linalg.inv(sun), boxed
         self._uniforms = {
             "up": up,
             "focus": camera.distance,
@@ -60,10 +59,10 @@ class Passes(pyrender.Renderer):  # type: ignore[misc]
     def _sorted_mesh_nodes(self, scene: Any) -> list[Any]:
         return self._nodes
 
-    def _get_camera_matrices(self, scene: Any) -> tuple[Floats, Floats]:
+    def _get_camera_matrices(self, scene: Any) -> tuple[Any, Any]:
         return self._camera_matrices
 
-    def _get_light_cam_matrices(self, scene: Any, light_node: Any, flags: int) -> tuple[Floats, Floats]:
+    def _get_light_cam_matrices(self, scene: Any, light_node: Any, flags: int) -> tuple[Any, Any]:
         return self._light_matrices
 
     def _configure_shadow_mapping_viewport(self, light: Any, flags: int) -> None:
@@ -78,9 +77,7 @@ class Passes(pyrender.Renderer):  # type: ignore[misc]
         GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_COMPARE_MODE, GL.GL_COMPARE_REF_TO_TEXTURE)
         GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_MIN_FILTER, GL.GL_LINEAR)
 
-    def _read_main_framebuffer(
-        self, scene: Any, flags: int
-    ) -> npt.NDArray[Any] | tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+    def _read_main_framebuffer(self, scene: Any, flags: int) -> Any:
         """Return colours (h, w, 3), or for a pass of ids bytes (h, w, 4) and raw depth (h, w); first row on top."""
         width, height = self._main_fb_dims
         area = (0, 0, width, height)
@@ -102,7 +99,7 @@ class Passes(pyrender.Renderer):  # type: ignore[misc]
 
 
 def sun_pose(camera: Camera, pose: Floats, distance: float) -> Floats:
-    """Return the pose (4, 4) of the sun at ``distance`` (m) from the camera's target, SUN being relative to its view."""
+    """Return the pose (4, 4) of the sun at ``distance`` (m) from the camera's target; SUN is relative to the view."""
     up = np.array(camera.up) / np.linalg.norm(camera.up)
     right = pose[:3, 0]
     direction = np.column_stack([right, up, np.cross(right, up)]) @ SUN

@@ -22,8 +22,8 @@ SKY = np.array([[-1.0, -1.0, 0.0], [3.0, -1.0, 0.0], [-1.0, 3.0, 0.0]])  # cover
 class Renderer:
     """Draws batches into pictures of one size (px); `driver` says by what.
 
-    Frames are the same to the last bit for the same batches, camera and driver. Meshes stay on the graphics side as long
-    as the same vertex and face arrays come again. Close it when done, or use it in a ``with`` statement.
+    Frames are the same to the last bit for the same batches, camera and driver. Meshes stay on the graphics side as
+    long as the same vertex and face arrays come again. Close it when done, or use it in a ``with`` statement.
     """
 
     def __init__(self, width: int = 640, height: int = 480) -> None:
@@ -53,7 +53,7 @@ class Renderer:
         return colors
 
     def depth(self, batches: Sequence[Batch], camera: Camera) -> npt.NDArray[np.float32]:
-        """Return the distance (height, width) of what each pixel's centre shows, along the line of sight (m); else inf."""
+        """Return how far (m, along the camera's -z) what each pixel's centre shows is, (height, width); else inf."""
         _, raw = self._draw(batches, camera, self._flags.SEG)
         near, far = camera.planes
         with np.errstate(divide="ignore"):
@@ -63,7 +63,8 @@ class Renderer:
     def ids(self, batches: Sequence[Batch], camera: Camera) -> Integers:
         """Return the id (height, width) of what each pixel's centre shows; -1 for background."""
         bytes_, _ = self._draw(batches, camera, self._flags.SEG)
-        return (bytes_.view("<u4")[..., 0] & 0xFFFFFF).astype(np.int64) - 1
+        numbers: Integers = (bytes_.view("<u4")[..., 0] & 0xFFFFFF).astype(np.int64) - 1
+        return numbers
 
     def close(self) -> None:
         """Free the context and all that was drawn in it."""
@@ -96,7 +97,8 @@ class Renderer:
         from carom.tools.instances import Instances
 
         drawn: dict[tuple[int, ...], tuple[Batch, Any]] = {}
-        solid, translucent = [], []
+        solid: list[Any] = []
+        translucent: list[Any] = []
         for batch in batches:
             if not len(batch.ids):
                 continue
