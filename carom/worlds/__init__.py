@@ -1,1 +1,7 @@
-""""""
+"""What to simulate: world files, their schema, reader, builder and expectations, and the library."""
+
+from carom.worlds.builder import LoadedWorld, load_text, load_world
+from carom.worlds.errors import Fault, WorldError
+from carom.worlds.schema import json_schema
+
+__all__ = ["Fault", "LoadedWorld", "WorldError", "json_schema", "load_text", "load_world"]

@@ -8,7 +8,7 @@ from typing import Any, get_args, get_origin
 
 from pydantic import TypeAdapter, ValidationError
 
-from carom.worlds.errors import Path, ValueFault, did_you_mean, shown
+from carom.worlds.errors import Path, WordError, did_you_mean, shown
 from carom.worlds.reader import Source
 from carom.worlds.schema import document
 
@@ -35,8 +35,11 @@ def collection(section: str) -> type[Any] | None:
     return origin if origin in (dict, list) else None
 
 
-def check_section(source: Source, section: str, value: Any) -> Any:
-    """Return the section checked and in SI; a list or mapping has None for each item that was reported as faulty."""
+def check_section(source: Source, section: str, value: Any, *, partial: bool = False) -> Any:
+    """Return the section checked and in SI; a list or mapping has None for each item that was reported as faulty.
+
+    ``partial`` allows required keys of items to be missing.
+    """
     kind = collection(section)
     if kind is None:
         return check(source, _adapter(section, False), value, (section,))
@@ -47,7 +50,11 @@ def check_section(source: Source, section: str, value: Any) -> Any:
     adapter = _adapter(section, True)
     if kind is list:
         return [check(source, adapter, item, (section, index)) for index, item in enumerate(value)]
-    return {key: check(source, adapter, item, (section, key)) for key, item in value.items() if _named(source, section, key)}
+    return {
+        key: check(source, adapter, item, (section, key), partial=partial)
+        for key, item in value.items()
+        if _named(source, section, key)
+    }
 
 
 def _named(source: Source, section: str, key: str) -> bool:
@@ -80,12 +87,13 @@ def _flat(fault: ValidationError, path: Path) -> Iterator[tuple[Path, Any]]:
 def _report(source: Source, adapter: TypeAdapter[Any], path: Path, place: Path, error: Any) -> None:
     inner = error.get("ctx", {}).get("error")
     received = shown(error["input"])
-    if isinstance(inner, ValueFault):
+    if isinstance(inner, WordError):
         source.report(place, inner.what, received=inner.received, accepted=inner.accepted, hint=inner.hint)
     elif error["type"] == "extra_forbidden":
         known = keys_at(adapter, place[len(path) : -1])
         word = str(place[-1])
-        source.report(place, "unknown key", received=repr(word), accepted=", ".join(known), hint=did_you_mean(word, known))
+        hint = did_you_mean(word, known)
+        source.report(place, "unknown key", received=repr(word), accepted=", ".join(known), hint=hint)
     elif error["type"] == "missing":
         source.report(place, "is missing", accepted=_meaning(adapter, place[len(path) :]))
     elif error["type"] in WORDING:
@@ -116,12 +124,11 @@ def _nodes(adapter: TypeAdapter[Any], steps: Path) -> list[dict[str, Any]]:
     whole = _schema(adapter)
     nodes = _opened(whole, [whole])
     for step in steps:
-        under = []
-        for node in nodes:
-            properties = node.get("properties", {})
-            under += [properties[step]] if step in properties else []
-            under += [node[key] for key in ("items", "additionalProperties") if step not in properties and isinstance(node.get(key), dict)]
-        nodes = _opened(whole, under)
+        under = [
+            node.get("properties", {}).get(step) or node.get("items") or node.get("additionalProperties")
+            for node in nodes
+        ]
+        nodes = _opened(whole, [node for node in under if isinstance(node, dict)])
     return nodes
 
 

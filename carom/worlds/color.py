@@ -7,14 +7,14 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, WithJsonSchema
 
-from carom.worlds.errors import ValueFault, did_you_mean, shown
+from carom.worlds.errors import WordError, did_you_mean, shown
 
 Color = tuple[float, float, float, float]
 NAMED = {
-    "black": "#000000", "white": "#ffffff", "gray": "#808080", "silver": "#c0c0c0", "red": "#ff0000", "maroon": "#800000",
-    "orange": "#ffa500", "yellow": "#ffff00", "gold": "#ffd700", "green": "#008000", "lime": "#00ff00", "teal": "#008080",
-    "cyan": "#00ffff", "blue": "#0000ff", "navy": "#000080", "purple": "#800080", "magenta": "#ff00ff", "brown": "#a52a2a",
-    "pink": "#ffc0cb", "ivory": "#fffff0",
+    "black": "#000000", "white": "#ffffff", "gray": "#808080", "silver": "#c0c0c0", "red": "#ff0000",
+    "maroon": "#800000", "orange": "#ffa500", "yellow": "#ffff00", "gold": "#ffd700", "green": "#008000",
+    "lime": "#00ff00", "teal": "#008080", "cyan": "#00ffff", "blue": "#0000ff", "navy": "#000080",
+    "purple": "#800080", "magenta": "#ff00ff", "brown": "#a52a2a", "pink": "#ffc0cb", "ivory": "#fffff0",
 }  # fmt: skip
 HEX = re.compile(r"#(?:[0-9a-fA-F]{6}|[0-9a-fA-F]{8})")
 FORMS = "[red, green, blue] or [red, green, blue, alpha] in 0..1, '#rrggbb', '#rrggbbaa' or one of " + ", ".join(NAMED)
@@ -28,7 +28,7 @@ def _read(value: Any) -> Color:
         parts = [float(part) for part in value]
     else:
         hint = did_you_mean(value, NAMED) if isinstance(value, str) else ""
-        raise ValueFault("is not a colour", received=shown(value), accepted=FORMS, hint=hint)
+        raise WordError("is not a colour", received=shown(value), accepted=FORMS, hint=hint)
     red, green, blue, alpha = (*parts, 1.0)[:4]
     return (red, green, blue, alpha)
 

@@ -12,12 +12,13 @@ from carom.ecs.errors import CaromError
 Path = tuple[str | int, ...]
 
 
-class ValueFault(ValueError):
+class WordError(ValueError):
     """A value that cannot be read, before it is known where it stands."""
 
-    def __init__(self, what: str, *, received: str = "", accepted: str = "", hint: str = "") -> None:
+    def __init__(self, what: str, *, received: str = "", accepted: str = "", hint: str = "", name: str = "") -> None:
         super().__init__(what)
         self.what, self.received, self.accepted, self.hint = what, received, accepted, hint
+        self.name = name  # the name that nothing defines, where that is the fault
 
 
 @dataclass(frozen=True, order=True)

@@ -12,7 +12,7 @@ from carom.ecs import Combine, Material
 from carom.ecs.column import Column
 from carom.ecs.component import Component
 from carom.systems.assembly import COMBINE_QUANTITIES
-from carom.systems.forces.law import LAWS
+from carom.systems.forces import LAWS
 from carom.systems.settings import Settings
 from carom.systems.shapes import SHAPES
 from carom.worlds.color import ColorWord
@@ -73,7 +73,8 @@ def parameter_model(kind: type[Any]) -> type[Words]:
     for field in dataclasses.fields(kind):
         unit, doc = field.metadata.get("unit", "1"), field.metadata.get("doc", field.name)
         kept = ... if field.default is dataclasses.MISSING else field.default
-        fields[field.name] = (_hinted(hints[field.name], unit, field.metadata.get("above")), Field(kept, description=_description(doc, unit)))
+        kind_of_value = _hinted(hints[field.name], unit, field.metadata.get("above"))
+        fields[field.name] = (kind_of_value, Field(kept, description=_description(doc, unit)))
     return create_model(kind.__name__, __base__=Words, __doc__=kind.__doc__, **fields)
 
 

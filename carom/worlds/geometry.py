@@ -13,7 +13,7 @@ from carom.systems.shapes.convex import Convex
 from carom.systems.shapes.geometry import Geometry, hull_of, load_geometry
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.shape import Shape
-from carom.worlds.errors import ValueFault
+from carom.worlds.errors import WordError
 from carom.worlds.values import In, Vector3, Words
 
 Scale = Annotated[float, In("1", above=0.0)]
@@ -37,7 +37,8 @@ class ConvexWords(Words):
     def check(self) -> ConvexWords:
         """Refuse both sources and neither."""
         if (self.points is None) is (self.file is None):
-            raise ValueFault("must state one source", received="both" if self.points else "neither", accepted="points or file")
+            received = "both" if self.points else "neither"
+            raise WordError("must state one source", received=received, accepted="points or file")
         return self
 
 

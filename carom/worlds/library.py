@@ -19,17 +19,15 @@ def names() -> list[str]:
 def find(world: str | Path) -> Path:
     """Return the file of a world given by path or by library name; raise WorldError when there is none."""
     path, text = Path(world), str(world)
-    if text in names() and not path.is_file():
-        return Path(str(files("carom.worlds").joinpath("library", f"{text}.yaml")))
     if path.is_file():
         return path
-    if path.is_dir():
-        raise WorldError([Fault(text, 0, 0, "", "is a folder", accepted="a world file, or the name of a library world")])
-    if path.suffix in SUFFIXES or len(path.parts) > 1:
-        raise WorldError([Fault(text, 0, 0, "", "does not exist", accepted="a world file, or the name of a library world")])
-    raise WorldError(
-        [Fault(text, 0, 0, "", "no world of this name", accepted=", ".join(names()), hint=did_you_mean(text, names()))]
-    )
+    if text in names():
+        return Path(str(files("carom.worlds").joinpath("library", f"{text}.yaml")))
+    accepted, hint = "a world file, or the name of a library world", ""
+    what = "is a folder" if path.is_dir() else "does not exist"
+    if not path.is_dir() and path.suffix not in SUFFIXES and len(path.parts) == 1:
+        what, accepted, hint = "no world of this name", ", ".join(names()), did_you_mean(text, names())
+    raise WorldError([Fault(text, 0, 0, "", what, accepted=accepted, hint=hint)])
 
 
 def read_text(path: Path, shown: str) -> str:
@@ -37,6 +35,7 @@ def read_text(path: Path, shown: str) -> str:
     try:
         return path.read_bytes().decode("utf-8-sig")
     except OSError as fault:
-        raise WorldError([Fault(shown, 0, 0, "", f"cannot be read: {(fault.strerror or str(fault)).lower()}")]) from None
+        what = f"cannot be read: {(fault.strerror or str(fault)).lower()}"
     except UnicodeDecodeError as fault:
-        raise WorldError([Fault(shown, 0, 0, "", f"is not text in UTF-8: byte {fault.start} is {fault.object[fault.start]:#04x}")]) from None
+        what = f"is not text in UTF-8: byte {fault.start} is {fault.object[fault.start]:#04x}"
+    raise WorldError([Fault(shown, 0, 0, "", what)])

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from carom.systems.shapes import SHAPES
-from carom.worlds.errors import Path, did_you_mean
+from carom.worlds.errors import Path, WordError
+from carom.worlds.names import known
 from carom.worlds.reader import Source
 
 
@@ -16,18 +17,22 @@ def extended(source: Source, path: Path, words: Any, prefabs: dict[str, Any]) ->
         name, here = words["prefab"], chain[-1]
         base: Path = ("prefabs", name)
         if name not in prefabs:
-            accepted = ", ".join(prefabs) or "none is defined"
-            source.report((*here, "prefab"), "unknown prefab", received=repr(name), accepted=accepted, hint=did_you_mean(name, prefabs))
-        elif base in chain:
+            try:
+                known("prefab", name, prefabs)
+            except WordError as fault:
+                source.report_value((*here, "prefab"), fault)
+            return _without_prefab(words)
+        if base in chain:
             source.report((*here, "prefab"), "extends itself", received=repr(name))
+            return _without_prefab(words)
         source.inherits[here] = base
-        own = {key: value for key, value in words.items() if key != "prefab"}
-        if name not in prefabs or base in chain:
-            del source.inherits[here]
-            return own
-        words = merged(prefabs[name], own)
+        words = merged(prefabs[name], _without_prefab(words))
         chain.append(base)
     return words
+
+
+def _without_prefab(words: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in words.items() if key != "prefab"}
 
 
 def merged(under: Any, over: Any) -> Any:

@@ -10,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from carom.worlds.errors import Fault, Path, WorldError, shown
+from carom.worlds.errors import Fault, Path, WordError, WorldError, shown
 
 MOST_CHARACTERS = 32_000_000  # a file of a million bodies; above it is no world
 MOST_REPEATED = 200_000  # values that come from aliases: a "billion laughs" file is short and unfolds without end
@@ -29,7 +29,8 @@ for _tag, _pattern, _first in (
     ("bool", r"true|True|TRUE|false|False|FALSE", "tTfF"),
     ("null", r"null|Null|NULL|~|", "nN~"),
     ("int", r"[-+]?(?:0|[1-9][0-9]*)", "-+0123456789"),
-    ("float", r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?|[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)", "-+.0123456789"),
+    ("float", r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?", "-+.0123456789"),
+    ("float", r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)", "-+."),
 ):
     _firsts = [*_first, ""] if _tag == "null" else list(_first)
     Loader.add_implicit_resolver("tag:yaml.org,2002:" + _tag, re.compile(rf"(?:{_pattern})\Z"), _firsts)
@@ -44,14 +45,24 @@ class Source:
     data: Any = None
     positions: dict[Path, Position] = field(default_factory=dict)
     faults: list[Fault] = field(default_factory=list)
+    excused: set[str] = field(default_factory=set)  # names of entities that were reported and so do not exist
     inherits: dict[Path, Path] = field(default_factory=dict)  # an entity or prefab to the prefab it extends
 
     def report(self, path: Path, what: str, *, received: str = "", accepted: str = "", hint: str = "") -> None:
         """Note a fault at the nearest part of ``path`` that the file has, or that a prefab has for it."""
         found = self.locate(path)
         words = ".".join(map(str, (*found, *path[len(path) - self._missing(path) :])))
-        line, column = self.positions.get(found, (1, 1))
+        line, column = self.position(path)
         self.faults.append(Fault(self.name, line, column, words, what, received, accepted, hint))
+
+    def report_value(self, path: Path, fault: WordError) -> None:
+        """Note a value that could not be read, unless it only names what was itself reported."""
+        if fault.name.partition("[")[0] not in self.excused:
+            self.report(path, fault.what, received=fault.received, accepted=fault.accepted, hint=fault.hint)
+
+    def written(self, path: Path) -> bool:
+        """Tell whether the whole path is in the file, be it by a prefab."""
+        return bool(path) and self._missing(path) == 0
 
     def locate(self, path: Path) -> Path:
         """Return where the nearest part of ``path`` is written: itself, or the same words in its prefab."""
@@ -66,7 +77,14 @@ class Source:
 
     def _missing(self, path: Path) -> int:
         """Return how many words at the end of ``path`` are written nowhere."""
-        return next((n for n in range(len(path)) if len(self.locate(path[: len(path) - n])) == len(path) - n), len(path))
+        return next((n for n in range(len(path)) if self._stands(path[: len(path) - n])), len(path))
+
+    def _stands(self, path: Path) -> bool:
+        return len(self.locate(path)) == len(path)
+
+    def position(self, path: Path) -> Position:
+        """Return line and column of the nearest part of ``path`` that is written."""
+        return self.positions.get(self.locate(path), (1, 1))
 
     def refuse_if_faulty(self) -> None:
         """Raise WorldError when anything was reported."""

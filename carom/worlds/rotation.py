@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, Field, TypeAdapter, WrapValidator
 
 from carom.ecs.spatial import quaternion
-from carom.worlds.errors import ValueFault, shown
+from carom.worlds.errors import WordError, shown
 from carom.worlds.values import In, Vector3, Words
 
 FORMS = "[x, y, z, w] of length 1 within 1 %, {axis, angle}, {euler, order} or {look_at}"
@@ -17,7 +17,7 @@ Rotation = tuple[float, float, float, float]
 
 def _direction(value: Vector3) -> Vector3:
     if not any(value):
-        raise ValueFault("must have a direction", received=shown(list(value)))
+        raise WordError("must have a direction", received=shown(list(value)))
     return value
 
 
@@ -39,7 +39,7 @@ def _order(value: str) -> str:
     axes = len(value) == 3 and set(value.lower()) <= set("xyz") and (value.isupper() or value.islower())
     if not axes:
         accepted = "three of X, Y, Z for the turning axes, or of x, y, z for fixed ones"
-        raise ValueFault("is not an order of axes", received=shown(value), accepted=accepted)
+        raise WordError("is not an order of axes", received=shown(value), accepted=accepted)
     return value
 
 
@@ -66,7 +66,9 @@ class LookAt(Words):
 
 
 Quaternion = Annotated[Rotation, In("1")]
-ADAPTERS: dict[str, TypeAdapter[Any]] = {"axis": TypeAdapter(AxisAngle), "euler": TypeAdapter(Euler), "look_at": TypeAdapter(LookAt)}
+ADAPTERS: dict[str, TypeAdapter[Any]] = {
+    key: TypeAdapter(form) for key, form in (("axis", AxisAngle), ("euler", Euler), ("look_at", LookAt))
+}
 NUMBERS: TypeAdapter[Rotation] = TypeAdapter(Quaternion)
 
 
@@ -77,14 +79,14 @@ def _read(value: Any, handler: Any) -> Rotation:
         if isinstance(value, dict) and key in value:
             x, y, z, w = adapter.validate_python(value).rotation()
             return (float(x), float(y), float(z), float(w))
-    raise ValueFault("is not a rotation", received=shown(value), accepted=FORMS)
+    raise WordError("is not a rotation", received=shown(value), accepted=FORMS)
 
 
 def _unit(value: Rotation) -> Rotation:
     length = sum(part * part for part in value) ** 0.5
     if abs(length - 1.0) > HAND_TYPED:
         what = "is not a unit quaternion" if length else "is a zero quaternion"
-        raise ValueFault(what, received=f"{shown(list(value))} of length {length:.6g}", accepted=FORMS)
+        raise WordError(what, received=f"{shown(list(value))} of length {length:.6g}", accepted=FORMS)
     x, y, z, w = quaternion.normalise(value) if length != 1.0 else value
     return (float(x), float(y), float(z), float(w))
 

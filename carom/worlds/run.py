@@ -19,7 +19,7 @@ DEFAULT_DURATION = 5.0
 
 @dataclass(frozen=True)
 class RunPlan:
-    """A run ends after ``frames`` steps, or before, once nothing is faster than ``rest_speed`` (m/s, None: not asked)."""
+    """A run ends after ``frames`` steps, or before, once nothing is faster than ``rest_speed`` (m/s)."""
 
     frames: int
     rest_speed: float | None = None

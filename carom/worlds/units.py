@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cache, lru_cache
 from typing import Any, NamedTuple
 
-from carom.worlds.errors import ValueFault, did_you_mean, shown
+from carom.worlds.errors import WordError, did_you_mean, shown
 
 Dimension = tuple[int, int, int, int]  # powers of kg, m, s, rad
 LONGEST_VALUE = 80  # characters: longer texts are no numbers, and their fractions would grow without bound
@@ -24,7 +24,10 @@ class Unit(NamedTuple):
 PURE = Unit(Fraction(1), (0, 0, 0, 0))
 DEGREE = Fraction(math.pi) / 180
 BASE: dict[str, tuple[Dimension, dict[str, Fraction | int | str]]] = {
-    "a mass": ((1, 0, 0, 0), {"kg": 1, "g": "0.001", "mg": "1e-6", "t": 1000, "lb": "0.45359237", "oz": "0.028349523125"}),
+    "a mass": (
+        (1, 0, 0, 0),
+        {"kg": 1, "g": "0.001", "mg": "1e-6", "t": 1000, "lb": "0.45359237", "oz": "0.028349523125"},
+    ),
     "a length": (
         (0, 1, 0, 0),
         {"m": 1, "mm": "0.001", "cm": "0.01", "km": 1000, "um": "1e-6", "in": "0.0254", "ft": "0.3048", "yd": "0.9144"}
@@ -42,7 +45,7 @@ BASE: dict[str, tuple[Dimension, dict[str, Fraction | int | str]]] = {
     "a pressure": ((1, -1, -2, 0), {"Pa": 1, "kPa": 1000, "MPa": 1000000}),
 }
 UNITS = {name: Unit(Fraction(factor), dim) for dim, names in BASE.values() for name, factor in names.items()}
-COMPOUND = ("m/s", "km/h", "ft/s", "m/s2", "rad/s", "deg/s", "turn/s", "N s", "N m", "kg/m3", "g/cm3", "kg/s", "kg m2", "1/s")
+COMPOUND = ("m/s", "km/h", "ft/s", "m/s2", "ft/s2", "rad/s", "deg/s", "turn/s", "N s", "N m", "kg/m3", "g/cm3", "kg/s")
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,3})?"
 VALUE = re.compile(rf"\s*({NUMBER})(?:\s*/\s*({NUMBER}))?\s*(.*?)\s*")
@@ -54,20 +57,20 @@ def read_quantity(
 ) -> float:
     """Return a number of a file in ``unit`` (SI); plain numbers are taken as they are.
 
-    Raises ValueFault for what is no number, not finite, of another dimension, or out of bounds.
+    Raises WordError for what is no number, not finite, of another dimension, or out of bounds.
     """
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-        raise ValueFault(f"must be {kind_of(unit)}", received=shown(value), accepted=accepted(unit))
+        raise WordError(f"must be {kind_of(unit)}", received=shown(value), accepted=accepted(unit))
     number = _parse(value, unit) if isinstance(value, str) else float(value)
     if not math.isfinite(number):
-        raise ValueFault("must be finite", received=shown(value), accepted=accepted(unit))
+        raise WordError("must be finite", received=shown(value), accepted=accepted(unit))
     short = "" if unit == "1" else f" {unit}"
     if above is not None and not number > above:
-        raise ValueFault(f"must be above {above:g}{short}", received=shown(value))
+        raise WordError(f"must be above {above:g}{short}", received=shown(value))
     if least is not None and not number >= least:
-        raise ValueFault(f"must be at least {least:g}{short}", received=shown(value))
+        raise WordError(f"must be at least {least:g}{short}", received=shown(value))
     if most is not None and not number <= most:
-        raise ValueFault(f"must be at most {most:g}{short}", received=shown(value))
+        raise WordError(f"must be at most {most:g}{short}", received=shown(value))
     return number
 
 
@@ -75,19 +78,19 @@ def read_quantity(
 def _parse(text: str, unit: str) -> float:
     found = VALUE.fullmatch(text) if len(text) <= LONGEST_VALUE else None
     if found is None:
-        raise ValueFault(f"is not {kind_of(unit)}", received=shown(text), accepted=accepted(unit))
+        raise WordError(f"is not {kind_of(unit)}", received=shown(text), accepted=accepted(unit))
     over, under, name = found.groups()
     try:
         given = parse_unit(name or unit)
-    except ValueFault as fault:
+    except WordError as fault:
         fault.received, fault.accepted = shown(text), accepted(unit)
         raise
     if given.dimension != parse_unit(unit).dimension:
         received = f"{shown(text)}, which is {kind_of(name)}"
-        raise ValueFault(f"must be {kind_of(unit)}", received=received, accepted=accepted(unit))
+        raise WordError(f"must be {kind_of(unit)}", received=received, accepted=accepted(unit))
     divisor = Fraction(under or 1)
     if not divisor:
-        raise ValueFault("divides by zero", received=shown(text))
+        raise WordError("divides by zero", received=shown(text))
     try:
         factor = given.factor if name else 1
         return float(Fraction(over) / divisor * factor)
@@ -117,8 +120,8 @@ def parse_unit(text: str) -> Unit:
         elif mark == ")" or (name and name not in UNITS):
             raise _unknown(name or text)
         elif name:
-            exponent = levels[-1] * sign * int(power or 1)
-            unit = Unit(unit.factor * UNITS[name].factor**exponent, _sum(unit.dimension, UNITS[name].dimension, exponent))
+            exponent, named = levels[-1] * sign * int(power or 1), UNITS[name]
+            unit = Unit(unit.factor * named.factor**exponent, _sum(unit.dimension, named.dimension, exponent))
             sign = 1
     return unit
 
@@ -127,8 +130,8 @@ def _sum(a: Dimension, b: Dimension, times: int) -> Dimension:
     return (a[0] + b[0] * times, a[1] + b[1] * times, a[2] + b[2] * times, a[3] + b[3] * times)
 
 
-def _unknown(name: str) -> ValueFault:
-    return ValueFault(f"unknown unit {name!r}", hint=did_you_mean(name, UNITS))
+def _unknown(name: str) -> WordError:
+    return WordError(f"unknown unit {name!r}", hint=did_you_mean(name, UNITS))
 
 
 def kind_of(unit: str) -> str:

@@ -6,12 +6,20 @@ import re
 from dataclasses import dataclass
 from typing import Annotated, Any, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
-from pydantic import WithJsonSchema, WrapValidator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    GetCoreSchemaHandler,
+    GetJsonSchemaHandler,
+    TypeAdapter,
+    WithJsonSchema,
+    WrapValidator,
+)
 from pydantic_core import CoreSchema, core_schema
 
 from carom.ecs.components.name import NAME_LENGTH
-from carom.worlds.errors import ValueFault, shown
+from carom.worlds.errors import WordError, shown
 from carom.worlds.units import read_quantity
 
 Vector3 = tuple[float, float, float]
@@ -34,7 +42,7 @@ class In:
     most: float | None = None
 
     def read(self, value: Any) -> float:
-        """Return the number in SI; raise ValueFault."""
+        """Return the number in SI; raise WordError."""
         return read_quantity(value, self.unit, above=self.above, least=self.least, most=self.most)
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -46,7 +54,8 @@ class In:
 
         def sized(value: Any) -> Any:
             if not isinstance(value, list) or len(value) != size:
-                raise ValueFault(f"must be a list of {size} numbers", received=shown(value), accepted=f"numbers in {self.unit}")
+                accepted = f"numbers in {self.unit}"
+                raise WordError(f"must be a list of {size} numbers", received=shown(value), accepted=accepted)
             return value
 
         items = core_schema.tuple_schema([number] * size)
@@ -75,13 +84,13 @@ def either(plain: Any, other: Any, form: type = dict) -> Any:
 def _read_name(value: Any) -> str:
     if not isinstance(value, str) or not NAME.fullmatch(value) or len(value) > NAME_LENGTH:
         accepted = f"a letter or _, then letters, digits, _ or -, at most {NAME_LENGTH} in all"
-        raise ValueFault("is not a name", received=shown(value), accepted=accepted)
+        raise WordError("is not a name", received=shown(value), accepted=accepted)
     return value
 
 
 def _read_flag(value: Any) -> bool:
     if not isinstance(value, bool):
-        raise ValueFault("must be true or false", received=shown(value))
+        raise WordError("must be true or false", received=shown(value))
     return value
 
 
@@ -100,7 +109,7 @@ class Whole:
 
         def read(value: Any) -> int:
             if isinstance(value, bool) or not isinstance(value, int) or value < self.least:
-                raise ValueFault("must be a whole number", received=shown(value), accepted=f"{self.least} or more")
+                raise WordError("must be a whole number", received=shown(value), accepted=f"{self.least} or more")
             return value
 
         return core_schema.no_info_plain_validator_function(read)
@@ -115,7 +124,7 @@ def word_of(*choices: str) -> Any:
 
     def read(value: Any) -> str:
         if value not in choices:
-            raise ValueFault("unknown word", received=shown(value), accepted=", ".join(choices))
+            raise WordError("unknown word", received=shown(value), accepted=", ".join(choices))
         return str(value)
 
     return Annotated[str, BeforeValidator(read), WithJsonSchema({"enum": list(choices)})]

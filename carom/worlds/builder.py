@@ -1,0 +1,172 @@
+"""World files to simulations."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any
+
+from carom.ecs.errors import DeclarationError
+from carom.systems.settings import Settings
+from carom.systems.simulation import Simulation
+from carom.worlds import library
+from carom.worlds.check import check_section, collection
+from carom.worlds.errors import Fault, WordError, WorldError, did_you_mean, shown
+from carom.worlds.expect import Expectations, read_expectations
+from carom.worlds.generated import STEP_WORDS
+from carom.worlds.names import known, matching
+from carom.worlds.populate import Populator
+from carom.worlds.prefab import extended
+from carom.worlds.reader import Source, read
+from carom.worlds.run import RunPlan, plan
+from carom.worlds.schema import VERSION, Camera, Render, document
+
+STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
+UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+@dataclass
+class LoadedWorld:
+    """A world file ready to run; ``document`` is its plain data and ``up`` the direction pictures keep upright."""
+
+    simulation: Simulation
+    document: dict[str, Any]
+    path: str
+    source_text: str
+    run: RunPlan
+    expectations: Expectations
+    name: str = ""
+    description: str = ""
+    up: tuple[float, float, float] = UP["y"]
+    cameras: dict[str, Camera] = field(default_factory=dict)
+    render: Render = field(default_factory=Render)
+
+
+def load_world(world: str | Path, *, checked: bool | None = None, **options: Any) -> LoadedWorld:
+    """Load a world from a file or, by its name, from the library; ``options`` override settings of the file.
+
+    ``load_world("billiards", collision="fcl", seed=3)``: every field of `Settings` is an option. Raises WorldError with
+    all faults of the file at once.
+    """
+    path = library.find(world)
+    name = path.name if str(world) in library.names() and not Path(world).is_file() else str(world)
+    return load_text(library.read_text(path, name), name, path.parent, checked=checked, **options)
+
+
+def load_text(
+    text: str, name: str = "world.yaml", folder: Path | None = None, *, checked: bool | None = None, **options: Any
+) -> LoadedWorld:
+    """Load a world from the text of a file that lies, or would lie, in ``folder``; mesh files are found from there."""
+    source = read(text, name)
+    data = _with_header(source)
+    values = _checked(source, data)
+    simulation = _simulation(source, values, checked, options)
+    populator = Populator(source, simulation, folder or Path())
+    populator.add_all(values["entities"])
+    source.excused = _named(data.get("entities")) - {name.partition("[")[0] for name in simulation.world.names()}
+    _forces(source, simulation, values["forces"])
+    expectations = read_expectations(source, simulation, values["expect"])
+    if values["render"] is not None and values["render"].camera is not None:
+        try:
+            known("camera", values["render"].camera, values["cameras"])
+        except WordError as fault:
+            source.report_value(("render", "camera"), fault)
+    source.refuse_if_faulty()
+    return LoadedWorld(
+        simulation, data, name, text, plan(values["run"], simulation.settings.dt), expectations,
+        values["name"], values["description"], UP[values["up"]], values["cameras"], values["render"] or Render(),
+    )  # fmt: skip
+
+
+def _with_header(source: Source) -> dict[str, Any]:
+    """Return the data of a world of this version; raise WorldError at once for others, since nothing else counts."""
+    data, accepted = source.data, f"'carom: {VERSION}' as its first line"
+    if not isinstance(data, dict):
+        raise WorldError([*source.faults, Fault(source.name, 1, 1, "", "is no world", shown(data), accepted)])
+    if "carom" not in data:
+        raise WorldError([*source.faults, Fault(source.name, 1, 1, "carom", "is missing", accepted=accepted)])
+    if data["carom"] != VERSION or isinstance(data["carom"], bool):
+        place, received = source.position(("carom",)), shown(data["carom"])
+        raise WorldError(
+            [*source.faults, Fault(source.name, *place, "carom", "unknown version", received, str(VERSION))]
+        )
+    return data
+
+
+def _checked(source: Source, data: dict[str, Any]) -> dict[str, Any]:
+    """Return every section in SI, absent ones with their default, faulty ones and items as None."""
+    sections = document().model_fields
+    for key in data:
+        if key not in sections:
+            hint = did_you_mean(key, sections)
+            source.report((key,), "unknown key", received=repr(key), accepted=", ".join(sections), hint=hint)
+    prefabs = data.get("prefabs")
+    prefabs = prefabs if isinstance(prefabs, dict) else {}
+    values: dict[str, Any] = {}
+    for key, section in sections.items():
+        if key not in data:
+            values[key] = section.get_default(call_default_factory=True)
+            continue
+        value = data[key]
+        if key == "prefabs" and isinstance(value, dict):
+            value = {name: extended(source, (key, name), words, prefabs) for name, words in value.items()}
+        if key == "entities" and isinstance(value, list):
+            value = [extended(source, (key, index), words, prefabs) for index, words in enumerate(value)]
+        values[key] = check_section(source, key, value, partial=key == "prefabs")
+        if values[key] is None and collection(key) is None:
+            values[key] = section.get_default(call_default_factory=True)
+    return values
+
+
+def _simulation(source: Source, values: dict[str, Any], checked: bool | None, options: dict[str, Any]) -> Simulation:
+    settings = {f.name: values[f.name] for f in fields(Settings) if f.name not in STEP_WORDS}
+    if "gravity" not in source.data:
+        settings["gravity"] = STANDARD_GRAVITY[values["up"]]
+    if values["step"] is not None:
+        settings |= values["step"].model_dump(exclude_unset=True)
+    settings |= {key: value for key, value in options.items() if value is not None}
+    simulation = Simulation(checked=checked, **settings)
+    for name, words in values["materials"].items():
+        simulation.material(name, **({} if words is None else words.model_dump(exclude_unset=True)))
+    try:
+        simulation.layers(values["layers"])
+    except DeclarationError as fault:
+        source.report(("layers",), str(fault))
+    return simulation
+
+
+def _forces(source: Source, simulation: Simulation, forces: list[Any]) -> None:
+    names = simulation.world.names()
+    for index, words in enumerate(forces):
+        if words is None:
+            continue
+        stated = words.model_dump(exclude_unset=True)
+        patterns = stated.pop("entities", None)
+        if len(stated) != 1:
+            received = ", ".join(stated) or "none"
+            source.report(("forces", index), "must state one force", received=received, accepted=", ".join(_laws()))
+            continue
+        found: list[str] = []
+        for number, pattern in enumerate(patterns or ()):
+            try:
+                found += matching(pattern, names)
+            except WordError as fault:
+                source.report_value(("forces", index, "entities", number), fault)
+        ((key, parameters),) = stated.items()
+        entities = None if patterns is None else [simulation.world.find(name) for name in found]
+        try:
+            simulation.force(key, entities, **parameters)
+        except DeclarationError as fault:
+            source.report(("forces", index, key), str(fault))
+
+
+def _named(entities: Any) -> set[str]:
+    """Return the names a file gives its entities, whatever else is wrong with them."""
+    items = entities if isinstance(entities, list) else []
+    return {item["name"] for item in items if isinstance(item, dict) and isinstance(item.get("name"), str)}
+
+
+def _laws() -> list[str]:
+    from carom.systems.forces import LAWS
+
+    return sorted(LAWS)

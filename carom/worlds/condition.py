@@ -1,0 +1,171 @@
+"""Conditions of expectations: comparisons of terms and values with units, joined by and, or, not. No code is run."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.ecs import World
+from carom.ecs.column import Booleans, Floats
+from carom.worlds.errors import WordError
+from carom.worlds.terms import TERM_PATTERN, Term, read_term
+from carom.worlds.units import NUMBER, read_quantity
+
+END = r"(?=\s*(?:$|[<>=!)]|and\b|or\b))"
+TOKEN = re.compile(
+    rf"\s*(?:(?P<mark><=|>=|==|!=|<|>|[()])|(?P<word>(?:and|or|not)\b)"
+    rf"|(?P<value>{NUMBER}(?:\s*/\s*{NUMBER})?(?:\s*(?!and\b|or\b)[A-Za-z%/][\w%^*/ ]*?)?{END})"
+    rf"|(?P<term>{TERM_PATTERN}))"
+)
+COMPARE: dict[str, Callable[[Floats, Floats], Booleans]] = {
+    "<": np.less, "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal, "==": np.equal, "!=": np.not_equal
+}  # fmt: skip
+FORM = "comparisons such as 'left.position.y < 0', 'speed(left) > 3 m/s', joined by and, or, not"
+DEEPEST = 32
+
+
+class Verdict(NamedTuple):
+    """Whether a condition holds for each entity it speaks of, and by how much (positive where it holds)."""
+
+    holds: Booleans
+    margin: Floats
+
+
+Evaluate = Callable[[World], Verdict]
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A parsed condition; where its terms are of several entities it is one condition for each."""
+
+    text: str
+    terms: tuple[Term, ...]
+    evaluate: Evaluate
+
+    def values(self, world: World, index: int) -> str:
+        """Return what its terms are for one of the entities."""
+        shown = []
+        for term in dict.fromkeys(self.terms):
+            at = min(index, len(term.names) - 1)
+            shown.append(f"{term.names[at]} = {float(term.read(world)[at, 0]):.9g} {term.unit}")
+        return ", ".join(shown)
+
+
+def read_condition(text: str, world: World) -> Condition:
+    """Return the condition a text states; raise WordError."""
+    parser = _Parser(text, world)
+    evaluate = parser.either(0)
+    if parser.tokens:
+        raise parser.fault(f"is no condition at {parser.tokens[0][1]!r}")
+    counts = {len(term.names) for term in parser.terms} - {1}
+    if len(counts) > 1:
+        accepted = "patterns that mean equally many"
+        raise WordError("compares different numbers of entities", received=repr(text), accepted=accepted)
+    return Condition(text, tuple(parser.terms), evaluate)
+
+
+class _Parser:
+    """Reads tokens from the left: or binds loosest, then and, then not, then comparisons."""
+
+    def __init__(self, text: str, world: World) -> None:
+        self.text, self.world = text, world
+        self.terms: list[Term] = []
+        self.tokens: list[tuple[str, str]] = []
+        at = 0
+        while text[at:].strip():
+            found = TOKEN.match(text, at)
+            if found is None:
+                raise self.fault(f"is no condition at {text[at:].strip()!r}")
+            self.tokens.append((str(found.lastgroup), found[str(found.lastgroup)]))
+            at = found.end()
+
+    def fault(self, what: str) -> WordError:
+        return WordError(what, received=repr(self.text), accepted=FORM)
+
+    def take(self, *wanted: str) -> str | None:
+        return self.tokens.pop(0)[1] if self.tokens and self.tokens[0][1] in wanted else None
+
+    def either(self, depth: int) -> Evaluate:
+        if depth > DEEPEST:
+            raise self.fault(f"is nested deeper than {DEEPEST} levels")
+        parts = [self.both(depth)]
+        while self.take("or"):
+            parts.append(self.both(depth))
+        return parts[0] if len(parts) == 1 else _joined(parts, np.logical_or, np.maximum)
+
+    def both(self, depth: int) -> Evaluate:
+        parts = [self.negated(depth)]
+        while self.take("and"):
+            parts.append(self.negated(depth))
+        return parts[0] if len(parts) == 1 else _joined(parts, np.logical_and, np.minimum)
+
+    def negated(self, depth: int) -> Evaluate:
+        turned = False
+        while self.take("not"):
+            turned = not turned
+        inner = self.comparison(depth)
+        return (lambda world: Verdict(~(found := inner(world)).holds, -found.margin)) if turned else inner
+
+    def comparison(self, depth: int) -> Evaluate:
+        if self.take("("):
+            inner = self.either(depth + 1)
+            if not self.take(")"):
+                raise self.fault("lacks a closing bracket")
+            return inner
+        operands, marks = [self.operand()], []
+        while mark := self.take(*COMPARE):
+            marks.append(mark)
+            operands.append(self.operand())
+        if not marks:
+            raise self.fault("compares nothing")
+        unit = next((term.unit for term in operands if isinstance(term, Term)), None)
+        if unit is None:
+            raise self.fault("compares only numbers")
+        reads = [self.reading(operand, unit) for operand in operands]
+        parts = [_compared(reads[i], mark, reads[i + 1]) for i, mark in enumerate(marks)]
+        return parts[0] if len(parts) == 1 else _joined(parts, np.logical_and, np.minimum)
+
+    def operand(self) -> Term | str:
+        if not self.tokens or self.tokens[0][0] not in ("value", "term"):
+            raise self.fault("lacks a value")
+        group, text = self.tokens.pop(0)
+        if group == "value":
+            return text
+        term = read_term(text, self.world)
+        if term.size > 1:
+            accepted = f"one component, such as {term.text}.x"
+            raise WordError(f"{term.text} has {term.size} components", received=repr(self.text), accepted=accepted)
+        self.terms.append(term)
+        return term
+
+    def reading(self, operand: Term | str, unit: str) -> Callable[[World], Floats]:
+        if isinstance(operand, str):
+            value = np.array([read_quantity(operand, unit)])
+            return lambda world: value
+        if operand.unit != unit:
+            raise self.fault(f"compares {operand.text} in {operand.unit} with a value in {unit}")
+        return lambda world: operand.read(world)[:, 0]
+
+
+def _compared(left: Callable[[World], Floats], mark: str, right: Callable[[World], Floats]) -> Evaluate:
+    def evaluate(world: World) -> Verdict:
+        a, b = left(world), right(world)
+        room = b - a if mark in ("<", "<=") else a - b if mark in (">", ">=") else np.abs(a - b)
+        return Verdict(COMPARE[mark](a, b), -room if mark == "==" else room)
+
+    return evaluate
+
+
+def _joined(parts: list[Evaluate], holds: np.ufunc, margin: np.ufunc) -> Evaluate:
+    def evaluate(world: World) -> Verdict:
+        found = [part(world) for part in parts]
+        total = found[0]
+        for verdict in found[1:]:
+            total = Verdict(holds(total.holds, verdict.holds), margin(total.margin, verdict.margin))
+        return total
+
+    return evaluate

@@ -1,0 +1,68 @@
+"""The ``expect`` section of a world file to expectations."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from carom.systems.simulation import Simulation
+from carom.worlds.condition import read_condition
+from carom.worlds.errors import Path, WordError
+from carom.worlds.expect_laws import QUANTITIES, Conserved, Penetration, Throughout
+from carom.worlds.expect_values import frame_of, read_event, read_values
+from carom.worlds.expectation import Expectation, Expectations, Outcome
+from carom.worlds.reader import Source
+
+__all__ = ["Expectation", "Expectations", "Outcome", "read_expectations"]
+EVERY_FRAME = (*QUANTITIES, "penetration", "never", "always")
+
+
+def read_expectations(source: Source, simulation: Simulation, items: list[Any]) -> Expectations:
+    """Return the expectations of checked words (None: already reported); report names the world does not have."""
+    found: list[Expectation] = []
+    for index, words in enumerate(items):
+        if words is not None:
+            found += _read(source, simulation, ("expect", index), words)
+    return Expectations(found)
+
+
+def _read(source: Source, simulation: Simulation, path: Path, words: Any) -> list[Expectation]:
+    values = dict(words.__pydantic_extra__ or {})
+    moments = [key for key in ("at", "when") if getattr(words, key) is not None]
+    laws = [key for key in EVERY_FRAME if getattr(words, key) is not None]
+    if len(moments) > 1 or bool(moments) is not bool(values) or not (laws or values):
+        accepted = f"{', '.join(EVERY_FRAME)}; or at or when, with values such as ball.position: {{is, within}}"
+        received = ", ".join((*moments, *values)) or "none"
+        source.report(path, "must state a law, or a moment with values", received=received, accepted=accepted)
+        return []
+    found: list[Expectation] = []
+    for key in laws:
+        try:
+            found.append(_every_frame(simulation, key, getattr(words, key)))
+        except WordError as fault:
+            source.report_value((*path, key), fault)
+    for key in moments:
+        try:
+            moment = _moment(simulation, key, getattr(words, key))
+        except WordError as fault:
+            source.report_value((*path, key), fault)
+            continue
+        for name, item in read_values(values, simulation.world, **moment):
+            if isinstance(item, WordError):
+                source.report_value((*path, name), item)
+            else:
+                found.append(item)
+    return found
+
+
+def _every_frame(simulation: Simulation, key: str, text: str) -> Expectation:
+    if key in QUANTITIES:
+        return Conserved(key, text)
+    if key == "penetration":
+        return Penetration(text)
+    return Throughout(key, read_condition(text, simulation.world))
+
+
+def _moment(simulation: Simulation, key: str, value: Any) -> dict[str, Any]:
+    if key == "at":
+        return {"frame": frame_of(value, simulation.settings.dt)}
+    return {"when": read_event(value, simulation.world)}

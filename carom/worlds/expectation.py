@@ -1,0 +1,93 @@
+"""Expectation: the base of everything a world file can expect, and what became of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from carom.systems.simulation import Simulation
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of an expectation: ``frame`` and ``time`` (s) are where it first failed, None where it held."""
+
+    text: str
+    held: bool
+    expected: str
+    received: str
+    worst: str
+    frame: int | None = None
+    time: float | None = None
+
+    def __str__(self) -> str:
+        """Return one line."""
+        if self.held:
+            return f"held: {self.text} ({self.worst})" if self.worst else f"held: {self.text}"
+        where = "" if self.frame is None else f" in frame {self.frame} at {self.time:.6g} s"
+        return f"failed{where}: {self.text}; expected {self.expected}; received {self.received}; worst {self.worst}"
+
+
+class Expectation:
+    """Something that must hold while a world runs; `observe` looks after every step and calls `fail`."""
+
+    def __init__(self, text: str, expected: str) -> None:
+        self.text, self.expected = text, expected
+        self.worst = ""
+        self.failure: tuple[str, int, float] | None = None
+
+    def begin(self, simulation: Simulation) -> None:
+        """See the world before its first step."""
+
+    def observe(self, simulation: Simulation) -> None:
+        """See the world after a step."""
+
+    def end(self, simulation: Simulation) -> None:
+        """See the end of the run."""
+
+    def fail(self, simulation: Simulation, received: str) -> None:
+        """Note a failure; the first one counts."""
+        if self.failure is None:
+            self.failure = (received, simulation.frame, simulation.time)
+
+    @property
+    def held(self) -> bool:
+        """Whether it held so far."""
+        return self.failure is None
+
+    def outcome(self) -> Outcome:
+        """Return what became of it."""
+        if self.failure is None:
+            return Outcome(self.text, True, self.expected, self.worst, self.worst)
+        received, frame, time = self.failure
+        return Outcome(self.text, False, self.expected, received, self.worst or received, frame, time)
+
+
+class Expectations:
+    """All expectations of a world, as one observer."""
+
+    def __init__(self, items: list[Expectation]) -> None:
+        self.items = items
+
+    def begin(self, simulation: Simulation) -> None:
+        """See the world before its first step."""
+        for item in self.items:
+            item.begin(simulation)
+
+    def observe(self, simulation: Simulation) -> None:
+        """See the world after a step."""
+        for item in self.items:
+            item.observe(simulation)
+
+    def end(self, simulation: Simulation) -> None:
+        """See the end of the run."""
+        for item in self.items:
+            item.end(simulation)
+
+    @property
+    def held(self) -> bool:
+        """Whether all held so far."""
+        return all(item.held for item in self.items)
+
+    def outcomes(self) -> list[Outcome]:
+        """Return what became of each, in the order of the file."""
+        return [item.outcome() for item in self.items]

@@ -1,0 +1,32 @@
+"""Names in world files that stand for something defined elsewhere in it: layers, materials, entities."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from carom.worlds.errors import WordError, did_you_mean
+
+
+def known(kind: str, name: str, choices: Iterable[str]) -> str:
+    """Return ``name`` when it is among the choices; raise WordError with the nearest one otherwise."""
+    names = list(choices)
+    if name not in names:
+        listed = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
+        accepted, hint = listed or "none is defined", did_you_mean(name, names)
+        raise WordError(f"unknown {kind}", received=repr(name), accepted=accepted, hint=hint, name=name)
+    return name
+
+
+def matching(pattern: str, names: Sequence[str]) -> list[str]:
+    """Return the names that a pattern means, in order: itself, all of a grid, or those that fit its ``*``.
+
+    Raises WordError when it means none.
+    """
+    if pattern in names:
+        return [pattern]
+    form = re.compile(re.escape(pattern).replace(r"\*", ".*") + r"(?:\[[\d,]+\])?")
+    found = [name for name in names if form.fullmatch(name)]
+    if not found:
+        known("entity", pattern, names)
+    return found

@@ -1,0 +1,133 @@
+"""Entities of a world file into a simulation."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import product
+from pathlib import Path as FilePath
+from typing import Any
+
+import numpy as np
+
+from carom.ecs.column import Floats
+from carom.ecs.components.name import NAME_LENGTH
+from carom.ecs.errors import DeclarationError
+from carom.systems.assembly import Materials
+from carom.systems.layers import Layers
+from carom.systems.settings import Random
+from carom.systems.simulation import Simulation
+from carom.worlds.errors import Path, WordError
+from carom.worlds.geometry import GEOMETRY_WORDS, GeometryReader
+from carom.worlds.names import known
+from carom.worlds.reader import Source
+
+SUB_PATH = re.compile(r"([a-z_]+(?:\.[a-z_]+)*): (.*)", re.DOTALL)
+
+
+class Populator:
+    """Adds entities, reporting what is wrong with each where the file says it."""
+
+    def __init__(self, source: Source, simulation: Simulation, folder: FilePath) -> None:
+        self.source, self.simulation = source, simulation
+        self.geometries = GeometryReader(folder)
+        self.taken: dict[str, Path] = {}
+
+    def add_all(self, entities: list[Any]) -> None:
+        """Add the entities of a file in its order; None stands for one already reported."""
+        for index, model in enumerate(entities):
+            if model is not None:
+                self.add(("entities", index), model.model_dump(exclude_unset=True))
+
+    def add(self, path: Path, words: dict[str, Any]) -> None:
+        """Add one entity, or the copies of its grid."""
+        grid = words.pop("grid", None)
+        name = words.pop("name", None)
+        if name is not None and name in self.taken:
+            first = self.taken[name]
+            where = f"{first[0]}.{first[1]} at line {self.source.position(first)[0]}"
+            self.source.report((*path, "name"), "two entities of one name", received=f"{name!r}, also of {where}")
+            return
+        if name is not None:
+            self.taken[name] = path
+        if not self.names_hold(path, words):
+            return
+        transform = words.pop("transform", {})
+        jitter = transform.pop("jitter", None)
+        try:
+            for key in ("collider", "visual"):
+                if isinstance(words.get(key), dict):
+                    self.read_geometry((*path, key), words[key])
+            for copy, position in self.places(name, grid, np.array(transform.get("position", (0.0, 0.0, 0.0)))):
+                if jitter is not None:
+                    reach = np.broadcast_to(jitter, 3)
+                    position = position + self.simulation.world[Random].generator.uniform(-reach, reach)
+                self.simulation.add(name=copy, transform=transform | {"position": tuple(position)}, **words)
+        except _ReportedError:
+            return
+        except DeclarationError as fault:
+            self.report(path, str(fault))
+
+    def places(
+        self, name: str | None, grid: dict[str, Any] | None, position: Floats
+    ) -> Iterator[tuple[str | None, Floats]]:
+        """Yield name and position of each copy."""
+        if grid is None:
+            yield name, position
+            return
+        counts = grid["count"]
+        longest = f"{name}[{','.join(str(count - 1) for count in counts)}]"
+        if name is not None and len(longest) > NAME_LENGTH:
+            raise DeclarationError(f"grid: the name {longest!r} of its last copy exceeds {NAME_LENGTH} characters")
+        corner = position + np.array(grid.get("origin", (0.0, 0.0, 0.0)))
+        for i, j, k in product(*map(range, counts)):
+            yield name and f"{name}[{i},{j},{k}]", corner + np.array((i, j, k)) * grid["spacing"]
+
+    def read_geometry(self, path: Path, words: dict[str, Any]) -> None:
+        """Put shapes in the place of the words of meshes and hulls; report files that cannot be used."""
+        for key in GEOMETRY_WORDS:
+            if key in words:
+                try:
+                    words[key] = self.geometries.shape(key, words[key])
+                except DeclarationError as fault:
+                    place = "file" if "file" in words[key] else "points"
+                    self.source.report((*path, key, place), str(fault))
+                    raise _ReportedError from None
+
+    def names_hold(self, path: Path, words: dict[str, Any]) -> bool:
+        """Report names of materials and layers that nothing defines."""
+        layers, materials = self.simulation.world[Layers].bits, self.simulation.world[Materials].named
+        collider = words.get("collider", {})
+        uses: list[tuple[Path, str, str, Any]] = []
+        if isinstance(words.get("material"), str):
+            uses.append((("material",), "material", words["material"], materials))
+        if "layer" in collider:
+            uses.append((("collider", "layer"), "layer", collider["layer"], layers))
+        for number, name in enumerate(collider.get("collides_with", ())):
+            uses.append((("collider", "collides_with", number), "layer", name, layers))
+        if "on_enter" in collider:
+            uses.append((("collider", "on_enter", "layer"), "layer", collider["on_enter"]["layer"], layers))
+        held = True
+        for place, kind, name, choices in uses:
+            try:
+                known(kind, name, choices)
+            except WordError as fault:
+                self.source.report_value((*path, *place), fault)
+                held = False
+        return held
+
+    def report(self, path: Path, message: str) -> None:
+        """Report what assembly says, at the words it names when they are in the file."""
+        found = SUB_PATH.fullmatch(message)
+        if found is not None:
+            steps = tuple(found[1].split("."))
+            for place in ((*path, *steps), (*path, "collider", *steps)):
+                if self.source.written(place) or steps[0] in ("body", "motion", "collider", "visual", "grid"):
+                    self.source.report(place, found[2])
+                    return
+        place = (*path, "collider") if message.startswith("state exactly one shape") else path
+        self.source.report(place, message)
+
+
+class _ReportedError(Exception):
+    """What was wrong is reported already."""

@@ -1,0 +1,115 @@
+"""Sections of a world file that no registry supplies: grids, cameras, runs, pictures, expectations."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal
+
+from pydantic import ConfigDict, Field, WrapValidator, model_validator
+
+from carom.worlds.color import ColorWord
+from carom.worlds.errors import WordError, shown
+from carom.worlds.values import In, Vector3, Whole, Words, either, word_of
+
+Length = Annotated[float, In("m")]
+Lengths = Annotated[Vector3, In("m")]
+Count = Annotated[int, Whole(1)]
+LayersMet = Annotated[list[str] | Literal["all"], WrapValidator(lambda value, handler: _layers_met(value))]
+
+
+def _layers_met(value: Any) -> list[str] | None:
+    if value == "all":
+        return None
+    if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
+        raise WordError("is not a set of layers", received=shown(value), accepted="a list of names, or all")
+    return value
+
+
+class Grid(Words):
+    """Copies of an entity on a grid, called like ``rain[3,0,1]``."""
+
+    count: tuple[Count, Count, Count] = Field(description="copies along x, y and z")
+    spacing: either(Length, Lengths, list) = Field(description="distance between neighbours (m), one or one per axis")  # type: ignore[valid-type]
+    origin: Lengths = Field((0.0, 0.0, 0.0), description="where copy [0,0,0] is, added to transform.position (m)")
+
+
+class OnEnter(Words):
+    """What a sensor does to who enters."""
+
+    layer: str = Field(description="layer given to who enters")
+
+
+class Camera(Words):
+    """A view of the world."""
+
+    position: Lengths = Field(description="where it is (m)")
+    target: Lengths = Field((0.0, 0.0, 0.0), description="what it looks at (m)")
+    fov: Annotated[float, In("rad", above=0.0, most=math.pi)] = Field(math.radians(50.0), description="vertical angle")
+    up: Annotated[Vector3, In("1")] | None = Field(None, description="up in the picture, the world's up by default")
+
+
+class Run(Words):
+    """How long a run takes: a duration, a number of frames, or until everything rests."""
+
+    duration: Annotated[float, In("s", above=0.0)] | None = Field(None, description="simulated time (s)")
+    frames: Count | None = Field(None, description="steps")
+    until: word_of("rest") = Field(None, description="until no body is faster than rest_speed")  # type: ignore[valid-type]
+    rest_speed: Annotated[float, In("m/s", above=0.0)] = Field(0.001, description="speed that counts as rest (m/s)")
+    at_most: Annotated[float, In("s", above=0.0)] = Field(60.0, description="longest time until rest (s)")
+
+    @model_validator(mode="after")
+    def check(self) -> Run:
+        """Refuse a run with no end and one with two."""
+        ends = [key for key in ("duration", "frames", "until") if getattr(self, key) is not None]
+        if len(ends) != 1:
+            received = " and ".join(ends) or "none"
+            raise WordError("must state one end", received=received, accepted="duration, frames or until")
+        return self
+
+
+class Render(Words):
+    """Pictures and films of the world."""
+
+    width: Count = Field(640, description="pixels")
+    height: Count = Field(480, description="pixels")
+    fps: Annotated[float, In("Hz", above=0.0)] = Field(30.0, description="pictures per second of film")
+    camera: str | None = Field(None, description="name of a camera, the first by default")
+    background: ColorWord | None = Field(None, description="colour behind everything")
+
+
+class Measure(Words):
+    """What a value must be, and how near."""
+
+    value: Any = Field(alias="is", description="the number or list of numbers it must be")
+    within: Any = Field(description="largest difference, in the unit of the value or as a share like '1 %'")
+
+
+class When(Words):
+    """The moment of an event."""
+
+    impact: tuple[str, str] | None = Field(None, description="two colliders that strike each other")
+    enter: tuple[str, str] | None = Field(None, description="a sensor and who enters it")
+    nth: Count = Field(1, description="which of these events, from 1")
+
+    @model_validator(mode="after")
+    def check(self) -> When:
+        """Refuse both events and neither."""
+        if (self.impact is None) is (self.enter is None):
+            received = "both" if self.impact else "none"
+            raise WordError("must state one event", received=received, accepted="impact or enter")
+        return self
+
+
+class Expect(Words):
+    """Something that must hold: one law, or values at a time or event, keyed like ``ball.position``."""
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Measure]
+    energy: str | None = Field(None, description="'non-increasing' or 'constant within X'")
+    momentum: str | None = Field(None, description="'constant within X'")
+    angular_momentum: str | None = Field(None, description="'constant within X'")
+    penetration: str | None = Field(None, description="'< 1 mm'")
+    never: str | None = Field(None, description="condition, such as 'ball.position.y < 0'")
+    always: str | None = Field(None, description="condition, such as 'speed(ball) < 3 m/s'")
+    at: Annotated[float, In("s", least=0.0)] | None = Field(None, description="time of the values (s)")
+    when: When | None = Field(None, description="event of the values")

@@ -1,0 +1,123 @@
+"""Terms: what expectations can ask of a world, such as ``left.position.y`` or ``speed(rain[0,0,1])``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.ecs import Component, Entity, Material, Motion, RigidBody, Transform, World
+from carom.ecs.column import Floats
+from carom.systems.energy import kinetic_energies
+from carom.worlds.errors import WordError, did_you_mean
+from carom.worlds.names import matching
+
+NAME_PATTERN = r"[^\W\d][\w*-]*(?:\[[\d,*]*\])?"
+COLUMN_TERM = re.compile(rf"({NAME_PATTERN})\.([\w.]+)")
+CALL_TERM = re.compile(r"(\w+)\s*\(([^()]*)\)")
+TERM_PATTERN = rf"\w+\s*\([^()]*\)|{NAME_PATTERN}(?:\.[\w.]+)?"
+AXES = "xyzw"
+FIRST_KINDS = (Transform, Motion, RigidBody, Material)  # where two components have a column of one name, these win
+Read = Callable[[World], Floats]
+
+
+@dataclass(frozen=True)
+class Term:
+    """A value of one or several entities; ``read`` returns it for each, shape (entities, size), in ``unit``."""
+
+    text: str
+    unit: str
+    size: int
+    names: tuple[str, ...]
+    read: Read
+
+
+def _rows(world: World, entities: list[Entity]) -> list[int]:
+    return [world.row(entity) for entity in entities]
+
+
+def _speed(world: World, rows: list[int]) -> Floats:
+    return np.asarray(np.linalg.norm(world[Motion].linear[rows], axis=1))
+
+
+def _spin(world: World, rows: list[int]) -> Floats:
+    return np.asarray(np.linalg.norm(world[Motion].angular[rows], axis=1))
+
+
+def _energy(world: World, rows: list[int]) -> Floats:
+    return kinetic_energies(world, np.array(rows, np.int64))
+
+
+CALLS = {"speed": ("m/s", _speed), "spin": ("rad/s", _spin), "kinetic_energy": ("J", _energy)}
+DISTANCE = "distance"
+
+
+def read_term(text: str, world: World) -> Term:
+    """Return the term a text states; raise WordError for what the world does not have."""
+    text = text.strip()
+    call, column = CALL_TERM.fullmatch(text), COLUMN_TERM.fullmatch(text)
+    if call is not None:
+        return _call(text, call[1], re.findall(NAME_PATTERN, call[2]), world)
+    if column is None:
+        accepted = f"<entity>.<column>, {', '.join(f'{name}(entity)' for name in CALLS)} or {DISTANCE}(entity, entity)"
+        raise WordError("is no value of the world", received=repr(text), accepted=accepted)
+    names = matching(column[1], world.names())
+    return _column(text, names, column[2].split("."), world)
+
+
+def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
+    groups = [matching(pattern, world.names()) for pattern in patterns]
+    if function == DISTANCE and len(groups) == 2 and all(len(group) == 1 for group in groups):
+        pair = [world.find(group[0]) for group in groups]
+
+        def distance(world: World) -> Floats:
+            first, second = world[Transform].position[_rows(world, pair)]
+            return np.array([[np.linalg.norm(second - first)]])
+
+        return Term(text, "m", 1, (text,), distance)
+    if function not in CALLS or len(groups) != 1:
+        accepted = f"{', '.join(f'{name}(entity)' for name in CALLS)} or {DISTANCE}(entity, entity)"
+        hint = did_you_mean(function, (*CALLS, DISTANCE))
+        raise WordError("unknown function", received=repr(text), accepted=accepted, hint=hint)
+    unit, measure = CALLS[function]
+    entities = [world.find(name) for name in groups[0]]
+    for entity in entities:
+        _kinds(world, entity, "linear")
+    names = tuple(f"{function}({name})" for name in groups[0])
+    return Term(text, unit, 1, names, lambda world: measure(world, _rows(world, entities))[:, None])
+
+
+def _column(text: str, names: list[str], steps: list[str], world: World) -> Term:
+    axis = AXES.index(steps.pop()) if len(steps) > 1 and steps[-1] in AXES and len(steps[-1]) == 1 else None
+    entities = [world.find(name) for name in names]
+    kind = _kinds(world, entities[0], *steps)
+    for entity in entities[1:]:
+        _kinds(world, entity, *steps)
+    column = kind.columns[steps[-1]]
+    size = int(np.prod(column.shape))
+    if axis is not None and axis >= size:
+        raise WordError(f"{steps[-1]} has no {AXES[axis]}", received=repr(text), accepted=", ".join(AXES[:size]))
+
+    def read(world: World) -> Floats:
+        rows = _rows(world, entities)
+        values = np.asarray(getattr(world[kind], steps[-1])[rows], np.float64).reshape(len(rows), size)
+        return values if axis is None else values[:, axis : axis + 1]
+
+    end = text[text.index(".", text.find("]") + 1) :]
+    return Term(text, column.unit, 1 if axis is not None else size, tuple(name + end for name in names), read)
+
+
+def _kinds(world: World, entity: Entity, *steps: str) -> type[Component]:
+    """Return the component of an entity that has the column ``column`` or ``component.column``."""
+    row = world.row(entity)
+    held = [kind for kind, table in world.tables.items() if issubclass(kind, Component) and table.present[row]]
+    held.sort(key=lambda kind: FIRST_KINDS.index(kind) if kind in FIRST_KINDS else len(FIRST_KINDS))
+    for kind in held:
+        if steps[-1] in kind.columns and steps[:-1] in ((), (kind.key,)):
+            return kind
+    columns = [name for kind in held for name in kind.columns if kind in FIRST_KINDS]
+    wanted, hint = ".".join(steps), did_you_mean(steps[-1], columns)
+    accepted = ", ".join(columns)
+    raise WordError(f"{world.name(entity)} has no such column", received=repr(wanted), accepted=accepted, hint=hint)
