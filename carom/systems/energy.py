@@ -15,13 +15,14 @@ from carom.systems.settings import Settings
 def dynamic_rows(world: World) -> Integers:
     """Return the rows of the bodies that obey forces."""
     rows = world.row_numbers(Transform, Motion, RigidBody)
-    return rows[world[RigidBody].type[rows] == BodyType.DYNAMIC]
+    return np.asarray(rows[world[RigidBody].type[rows] == BodyType.DYNAMIC])
 
 
 def centers_of_mass(world: World, rows: Integers) -> Floats:
     """Return centres of mass (n, 3) in m, world frame."""
     transform = world[Transform]
-    return transform.position[rows] + quaternion.rotate(transform.rotation[rows], world[RigidBody].center_of_mass[rows])
+    offset = quaternion.rotate(transform.rotation[rows], world[RigidBody].center_of_mass[rows])
+    return np.asarray(transform.position[rows] + offset)
 
 
 def kinetic_energies(world: World, rows: Integers) -> Floats:
@@ -74,7 +75,7 @@ def angular_momenta(world: World, rows: Integers) -> Floats:
     """Return each body's angular momentum about the world's origin (n, 3) in kg m2/s."""
     spin, axes = _in_principal_axes(world, rows)
     orbital = np.cross(centers_of_mass(world, rows), momenta(world, rows))
-    return np.asarray(orbital + quaternion.rotate(axes, world[RigidBody].inertia[rows] * spin))
+    return np.add(orbital, quaternion.rotate(axes, world[RigidBody].inertia[rows] * spin))
 
 
 def angular_momentum(world: World) -> Floats:

@@ -12,14 +12,15 @@ from carom.systems.simulation import Simulation
 from carom.worlds import library
 from carom.worlds.check import check_section, collection
 from carom.worlds.errors import Fault, WordError, WorldError, did_you_mean, shown
-from carom.worlds.expect import Expectations, read_expectations
+from carom.worlds.expect import Expectation, read_expectations
 from carom.worlds.generated import STEP_WORDS
 from carom.worlds.names import known, matching
 from carom.worlds.populate import Populator
 from carom.worlds.prefab import extended
 from carom.worlds.reader import Source, read
 from carom.worlds.run import RunPlan, plan
-from carom.worlds.schema import VERSION, Camera, Render, document
+from carom.worlds.schema import VERSION, document
+from carom.worlds.sections import Camera, Render
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -34,12 +35,12 @@ class LoadedWorld:
     path: str
     source_text: str
     run: RunPlan
-    expectations: Expectations
+    expectations: list[Expectation]
     name: str = ""
     description: str = ""
     up: tuple[float, float, float] = UP["y"]
     cameras: dict[str, Camera] = field(default_factory=dict)
-    render: Render = field(default_factory=Render)
+    render: Render = field(default_factory=lambda: Render.model_validate({}))
 
 
 def load_world(world: str | Path, *, checked: bool | None = None, **options: Any) -> LoadedWorld:
@@ -72,9 +73,10 @@ def load_text(
         except WordError as fault:
             source.report_value(("render", "camera"), fault)
     source.refuse_if_faulty()
+    render = values["render"] or Render.model_validate({})
     return LoadedWorld(
         simulation, data, name, text, plan(values["run"], simulation.settings.dt), expectations,
-        values["name"], values["description"], UP[values["up"]], values["cameras"], values["render"] or Render(),
+        values["name"], values["description"], UP[values["up"]], values["cameras"], render,
     )  # fmt: skip
 
 
@@ -87,9 +89,8 @@ def _with_header(source: Source) -> dict[str, Any]:
         raise WorldError([*source.faults, Fault(source.name, 1, 1, "carom", "is missing", accepted=accepted)])
     if data["carom"] != VERSION or isinstance(data["carom"], bool):
         place, received = source.position(("carom",)), shown(data["carom"])
-        raise WorldError(
-            [*source.faults, Fault(source.name, *place, "carom", "unknown version", received, str(VERSION))]
-        )
+        fault = Fault(source.name, *place, "carom", "unknown version", received, str(VERSION))
+        raise WorldError([*source.faults, fault])
     return data
 
 

@@ -9,20 +9,20 @@ from carom.worlds.condition import read_condition
 from carom.worlds.errors import Path, WordError
 from carom.worlds.expect_laws import QUANTITIES, Conserved, Penetration, Throughout
 from carom.worlds.expect_values import frame_of, read_event, read_values
-from carom.worlds.expectation import Expectation, Expectations, Outcome
+from carom.worlds.expectation import Expectation, Outcome
 from carom.worlds.reader import Source
 
-__all__ = ["Expectation", "Expectations", "Outcome", "read_expectations"]
+__all__ = ["Expectation", "Outcome", "read_expectations"]
 EVERY_FRAME = (*QUANTITIES, "penetration", "never", "always")
 
 
-def read_expectations(source: Source, simulation: Simulation, items: list[Any]) -> Expectations:
+def read_expectations(source: Source, simulation: Simulation, items: list[Any]) -> list[Expectation]:
     """Return the expectations of checked words (None: already reported); report names the world does not have."""
     found: list[Expectation] = []
     for index, words in enumerate(items):
         if words is not None:
             found += _read(source, simulation, ("expect", index), words)
-    return Expectations(found)
+    return found
 
 
 def _read(source: Source, simulation: Simulation, path: Path, words: Any) -> list[Expectation]:

@@ -60,34 +60,3 @@ class Expectation:
             return Outcome(self.text, True, self.expected, self.worst, self.worst)
         received, frame, time = self.failure
         return Outcome(self.text, False, self.expected, received, self.worst or received, frame, time)
-
-
-class Expectations:
-    """All expectations of a world, as one observer."""
-
-    def __init__(self, items: list[Expectation]) -> None:
-        self.items = items
-
-    def begin(self, simulation: Simulation) -> None:
-        """See the world before its first step."""
-        for item in self.items:
-            item.begin(simulation)
-
-    def observe(self, simulation: Simulation) -> None:
-        """See the world after a step."""
-        for item in self.items:
-            item.observe(simulation)
-
-    def end(self, simulation: Simulation) -> None:
-        """See the end of the run."""
-        for item in self.items:
-            item.end(simulation)
-
-    @property
-    def held(self) -> bool:
-        """Whether all held so far."""
-        return all(item.held for item in self.items)
-
-    def outcomes(self) -> list[Outcome]:
-        """Return what became of each, in the order of the file."""
-        return [item.outcome() for item in self.items]

@@ -12,7 +12,7 @@ from carom.ecs import BodyType, Collider, Motion, RigidBody
 from carom.systems.simulation import Simulation
 
 if TYPE_CHECKING:
-    from carom.worlds.schema import Run
+    from carom.worlds.sections import Run
 
 DEFAULT_DURATION = 5.0
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache, lru_cache
 from typing import Any, NamedTuple
@@ -23,15 +24,23 @@ class Unit(NamedTuple):
 
 PURE = Unit(Fraction(1), (0, 0, 0, 0))
 DEGREE = Fraction(math.pi) / 180
-BASE: dict[str, tuple[Dimension, dict[str, Fraction | int | str]]] = {
+BASE: dict[str, tuple[Dimension, Mapping[str, Fraction | int | str]]] = {
     "a mass": (
         (1, 0, 0, 0),
         {"kg": 1, "g": "0.001", "mg": "1e-6", "t": 1000, "lb": "0.45359237", "oz": "0.028349523125"},
     ),
     "a length": (
         (0, 1, 0, 0),
-        {"m": 1, "mm": "0.001", "cm": "0.01", "km": 1000, "um": "1e-6", "in": "0.0254", "ft": "0.3048", "yd": "0.9144"}
-        | {"mi": "1609.344"},
+        {
+            "m": 1,
+            "mm": "0.001",
+            "cm": "0.01",
+            "km": 1000,
+            "um": "1e-6",
+            "in": "0.0254",
+            "ft": "0.3048",
+            "mi": "1609.344",
+        },
     ),
     "a time": ((0, 0, 1, 0), {"s": 1, "ms": "0.001", "us": "1e-6", "min": 60, "h": 3600, "d": 86400}),
     "an angle": ((0, 0, 0, 1), {"rad": 1, "deg": DEGREE, "mrad": "0.001", "turn": DEGREE * 360}),

@@ -34,7 +34,7 @@ class Words(BaseModel):
 
 @dataclass(frozen=True)
 class In:
-    """Marks a number or a tuple of numbers as one in ``unit``, with bounds: ``Annotated[float, In("m", above=0.0)]``."""
+    """Marks a number, or a tuple of numbers, as one in ``unit``: ``Annotated[float, In("m", above=0.0)]``."""
 
     unit: str
     above: float | None = None
