@@ -124,7 +124,8 @@ def complete_contacts(
             material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
         )
         lever = max(bound_radius[a], bound_radius[b])
-        rolling[c] = max(material_rolling[a], material_rolling[b]) * lever
+        # Never more than friction can carry, else resistance to rolling would make the body slide.
+        rolling[c] = min(max(material_rolling[a], material_rolling[b]), friction[c]) * lever
         spinning[c] = max(material_spinning[a], material_spinning[b]) * lever
         body_a[c], body_b[c] = body_row[a], body_row[b]
         for k in range(3):

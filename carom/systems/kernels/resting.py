@@ -223,6 +223,7 @@ def hold_contacts(
                 b, 1.0, jx, jy, jz, rbx, rby, rbz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
             )
             most = friction[c] * warm_normal[c]
+            slides = True
             if friction[c] > 0.0:
                 ax, ay, az = surface_velocity(a, rax, ray, raz, linear, angular)
                 bx, by, bz = surface_velocity(b, rbx, rby, rbz, linear, angular)
@@ -234,7 +235,8 @@ def hold_contacts(
                 ft = tx * px + ty * py + tz * pz - (give[m, 1] * vt + give[m, 2] * vu)
                 fu = ux * px + uy * py + uz * pz - (give[m, 2] * vt + give[m, 3] * vu)
                 size = sqrt(ft * ft + fu * fu)
-                if size > most:
+                slides = size > most
+                if slides:
                     ft, fu = ft * (most / size), fu * (most / size)
                 fx, fy, fz = ft * tx + fu * ux, ft * ty + fu * uy, ft * tz + fu * uz
                 jx, jy, jz = fx - px, fy - py, fz - pz
@@ -261,7 +263,7 @@ def hold_contacts(
                 along = nx * jx + ny * jy + nz * jz
                 jx, jy, jz = jx - along * nx, jy - along * ny, jz - along * nz
                 size = sqrt(jx * jx + jy * jy + jz * jz)
-                most = rolling[c] * warm_normal[c]
+                most = 0.0 if slides else rolling[c] * warm_normal[c]  # what slides does not roll
                 if size > most:
                     jx, jy, jz = jx * (most / size), jy * (most / size), jz * (most / size)
                 most = spinning[c] * warm_normal[c]
