@@ -12,6 +12,8 @@ from carom.tools.cameras import Camera
 from carom.tools.recorder import about, bodies, contacts, happenings, plots
 from carom.tools.recorder.stream import TIME
 
+BACKGROUND = (44, 50, 60)
+
 
 def blueprint(camera: Camera, *, grid: bool) -> Any:
     """Return a large view of the world beside the log and the plots, playing on simulated time."""
@@ -24,7 +26,7 @@ def blueprint(camera: Camera, *, grid: bool) -> Any:
         name="World",
         eye_controls=controls,
         line_grid=grid,
-        background=rrb.Background(kind=rrb.BackgroundKind.GradientBright),
+        background=BACKGROUND,
     )
     curves = rrb.Vertical(
         rrb.TimeSeriesView(origin=plots.ENERGY, name="Energy (J)"),
