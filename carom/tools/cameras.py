@@ -36,10 +36,12 @@ class Camera:
 
     def __post_init__(self) -> None:
         """Refuse a camera that sees nothing; raise CaromError."""
-        if not all(map(math.isfinite, (*self.position, *self.target, *self.up))) or self.distance == 0.0:
+        if not all(map(math.isfinite, (*self.position, *self.target))) or self.distance == 0.0:
             raise CaromError(
                 f"camera: position and target must be finite and differ, received {self.position} and {self.target}"
             )
+        if not all(map(math.isfinite, self.up)) or not any(self.up):
+            raise CaromError(f"camera: up must be finite and not zero, received {self.up}")
         if not 0.0 < self.fov < math.pi:
             raise CaromError(f"camera: fov must lie between 0 and 180 deg, received {math.degrees(self.fov):g} deg")
         if not 0.0 < self.planes[0] < self.planes[1]:
