@@ -56,24 +56,27 @@ class Summary:
     pairs_by_kernels: int = 0
     impacts_cut: int = 0
     expectations: int = 0
+    judged: bool = True
     failures: list[str] = field(default_factory=list)
     outputs: dict[str, str] = field(default_factory=dict)
 
     def text(self) -> str:
         """Return the summary for people."""
         speed = self.simulated_seconds / self.real_seconds if self.real_seconds else 0.0
-        held = self.expectations - len(self.failures)
+        held = f"{self.expectations - len(self.failures)} of {self.expectations} held"
         lines = [
             f"{self.world}: {self.frames} frames, {self.bodies} bodies",
-            f"  time          {self.simulated_seconds:.2f} s simulated in {self.real_seconds:.2f} s ({speed:.1f} x real time)",
+            f"  time          {self.simulated_seconds:.2f} s simulated in {self.real_seconds:.2f} s, {speed:.1f} x real time",
             f"  energy        {self.energy_before:.6g} J before, {self.energy_after:.6g} J after",
             f"  overlap       {1e3 * self.deepest_overlap:.3g} mm at the deepest",
             f"  pairs         {self.pairs_by_fcl} answered by FCL, {self.pairs_by_kernels} by kernels",
-            f"  expectations  {held} of {self.expectations} held",
-            *(f"    failed: {failure}" for failure in self.failures),
+            f"  expectations  {held if self.judged else 'not asked of a run that is cut short'}",
+            *(f"    {failure}" for failure in self.failures),
         ]
         if self.impacts_cut:
-            lines.append(f"  warning       {self.impacts_cut} impacts beyond the limit of a step were put off to the next")
+            lines.append(
+                f"  warning       {self.impacts_cut} impacts beyond the limit of a step were put off to the next"
+            )
         lines += [f"  {kind:<13} {path}" for kind, path in self.outputs.items()]
         if "recording" in self.outputs:
             lines.append(f"open it with: carom view {self.outputs['recording']}")
@@ -83,13 +86,15 @@ class Summary:
 def run(loaded: LoadedWorld, observers: Sequence[Observer] = (), *, frames: int | None = None) -> Summary:
     """Run a world to its end, or for ``frames`` steps, with a progress bar when stderr is a terminal.
 
-    Observers are begun in order, and all ended in whatever way the run ends; Ctrl-C ends it between two steps.
+    Observers are begun in order, and all ended in whatever way the run ends; Ctrl-C ends it between two steps. What the
+    world expects is judged only of a whole run.
     """
     simulation = loaded.simulation
     watch = Watch()
-    summary = Summary(loaded.name, bodies=simulation.world.count(RigidBody), expectations=len(loaded.expectations))
+    summary = Summary(loaded.name or loaded.path, bodies=simulation.world.count(RigidBody), judged=frames is None)
     summary.energy_before = total_energy(simulation.world)
-    watching: list[Observer] = [watch, *loaded.expectations, *observers]
+    expectations = loaded.expectations if summary.judged else []
+    watching: list[Observer] = [watch, *expectations, *observers]
     begun: list[Observer] = []
     start = perf_counter()
     try:
@@ -112,6 +117,8 @@ def run(loaded: LoadedWorld, observers: Sequence[Observer] = (), *, frames: int 
     answered = simulation.world[Answered]
     summary.pairs_by_fcl, summary.pairs_by_kernels = answered.fcl, answered.kernels
     summary.impacts_cut = answered.impacts_cut
+    summary.expectations = len(expectations)
+    summary.failures = [str(outcome) for item in expectations if not (outcome := item.outcome()).held]
     return summary
 
 

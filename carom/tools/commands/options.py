@@ -10,15 +10,35 @@ from typing import Any
 def declare_overrides(parser: argparse.ArgumentParser) -> None:
     """Declare the options that set aside what a world file states."""
     parser.add_argument("--collision", choices=("auto", "fcl"), help="fcl: no kernel stands in for FCL")
-    parser.add_argument("--dt", help="time step, such as 1/240 or 0.5 ms")
+    parser.add_argument("--dt", metavar="TIME", help="time step, such as 1/240 or 0.5ms")
     parser.add_argument("--integrator", choices=("euler", "semi_implicit", "verlet"))
-    parser.add_argument("--seed", type=int)
+    parser.add_argument("--seed", type=int, metavar="N")
 
 
 def overrides(arguments: argparse.Namespace) -> dict[str, Any]:
-    """Return the overrides stated on the command line, by name of the setting."""
-    names = ("collision", "dt", "integrator", "seed")
-    return {name: value for name in names if (value := getattr(arguments, name, None)) is not None}
+    """Return the overrides stated on the command line, by name of the setting; raise CaromError for a wrong dt."""
+    names = ("collision", "integrator", "seed")
+    found = {name: value for name in names if (value := getattr(arguments, name)) is not None}
+    return found if arguments.dt is None else found | {"dt": seconds("--dt", arguments.dt, above=0.0)}
+
+
+def seconds(option: str, text: str, **bounds: float) -> float:
+    """Return a time (s) as world files write it; raise CaromError, naming the option, for anything else."""
+    from carom.ecs.errors import CaromError
+    from carom.worlds.errors import Fault, WordError
+    from carom.worlds.units import read_quantity
+
+    try:
+        return read_quantity(text, "s", **bounds)
+    except WordError as fault:
+        raise CaromError(str(Fault(option, 0, 0, "", fault.what, fault.received, fault.accepted, fault.hint))) from None
+
+
+def whole_number(text: str) -> int:
+    """Return a whole number from 0 on; raise ArgumentTypeError for anything else."""
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"must be a whole number from 0 on, received {text!r}")
+    return int(text)
 
 
 def print_json(value: Any) -> None:

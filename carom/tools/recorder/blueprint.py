@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.ecs import Collider, Transform, World
+from carom.ecs import Collider, Transform, Visual, World
 from carom.systems.shapes import BY_NUMBER
 from carom.tools.cameras import Camera
 from carom.tools.recorder import about, bodies, contacts, happenings, plots
@@ -67,5 +67,5 @@ def default_camera(world: World) -> Camera:
 
 def has_floor(world: World) -> bool:
     """Tell whether a plane is drawn, which Rerun's grid would flicker through."""
-    shapes = world[Collider].shape[world.row_numbers(Collider)]
+    shapes = world[Visual].shape[world.row_numbers(Visual)]
     return any(BY_NUMBER[int(number)].key == "plane" for number in np.unique(shapes))

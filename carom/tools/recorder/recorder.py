@@ -55,9 +55,11 @@ class Recorder:
         if self._every is None:
             self._every = max(1, round(1.0 / (self._fps * simulation.settings.dt)))
         world = simulation.world
-        layout = blueprint(self._camera or default_camera(world), grid=not has_floor(world))
-        self._stream = Stream(self.path, self._title, layout)
-        self._stream.static(ROOT, rerun.ViewCoordinates.RIGHT_HAND_Y_UP)
+        camera = self._camera or default_camera(world)
+        upright = camera.up[1] >= abs(camera.up[2])
+        axes = rerun.ViewCoordinates.RIGHT_HAND_Y_UP if upright else rerun.ViewCoordinates.RIGHT_HAND_Z_UP
+        self._stream = Stream(self.path, self._title, blueprint(camera, grid=not has_floor(world)))
+        self._stream.static(ROOT, axes)
         self._stream.static(about.PATH, *about.about(self._title, simulation.settings, self._source))
         self._record(simulation, self._stream)
         self._write(self._stream)

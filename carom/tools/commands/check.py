@@ -1,0 +1,36 @@
+"""Check: read world files and tell everything wrong in them."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from carom.tools.commands.options import print_json
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Declare the worlds."""
+    parser.add_argument("worlds", nargs="+", metavar="WORLD", help="world files or names of library worlds")
+
+
+def execute(arguments: argparse.Namespace) -> int:
+    """Print a line for each good world, every fault of each bad one; 2 when any is bad."""
+    from carom.worlds.builder import load_world
+    from carom.worlds.errors import WorldError
+
+    results = []
+    for world in arguments.worlds:
+        try:
+            loaded = load_world(world)
+        except WorldError as fault:
+            results.append({"world": world, "faults": [str(one) for one in fault.faults]})
+            if not arguments.json:
+                print(fault, file=sys.stderr)
+            continue
+        entities = int(loaded.simulation.world.alive.sum())
+        results.append({"world": world, "faults": [], "entities": entities, "expectations": len(loaded.expectations)})
+        if not arguments.json:
+            print(f"ok     {world}: {entities} entities, {len(loaded.expectations)} expectations")
+    if arguments.json:
+        print_json(results)
+    return 2 if any(result["faults"] for result in results) else 0

@@ -1,0 +1,61 @@
+"""Run: simulate a world; record, film and photograph it."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import sys
+from pathlib import Path
+
+from carom.tools.commands.options import declare_overrides, overrides, print_json, whole_number
+
+
+def declare(parser: argparse.ArgumentParser) -> None:
+    """Declare the world, what to write, and what to override."""
+    parser.add_argument("world", metavar="WORLD", help="a world file, or the name of a library world")
+    parser.add_argument("--record", type=Path, metavar="FILE", help="write a Rerun recording (.rrd)")
+    parser.add_argument("--film", type=Path, metavar="FILE", help="write a film (.mp4)")
+    parser.add_argument("--picture", type=Path, metavar="FILE", help="write a picture of the last state (.png)")
+    parser.add_argument(
+        "--frames", type=whole_number, metavar="N", help="stop after N steps; what is expected is not judged"
+    )
+    parser.add_argument("--camera", metavar="NAME", help="camera of film and picture; the world's 'main' by default")
+    parser.add_argument("--check", action="store_true", help="let every system touch only what it declares")
+    declare_overrides(parser)
+
+
+def execute(arguments: argparse.Namespace) -> int:
+    """Run the world and print the summary; 1 when an expectation failed or a number became infinite."""
+    from carom.ecs.errors import NonFiniteError
+    from carom.systems.observer import Observer
+    from carom.tools.filming import Filming, shot_of
+    from carom.tools.outputs import prepare_outputs
+    from carom.tools.recorder import Recorder
+    from carom.tools.session import run
+    from carom.worlds.builder import load_world
+
+    loaded = load_world(arguments.world, checked=arguments.check or None, **overrides(arguments))
+    shot = shot_of(loaded, arguments.camera)
+    prepare_outputs([arguments.record, arguments.film, arguments.picture])
+    observers: list[Observer] = []
+    if arguments.record:
+        title = loaded.name or Path(loaded.path).stem
+        observers.append(Recorder(arguments.record, title=title, source=loaded.source_text, camera=shot.camera))
+    if arguments.film or arguments.picture:
+        observers.append(Filming(shot, film=arguments.film, picture=arguments.picture))
+    kept = f"; the recording up to there: carom view {arguments.record}" if arguments.record else ""
+    try:
+        summary = run(loaded, observers, frames=arguments.frames)
+    except KeyboardInterrupt:
+        print(f"interrupted in frame {loaded.simulation.frame}{kept}", file=sys.stderr)
+        return 130
+    except NonFiniteError as fault:
+        print(f"{fault}{kept}", file=sys.stderr)
+        return 1
+    written = {"recording": arguments.record, "film": arguments.film, "picture": arguments.picture}
+    summary.outputs = {kind: str(path) for kind, path in written.items() if path}
+    if arguments.json:
+        print_json(dataclasses.asdict(summary))
+    else:
+        print(summary.text())
+    return 1 if summary.failures else 0
