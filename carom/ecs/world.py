@@ -11,7 +11,7 @@ import numpy as np
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Component, Record, Relation, Resource
 from carom.ecs.components.name import Name
-from carom.ecs.entity import Entity, EntityView, generation_of, index_of, pack
+from carom.ecs.entity import INDEX_BITS, Entity, EntityView, generation_of, index_of, pack
 from carom.ecs.errors import AccessError, EntityError
 from carom.ecs.query import Rows, find_rows
 from carom.ecs.table import Table
@@ -116,7 +116,7 @@ class World:
             self.table(Name).fill(rows, Name(text=names))
         self.alive[rows] = True
         self.structure += 1
-        return self.generations[rows] << 32 | rows
+        return self.generations[rows] << INDEX_BITS | rows
 
     def _reserve(self, count: int) -> Integers:
         reused = [self._free.pop() for _ in range(min(count, len(self._free)))]
@@ -173,8 +173,8 @@ class World:
         return pack(int(row), int(self.generations[row]))
 
     def entities(self, rows: Any) -> Integers:
-        """Return the handles of the entities in ``rows``."""
-        return self.generations[rows] << 32 | np.arange(self.capacity)[rows]
+        """Return the handles of the entities in an array of rows."""
+        return self.generations[rows] << INDEX_BITS | rows
 
     def locate(self, entity: int, key: str) -> tuple[type[Component], int]:
         """Return the component called ``key`` (snake case) and the row of an entity that must have it."""

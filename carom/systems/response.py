@@ -13,7 +13,7 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, fly
-from carom.systems.kernels.resting import finish_drift, hold_contacts, sort_contacts
+from carom.systems.kernels.resting import bend_arcs, finish_drift, hold_contacts, sort_contacts
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
@@ -36,7 +36,7 @@ def sort_out_contacts(world: World, dt: float) -> None:
     )  # fmt: skip
 
 
-@system(reads=(RigidBody, Transform, Flight, Settings), writes=(Motion, Contact))
+@system(reads=(RigidBody, Transform, Settings), writes=(Motion, Contact, Flight))
 def hold(world: World, dt: float) -> None:
     """Solve the resting contacts: they do not close, stick or slide within the cone, and resist rolling."""
     contact = world[Contact]
@@ -52,6 +52,12 @@ def hold(world: World, dt: float) -> None:
         flight.start_linear, flight.start_angular, motion.linear, motion.angular,
         contact.impulse, contact.friction_impulse, contact.warm_normal, contact.warm_friction, contact.warm_rolling,
     )  # fmt: skip
+    if world[Settings].integrator == "verlet":
+        bend_arcs(
+            contact.count, dt, contact.body_a, contact.body_b, contact.normal, contact.kind, contact.resting,
+            flight.touching, flight.start_linear, flight.start_angular,
+            motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
+        )  # fmt: skip
 
 
 @system(

@@ -9,7 +9,6 @@ import numpy as np
 from carom.ecs import Collider, ColliderPose, Material, Motion, RigidBody, Transform, World, system
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.components.flight import Flight
-from carom.ecs.entity import INDEX_MASK
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Enter, Inside
 from carom.systems.detection.answered import Answered
@@ -17,13 +16,10 @@ from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.fcl_pairs import FclObjects, measure_by_fcl
 from carom.systems.detection.sensors import sense
 from carom.systems.kernels.broad import sweep_bounds
-from carom.systems.kernels.contacts import complete_contacts, match_contacts, measure_balls, reach_of_pairs
+from carom.systems.kernels.contacts import complete_contacts, measure_balls, reach_of_pairs, renew_contacts
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.plane import Plane
-
-CARRIED = ("warm_normal", "warm_friction", "warm_rolling", "resting", "impulse", "friction_impulse")
-
 
 class Found(NamedTuple):
     """Contact points in order of (row a, row b, feature)."""
@@ -64,31 +60,39 @@ def detect(world: World) -> None:
 
 
 def measure_pairs(world: World) -> Found:
-    """Return the contact points of all pairs whose bounds overlap."""
-    collider, pose, flight = world[Collider], world[ColliderPose], world[Flight]
+    """Return the contact points of all pairs whose bounds overlap: by array kernels where one stands in, else by FCL."""
     pairs = overlapping(world)
-    reaches = reach_of_pairs(pairs, pose.body_row, flight.reach)
+    reaches = np.empty(len(pairs))
+    reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
     answered = world[Answered]
     if world[Settings].collision == "fcl":
-        by_kernel = np.zeros(len(pairs), np.bool_)
-        closed = None
-    else:
-        by_kernel, normal, depth, point = measure_balls(
-            pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation
-        )
-        near = by_kernel & (depth >= -reaches)
-        answered.kernels += int(np.count_nonzero(by_kernel))
-        zeros = np.zeros(int(np.count_nonzero(near)), np.int64)
-        closed = Found(pairs[near, 0], pairs[near, 1], zeros, normal[near], depth[near], point[near], zeros != 0)
-    open_pairs = ~by_kernel
-    if closed is not None and not open_pairs.any():
+        answered.fcl += len(pairs)
+        return measure_by_fcl(world, pairs, reaches)
+    by_kernel, closed = measure_closed(world, pairs, reaches)
+    if by_kernel.all():
         return closed
-    answered.fcl += int(np.count_nonzero(open_pairs))
-    measured = measure_by_fcl(world, pairs[open_pairs], reaches[open_pairs])
-    parts = [measured] if closed is None else [closed, measured]
-    joined = [np.concatenate(columns) for columns in zip(*parts, strict=True)]
+    others = ~by_kernel
+    answered.fcl += int(np.count_nonzero(others))
+    measured = measure_by_fcl(world, pairs[others], reaches[others])
+    joined = [np.concatenate(columns) for columns in zip(closed, measured, strict=True)]
     order = np.lexsort((joined[2], joined[1], joined[0]))
     return Found(*(column[order] for column in joined))
+
+
+def measure_closed(world: World, pairs: Integers, reaches: Floats) -> tuple[Booleans, Found]:
+    """Return which pairs have a closed form, and the contacts of those."""
+    collider, pose = world[Collider], world[ColliderPose]
+    n = len(pairs)
+    by_kernel = np.empty(n, np.bool_)
+    a, b, depth = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n)
+    normal, point = np.empty((n, 3)), np.empty((n, 3))
+    answers, count = measure_balls(
+        pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation,
+        by_kernel, a, b, normal, depth, point,
+    )  # fmt: skip
+    world[Answered].kernels += answers
+    none = np.zeros(count, np.int64)
+    return by_kernel, Found(a[:count], b[:count], none, normal[:count], depth[:count], point[:count], none != 0)
 
 
 def overlapping(world: World) -> Integers:
@@ -112,28 +116,15 @@ def overlapping(world: World) -> Integers:
 
 def store(world: World, found: Found) -> None:
     """Write the contact table, matched with the one before."""
-    contact = world[Contact]
-    old = slice(0, contact.count)
-    a, b = world.entities(found.row_a), world.entities(found.row_b)
-    match = match_contacts(
-        contact.a[old] & INDEX_MASK, contact.b[old] & INDEX_MASK, contact.feature[old].copy(),
-        found.row_a, found.row_b, found.feature,
-    )  # fmt: skip
-    known = match >= 0
-    known[known] = (contact.a[match[known]] == a[known]) & (contact.b[match[known]] == b[known])
-    carried = {name: getattr(contact, name)[match[known]] for name in CARRIED}
-    count = len(a)
+    old_count, count = world.count(Contact), len(found.row_a)
     world.resize(Contact, count)
-    contact = world[Contact]
-    new = slice(0, count)
-    for name, values in carried.items():
-        column = getattr(contact, name)
-        column[new] = 0
-        column[new][known] = values
-    contact.a[new], contact.b[new], contact.feature[new] = a, b, found.feature
-    contact.row_a[new], contact.row_b[new], contact.by_fcl[new] = found.row_a, found.row_b, found.by_fcl
-    contact.normal[new], contact.depth[new], contact.point[new] = found.normal, found.depth, found.point
-    collider, pose, material = world[Collider], world[ColliderPose], world[Material]
+    contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
+    renew_contacts(
+        old_count, world.generations, found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point,
+        found.by_fcl, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
+        contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
+        contact.warm_rolling, contact.impulse, contact.friction_impulse,
+    )  # fmt: skip
     complete_contacts(
         count, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,
         pose.body_row, collider.shape, collider.size, collider.bound_radius, pose.position, pose.rotation,

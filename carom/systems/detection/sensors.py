@@ -18,10 +18,10 @@ if TYPE_CHECKING:
 def sense(world: World, found: Found) -> Found:
     """Take the sensors' pairs out of ``found``, log who newly overlaps one, and queue its change of layer."""
     collider = world[Collider]
+    if not collider.sensor.any() and not world.count(Inside):
+        return found
     sensing_a, sensing_b = collider.sensor[found.row_a], collider.sensor[found.row_b]
     sensing = sensing_a | sensing_b
-    if not sensing.any() and not world.count(Inside):
-        return found
     overlapping = sensing & (found.depth >= 0.0)
     sensor = world.entities(np.where(sensing_a, found.row_a, found.row_b)[overlapping])
     entity = world.entities(np.where(sensing_a, found.row_b, found.row_a)[overlapping])

@@ -6,6 +6,7 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.components.material import Combine
+from carom.ecs.entity import INDEX_BITS, INDEX_MASK
 from carom.systems.kernels.balls import BALL, BOX, HALF_SPACE, gap_of_ball
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.spatial import turn
@@ -18,29 +19,29 @@ SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE, PLANE_SHAPE = Sphere.number, Point.number,
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
 
 
-@kernel()
-def reach_of_pairs(pairs, body_row, reach):
-    """Return how near (m) each pair must come to be a contact: what its two bodies reach within the step."""
-    reaches = np.zeros(len(pairs))
+@kernel("reaches")
+def reach_of_pairs(pairs, body_row, reach, reaches):
+    """Write how near (m) each pair must come to be a contact: what its two bodies reach within the step."""
     for p in range(len(pairs)):
+        reaches[p] = 0.0
         for side in range(2):
             body = body_row[pairs[p, side]]
             if body >= 0:
                 reaches[p] += reach[body]
-    return reaches
 
 
-@kernel()
-def measure_balls(pairs, reaches, shape, size, pose_position, pose_rotation):
-    """Return (answered (n,), normal (n, 3), depth (n,), point (n, 3)) of the pairs a closed form answers.
+@kernel("answered", "found_a", "found_b", "normal", "depth", "point")
+def measure_balls(
+    pairs, reaches, shape, size, pose_position, pose_rotation, answered, found_a, found_b, normal, depth, point
+):
+    """Measure the pairs that have a closed form and return (how many those were, how many are within reach).
 
-    These are ball or point against ball, point, box and half space; pairs further apart than they reach are answered
-    with a depth below -reach.
+    These are ball or point against ball, point, box and half space. They are marked in ``answered``; those within reach
+    are written one after another.
     """
-    n = len(pairs)
-    answered = np.zeros(n, np.bool_)
-    normal, point, depth = np.zeros((n, 3)), np.zeros((n, 3)), np.zeros(n)
-    for p in range(n):
+    answers, count = 0, 0
+    for p in range(len(pairs)):
+        answered[p] = False
         a, b = pairs[p, 0], pairs[p, 1]
         sign = 1.0
         i, o = a, b
@@ -63,11 +64,17 @@ def measure_balls(pairs, reaches, shape, size, pose_position, pose_rotation):
             pose_rotation[o, 0], pose_rotation[o, 1], pose_rotation[o, 2], pose_rotation[o, 3], ex, ey, ez,
         )  # fmt: skip
         answered[p] = True
-        depth[p] = -gap
-        for k, d in enumerate((nx, ny, nz)):
-            normal[p, k] = -sign * d
-            point[p, k] = pose_position[i, k] - (radius + 0.5 * gap) * d
-    return answered, normal, depth, point
+        answers += 1
+        if gap > reaches[p]:
+            continue
+        lever = radius + 0.5 * gap
+        found_a[count], found_b[count], depth[count] = a, b, -gap
+        normal[count, 0], normal[count, 1], normal[count, 2] = -sign * nx, -sign * ny, -sign * nz
+        point[count, 0] = pose_position[i, 0] - lever * nx
+        point[count, 1] = pose_position[i, 1] - lever * ny
+        point[count, 2] = pose_position[i, 2] - lever * nz
+        count += 1
+    return answers, count
 
 
 @inlined
@@ -192,18 +199,45 @@ def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass)
     return is_centred(collider, body, pose_position, center)
 
 
-@kernel()
-def match_contacts(old_a, old_b, old_feature, new_a, new_b, new_feature):
-    """Return for each new contact the old one of the same colliders (rows) and feature, -1 for none; both are sorted."""
-    found = np.full(len(new_a), -1, np.int64)
+@kernel(
+    "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
+    "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse",
+)  # fmt: skip
+def renew_contacts(
+    old_count, generations, found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl,
+    a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
+    warm_normal, warm_friction, warm_rolling, impulse, friction_impulse,
+):  # fmt: skip
+    """Replace the contacts by those found, keeping what a contact of the same colliders and feature held.
+
+    Both lists are sorted by rows and feature, so that one pass matches them.
+    """
+    count = len(found_a)
+    kept = np.zeros((count, 11))
+    rested = np.zeros(count, np.bool_)
     o = 0
-    for c in range(len(new_a)):
-        while o < len(old_a) and (
-            old_a[o] < new_a[c]
-            or (old_a[o] == new_a[c] and old_b[o] < new_b[c])
-            or (old_a[o] == new_a[c] and old_b[o] == new_b[c] and old_feature[o] < new_feature[c])
-        ):
+    for c in range(count):
+        x, y, f = found_a[c], found_b[c], found_feature[c]
+        while o < old_count:
+            p, q = a[o] & INDEX_MASK, b[o] & INDEX_MASK
+            if p > x or (p == x and (q > y or (q == y and feature[o] >= f))):
+                break
             o += 1
-        if o < len(old_a) and old_a[o] == new_a[c] and old_b[o] == new_b[c] and old_feature[o] == new_feature[c]:
-            found[c] = o
-    return found
+        if o == old_count or feature[o] != f:
+            continue
+        if a[o] != (generations[x] << INDEX_BITS | x) or b[o] != (generations[y] << INDEX_BITS | y):
+            continue
+        rested[c] = resting[o]
+        kept[c, 0], kept[c, 7] = warm_normal[o], impulse[o]
+        for k in range(3):
+            kept[c, 1 + k], kept[c, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
+            kept[c, 8 + k] = friction_impulse[o, k]
+    for c in range(count):
+        x, y = found_a[c], found_b[c]
+        a[c], b[c], feature[c] = generations[x] << INDEX_BITS | x, generations[y] << INDEX_BITS | y, found_feature[c]
+        row_a[c], row_b[c], by_fcl[c] = x, y, found_by_fcl[c]
+        resting[c], warm_normal[c], impulse[c], depth[c] = rested[c], kept[c, 0], kept[c, 7], found_depth[c]
+        for k in range(3):
+            normal[c, k], point[c, k] = found_normal[c, k], found_point[c, k]
+            warm_friction[c, k], warm_rolling[c, k] = kept[c, 1 + k], kept[c, 4 + k]
+            friction_impulse[c, k] = kept[c, 8 + k]
