@@ -41,7 +41,7 @@ def parser() -> argparse.ArgumentParser:
     commands = whole.add_subparsers(metavar="COMMAND", required=True)
     for name in COMMANDS:
         module = import_module(f"carom.tools.commands.{name}")
-        summary = module.__doc__.partition("\n")[0].partition(": ")[2]
+        summary = str(module.__doc__).partition("\n")[0].partition(": ")[2].rstrip(".")
         single = commands.add_parser(name, help=summary, description=summary)
         single.add_argument("--json", action="store_true", help="print the result as JSON, for programs")
         module.declare(single)

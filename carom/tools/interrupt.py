@@ -11,7 +11,7 @@ from types import FrameType
 
 @contextmanager
 def deferred_interrupt() -> Iterator[Callable[[], None]]:
-    """Hold back Ctrl-C; calling what this lends raises KeyboardInterrupt if it was pressed. A second press is not held."""
+    """Hold back Ctrl-C: calling what this lends raises KeyboardInterrupt if it was pressed. A second press acts."""
     if current_thread() is not main_thread():
         yield lambda: None  # only the main thread receives signals
         return

@@ -90,7 +90,7 @@ class Recording:
 
     def names(self, frame: int) -> dict[int, str]:
         """Return the name of every visible entity in a frame, by entity handle."""
-        found = {}
+        found: dict[int, str] = {}
         for (path, component), series in list(self._series.items()):
             members = series.at(frame) if component == "entity" else None
             names = self._series[path, "name"].at(frame) if members else None

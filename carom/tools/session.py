@@ -62,11 +62,11 @@ class Summary:
 
     def text(self) -> str:
         """Return the summary for people."""
-        speed = self.simulated_seconds / self.real_seconds if self.real_seconds else 0.0
+        speed = f"{self.simulated_seconds / self.real_seconds:.1f} x real time" if self.real_seconds else "no time"
         held = f"{self.expectations - len(self.failures)} of {self.expectations} held"
         lines = [
             f"{self.world}: {self.frames} frames, {self.bodies} bodies",
-            f"  time          {self.simulated_seconds:.2f} s simulated in {self.real_seconds:.2f} s, {speed:.1f} x real time",
+            f"  time          {self.simulated_seconds:.2f} s simulated in {self.real_seconds:.2f} s, {speed}",
             f"  energy        {self.energy_before:.6g} J before, {self.energy_after:.6g} J after",
             f"  overlap       {1e3 * self.deepest_overlap:.3g} mm at the deepest",
             f"  pairs         {self.pairs_by_fcl} answered by FCL, {self.pairs_by_kernels} by kernels",

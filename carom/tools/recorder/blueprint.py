@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.ecs import Collider, Transform, Visual, World
-from carom.systems.shapes import BY_NUMBER
+from carom.ecs import Collider, Motion, Transform, Visual, World
 from carom.tools.cameras import Camera
 from carom.tools.recorder import about, bodies, contacts, happenings, plots
 from carom.tools.recorder.stream import TIME
@@ -65,7 +64,6 @@ def default_camera(world: World) -> Camera:
     return Camera(tuple(map(float, target + away)), tuple(map(float, target)))  # type: ignore[arg-type]
 
 
-def has_floor(world: World) -> bool:
-    """Tell whether a plane is drawn, which Rerun's grid would flicker through."""
-    shapes = world[Visual].shape[world.row_numbers(Visual)]
-    return any(BY_NUMBER[int(number)].key == "plane" for number in np.unique(shapes))
+def has_scenery(world: World) -> bool:
+    """Tell whether anything that never moves is drawn, which Rerun's grid would shine through."""
+    return len(world.row_numbers(Visual, without=(Motion,))) > 0

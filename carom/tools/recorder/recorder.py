@@ -8,7 +8,7 @@ from time import monotonic
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.recorder import about
-from carom.tools.recorder.blueprint import blueprint, default_camera, has_floor
+from carom.tools.recorder.blueprint import blueprint, default_camera, has_scenery
 from carom.tools.recorder.bodies import ROOT, Bodies
 from carom.tools.recorder.contacts import Contacts
 from carom.tools.recorder.happenings import Happenings
@@ -58,7 +58,7 @@ class Recorder:
         camera = self._camera or default_camera(world)
         upright = camera.up[1] >= abs(camera.up[2])
         axes = rerun.ViewCoordinates.RIGHT_HAND_Y_UP if upright else rerun.ViewCoordinates.RIGHT_HAND_Z_UP
-        self._stream = Stream(self.path, self._title, blueprint(camera, grid=not has_floor(world)))
+        self._stream = Stream(self.path, self._title, blueprint(camera, grid=not has_scenery(world)))
         self._stream.static(ROOT, axes)
         self._stream.static(about.PATH, *about.about(self._title, simulation.settings, self._source))
         self._record(simulation, self._stream)
