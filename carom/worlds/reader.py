@@ -95,8 +95,8 @@ class Source:
 def read(text: str, name: str) -> Source:
     """Return the data of a text; raise WorldError when it is not YAML.
 
-    Duplicate keys, numbers that are not finite and tags are noted as faults and left out, so that the rest can be
-    checked in the same run.
+    Duplicate keys and tags are noted as faults and left out, so that the rest can be checked in the same run. NaN and
+    infinity are read as such, for the schema to refuse.
     """
     source = Source(name, text)
     if len(text) > MOST_CHARACTERS:
@@ -209,14 +209,11 @@ class _Builder:
             self.fault(event, path, f"tag {tag!r} is not accepted", accepted="plain values without tags")
             return None
         try:
-            number = float(text.lower().replace(".inf", "inf").replace(".nan", "nan")) if kind == "float" else int(text)
-            finite = math.isfinite(float(number))
-        except (ValueError, OverflowError):
-            finite = False
-        if not finite:
-            self.fault(event, path, "must be finite", received=shown(text)[1:-1], accepted="a finite number")
-            return 0.0
-        return number
+            number = float(text.lower().replace(".inf", "inf").replace(".nan", "nan"))
+            return int(text) if kind == "int" and math.isfinite(number) else number
+        except ValueError:
+            self.fault(event, path, "is no number", received=shown(text))
+            return None
 
     def fault(self, event: Any, path: Path, what: str, *, received: str = "", accepted: str = "") -> None:
         where = ".".join(map(str, path))
