@@ -1,5 +1,7 @@
 """Doctor: say what works on this machine, and how to mend what does not."""
 
+from __future__ import annotations
+
 import argparse
 
 
@@ -8,5 +10,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(arguments: argparse.Namespace) -> int:
-    """X."""
-    return 0
+    """Print what was found; 1 when something does not work."""
+    from carom.tools.doctor import doctor
+
+    return doctor(json=arguments.json)

@@ -1,0 +1,99 @@
+"""Measure: timings, and figures with their bounds."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
+from statistics import median
+from time import perf_counter, process_time
+from typing import Literal
+
+from carom.ecs.errors import CaromError
+from carom.tools.bench import BENCHES
+
+
+class PeerMissingError(CaromError):
+    """A bench compares with a library that is not installed."""
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Medians over the repeats, in s."""
+
+    wall: float
+    cpu: float
+    repeats: int
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A measured value by wall and by CPU time; ``bound`` applies to the one named by ``by``."""
+
+    name: str
+    unit: str
+    wall: float
+    cpu: float
+    bound: float
+    by: Literal["wall", "cpu"] = "wall"
+    at_least: bool = False
+    repeats: int = 1
+
+    @property
+    def holds(self) -> bool:
+        """Whether the bound holds."""
+        value = self.wall if self.by == "wall" else self.cpu
+        return value >= self.bound if self.at_least else value <= self.bound
+
+    def __str__(self) -> str:
+        """Return one line."""
+        verdict = "holds" if self.holds else "FAILS"
+        bound = f"{'at least' if self.at_least else 'at most'} {self.bound:g} {self.unit} by {self.by}"
+        values = f"wall {self.wall:10.4g}  cpu {self.cpu:10.4g} {self.unit}"
+        return f"{verdict}  {self.name:<42} {values:<42} {bound}, median of {self.repeats}"
+
+
+def measure(name: str) -> Iterator[Figure]:
+    """Yield the figures of a bench as they come; raise PeerMissingError naming the extra when a peer is missing."""
+    bench = import_module(f"carom.tools.bench.{BENCHES[name]}")
+    missing = [peer for peer in getattr(bench, "PEERS", ()) if find_spec(peer) is None]
+    if missing:
+        raise PeerMissingError(f"bench {name} compares with {', '.join(missing)}; run: pip install 'carom[peers]'")
+    yield from bench.figures()
+
+
+def machine() -> str:
+    """Return the line that tells machines apart."""
+    from carom.tools.doctor import processor, python
+
+    return f"{processor()}; Python {python()}"
+
+
+def timed(function: Callable[[], object], repeats: int) -> Timing:
+    """Time calls of a function in this process."""
+    walls, cpus = [], []
+    for _ in range(repeats):
+        wall, cpu = perf_counter(), process_time()
+        function()
+        walls.append(perf_counter() - wall)
+        cpus.append(process_time() - cpu)
+    return Timing(median(walls), median(cpus), repeats)
+
+
+def timed_process(command: Sequence[str], repeats: int, environment: dict[str, str] | None = None) -> Timing:
+    """Time a command from its start to its end; raise CaromError with its last words when it fails."""
+    walls, cpus = [], []
+    for _ in range(repeats):
+        wall, before = perf_counter(), os.times()
+        done = subprocess.run(
+            command, capture_output=True, text=True, env={**os.environ, **(environment or {})}, check=False
+        )
+        after = os.times()
+        if done.returncode:
+            raise CaromError(f"{' '.join(command)} ended with {done.returncode}: {done.stderr.strip()[-400:]}")
+        walls.append(perf_counter() - wall)
+        cpus.append(after.children_user + after.children_system - before.children_user - before.children_system)
+    return Timing(median(walls), median(cpus), repeats)
