@@ -35,7 +35,12 @@ class Instances(pyrender.Primitive):  # type: ignore[misc]
                 alphaMode="BLEND", roughnessFactor=SMOOTH if batch.smooth else DULL
             ),
         )
+        self._radius = float(np.linalg.norm(shaded.positions, axis=1).max(initial=0.0))
         self._take(batch)
+
+    def spread(self, target: tuple[float, float, float]) -> float:
+        """Return the radius (m) of a ball around ``target`` that holds every instance."""
+        return float(np.linalg.norm(self.poses[:, :3, 3] - target, axis=1).max()) + self._radius
 
     def _take(self, batch: Batch) -> None:
         self.poses = batch.poses

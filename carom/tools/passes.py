@@ -13,12 +13,10 @@ import numpy as np
 import pyrender
 from OpenGL import GL
 
-from carom.ecs.column import Floats
-from carom.tools.cameras import Camera, look_at
+from carom.tools.cameras import Camera
+from carom.tools.sun import sun_for
 
-SUN = (-0.75, 1.3, 0.35)  # towards the sun: left of, above and behind the camera's target, seen from it
-SHADOW_TEXELS = 1024  # along each edge of the shadow map
-SHADOW_REACH = 1.5  # half edge of the shadowed cube over half the width of the picture at the target
+SHADOW_BLUR = 1.25  # texels of the shadow map
 SQUARES = 4.0  # squares of a floor between camera and target, rounded to 1, 2 or 5 times a power of ten
 
 
@@ -33,27 +31,24 @@ class Passes(pyrender.Renderer):  # type: ignore[misc]
         super().__init__(width, height)
         self._program_cache.shader_dir = str(Path(__file__).parent / "shaders")
         self._aspect = width / height
-        self._nodes: list[Any] = []
-        self.see([], Camera((0.0, 0.0, 1.0)))
+        self.shadow_texels = 1024 if width * height <= 640 * 480 else 2048  # along each edge of the shadow map
 
-    def see(self, nodes: list[Any], camera: Camera) -> None:
-        """Take what the next picture shows, and from where."""
+    def see(self, nodes: list[Any], camera: Camera, spread: float) -> None:
+        """Take what the next picture shows, from where, and within which distance of its target things cast shadows."""
         self._nodes = nodes
         pose = camera.pose()
         self._camera_matrices: tuple[Any, Any] = np.linalg.inv(pose), camera.projection(self._aspect)
         up = np.array(camera.up) / np.linalg.norm(camera.up)
-        reach = SHADOW_REACH * camera.distance * math.tan(camera.fov / 2.0) * max(self._aspect, 1.0)
-        sun = sun_pose(camera, pose, 4.0 * reach)
-        boxed = np.diag([1.0 / reach, 1.0 / reach, -1.0 / (4.0 * reach), 1.0])
-        boxed[2, 3] = -1.0
-        self._light_matrices: tuple[Any, Any] = np.linalg.inv(sun), boxed
+        sun = sun_for(camera, self._aspect, spread)
+        self._light_matrices = sun.view(), sun.projection()
         self._uniforms = {
             "up": up,
             "focus": camera.distance,
             "square": round_number(camera.distance / SQUARES),
-            "sun": sun[:3, 2],
-            "texel": 2.0 * reach / SHADOW_TEXELS,
-            "light_matrix": boxed @ self._light_matrices[0],
+            "sun": sun.direction,
+            "texel": 2.0 * sun.reach / self.shadow_texels,
+            "blur": SHADOW_BLUR / self.shadow_texels,
+            "light_matrix": sun.projection() @ sun.view(),
         }
 
     def _sorted_mesh_nodes(self, scene: Any) -> list[Any]:
@@ -67,7 +62,7 @@ class Passes(pyrender.Renderer):  # type: ignore[misc]
 
     def _configure_shadow_mapping_viewport(self, light: Any, flags: int) -> None:
         super()._configure_shadow_mapping_viewport(light, flags)
-        GL.glViewport(0, 0, SHADOW_TEXELS, SHADOW_TEXELS)
+        GL.glViewport(0, 0, self.shadow_texels, self.shadow_texels)
 
     def _bind_lighting(self, scene: Any, program: Any, node: Any, flags: int) -> None:
         for name, value in self._uniforms.items():
@@ -96,16 +91,6 @@ class Passes(pyrender.Renderer):  # type: ignore[misc]
             return colors
         depth = np.frombuffer(GL.glReadPixels(*area, GL.GL_DEPTH_COMPONENT, GL.GL_FLOAT), np.float32)
         return colors, np.ascontiguousarray(depth.reshape(height, width)[::-1])
-
-
-def sun_pose(camera: Camera, pose: Floats, distance: float) -> Floats:
-    """Return the pose (4, 4) of the sun at ``distance`` (m) from the camera's target; SUN is relative to the view."""
-    up = np.array(camera.up) / np.linalg.norm(camera.up)
-    right = pose[:3, 0]
-    direction = np.column_stack([right, up, np.cross(right, up)]) @ SUN
-    target = np.array(camera.target)
-    away = target + distance / float(np.linalg.norm(direction)) * direction
-    return look_at(tuple(away), tuple(target), tuple(right))
 
 
 def round_number(value: float) -> float:

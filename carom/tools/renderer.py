@@ -34,14 +34,14 @@ class Renderer:
         self._platform = offscreen.context(width, height)
         self.driver = offscreen.driver()
 
-        from carom.tools.passes import SHADOW_TEXELS, Passes
+        from carom.tools.passes import Passes
 
         self._passes = Passes(width, height)
         self._flags = pyrender.RenderFlags
         self._mesh = pyrender.Mesh
         self._scene = pyrender.Scene()
         sun = pyrender.DirectionalLight()
-        sun._generate_shadow_texture(SHADOW_TEXELS)
+        sun._generate_shadow_texture(self._passes.shadow_texels)
         self._scene.add(sun)
         self._eye = self._scene.add(pyrender.PerspectiveCamera(yfov=1.0))
         self._sky = self._scene.add(pyrender.Mesh([pyrender.Primitive(positions=SKY)]))
@@ -87,7 +87,9 @@ class Renderer:
         solid, translucent = self._place(batches)
         sky = [] if flags == self._flags.SEG else [self._sky]
         nodes = [*solid, *sky, *translucent]
-        self._passes.see(nodes, camera)
+        bodies = (node.mesh.primitives[0] for node in solid)
+        spread = max((body.spread(camera.target) for body in bodies if body.texcoord_0 is None), default=0.0)
+        self._passes.see(nodes, camera, spread)
         self._scene.set_pose(self._eye, camera.pose())
         owners = dict.fromkeys(nodes, 0)  # pyrender draws ids of nodes in this map only; ours has them all
         return self._passes.render(self._scene, flags | self._flags.OFFSCREEN, owners)

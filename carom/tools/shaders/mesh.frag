@@ -15,7 +15,8 @@ vec3 sky(vec3 direction)
     float height = dot(direction, up);
     vec3 haze = vec3(0.66, 0.71, 0.77);
     vec3 zenith = vec3(0.13, 0.22, 0.38);
-    return mix(haze, zenith, smoothstep(-0.05, 0.75, height));
+    vec3 ground = vec3(0.20, 0.20, 0.21);
+    return height > 0.0 ? mix(haze, zenith, smoothstep(0.0, 0.75, height)) : mix(haze, ground, smoothstep(0.0, 0.9, -height));
 }
 
 // Colours are mixed linear and shown with gamma 2, which is near sRGB and costs a square root.
@@ -41,6 +42,7 @@ uniform Material material;
 uniform vec3 sun;  // direction towards it
 uniform mat4 light_matrix;
 uniform float texel;  // edge of a texel of the shadow map, m
+uniform float blur;  // by which shadows are softened, in parts of the shadow map
 uniform sampler2DShadow shadow_map;
 
 // Returns the share of the sun that arrives here, from four filtered comparisons.
@@ -48,11 +50,10 @@ float sunlit(vec3 at)
 {
     vec3 place = (light_matrix * vec4(at, 1.0)).xyz * 0.5 + 0.5;
     if (any(lessThan(place, vec3(0.0))) || any(greaterThan(place, vec3(1.0)))) return 1.0;
-    float reach = 1.25 / 1024.0;
-    return 0.25 * (texture(shadow_map, place + vec3(-reach, -0.4 * reach, 0.0))
-                 + texture(shadow_map, place + vec3(0.4 * reach, -reach, 0.0))
-                 + texture(shadow_map, place + vec3(reach, 0.4 * reach, 0.0))
-                 + texture(shadow_map, place + vec3(-0.4 * reach, reach, 0.0)));
+    return 0.25 * (texture(shadow_map, place + vec3(-blur, -0.4 * blur, 0.0))
+                 + texture(shadow_map, place + vec3(0.4 * blur, -blur, 0.0))
+                 + texture(shadow_map, place + vec3(blur, 0.4 * blur, 0.0))
+                 + texture(shadow_map, place + vec3(-0.4 * blur, blur, 0.0)));
 }
 #endif
 
