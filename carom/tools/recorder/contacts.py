@@ -51,7 +51,7 @@ class Contacts:
         counts = [len(rows["a"]) for _, rows in self._pending]
         joined = {name: np.concatenate([rows[name] for _, rows in self._pending]) for name in self._pending[0][1]}
         normals = pyarrow.FixedSizeListArray.from_arrays(pyarrow.array(joined["normal"].ravel()), 3)
-        numbers = {name: joined[name] for name in ("a", "b", "depth", "impulse")}
+        numbers = {name: pyarrow.array(joined[name]) for name in ("a", "b", "depth", "impulse")}
         points, arrows = joined["point"], joined["normal"] * self._length
         stream.rows(POINTS, stamps, rerun.Points3D.columns(positions=points).partition(counts))
         stream.rows(POINTS, stamps, rerun.AnyValues.columns(normal=normals, **numbers).partition(counts))

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 FRAME = "frame"
 TIME = "sim_time"
 
@@ -48,7 +50,8 @@ class Stream:
         import rerun
 
         frames, times = zip(*stamps, strict=True)
-        indexes = [rerun.TimeColumn(FRAME, sequence=frames), rerun.TimeColumn(TIME, duration=times)]
+        nanoseconds = np.rint(1e9 * np.array(times)).astype("timedelta64[ns]")  # an array of these is taken as it is
+        indexes = [rerun.TimeColumn(FRAME, sequence=frames), rerun.TimeColumn(TIME, duration=nanoseconds)]
         self._recording.send_columns(path, indexes=indexes, columns=columns)
 
     def flush(self) -> None:
