@@ -68,8 +68,13 @@ def read_term(text: str, world: World) -> Term:
 
 
 def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
+    wanted = {name: 1 for name in CALLS} | {DISTANCE: 2}
+    if wanted.get(function) != len(patterns):
+        accepted = ", ".join(f"{name}({', '.join(['entity'] * count)})" for name, count in wanted.items())
+        hint = did_you_mean(function, wanted) if function not in wanted else ""
+        raise WordError("unknown function", received=repr(text), accepted=accepted, hint=hint)
     groups = [matching(pattern, world.names()) for pattern in patterns]
-    if function == DISTANCE and len(groups) == 2 and all(len(group) == 1 for group in groups):
+    if function == DISTANCE:
         pair = [world.find(group[0]) for group in groups]
 
         def distance(world: World) -> Floats:
@@ -77,10 +82,6 @@ def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
             return np.array([[np.linalg.norm(second - first)]])
 
         return Term(text, "m", 1, (text,), distance)
-    if function not in CALLS or len(groups) != 1:
-        accepted = f"{', '.join(f'{name}(entity)' for name in CALLS)} or {DISTANCE}(entity, entity)"
-        hint = did_you_mean(function, (*CALLS, DISTANCE))
-        raise WordError("unknown function", received=repr(text), accepted=accepted, hint=hint)
     unit, measure = CALLS[function]
     entities = [world.find(name) for name in groups[0]]
     for entity in entities:

@@ -1,0 +1,303 @@
+"""Whatever is wrong with a file is told in whole sentences, all of it at once, where it stands."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import trimesh
+
+from carom.worlds import WorldError, load_text, load_world
+
+LENGTH = "a number in m, or one with a unit: m, mm, cm, km, um, in, ft, mi"
+MASS = "a number in kg, or one with a unit: kg, g, mg, t, lb, oz"
+ROTATIONS = "[x, y, z, w] of length 1 within 1 %, {axis, angle}, {euler, order} or {look_at}"
+SHAPES = "box, capsule, convex, cylinder, mesh, plane, point, sphere"
+BALL = "entities:\n  - {name: ball, "
+
+
+def messages(text: str, folder: Path | None = None) -> list[str]:
+    """Return the lines a world is refused with; the header is added as line 1."""
+    with pytest.raises(WorldError) as caught:
+        load_text("carom: 1\n" + text, "w.yaml", folder)
+    return str(caught.value).split("\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("entities: [", "w.yaml:3:1: is not YAML: while parsing a flow node did not find expected node content"),
+        ("seed: 1\nseed: 2\n", "w.yaml:3:1: seed: duplicate key 'seed', first at line 2"),
+        ("seed: yes\n", "w.yaml:2:1: seed: must be a whole number; received 'yes'; accepted: 0 or more"),
+        ("entities: {}\n", "w.yaml:2:1: entities: must be a list; received a mapping of nothing; accepted: [...]"),
+        (BALL + "body: 3}\n", "w.yaml:3:18: entities.0.body: must be a mapping; received 3; accepted: keys with values"),
+        ("step: {dt: 0}\n", "w.yaml:2:8: step.dt: must be above 0 s; received 0"),
+        ("step: {dt: -1/60}\n", "w.yaml:2:8: step.dt: must be above 0 s; received '-1/60'"),
+        (
+            "step: {integrator: eulr}\n",
+            "w.yaml:2:8: step.integrator: unknown word; received 'eulr'; accepted: euler, semi_implicit, verlet",
+        ),
+        ("gravity: [0, -9.81]\n", "w.yaml:2:1: gravity: must be a list of 3 numbers; received [0, -9.81]; accepted: numbers in m/s2"),
+        (
+            BALL + "body: {mass: -1 kg}, collider: {point: {}}}\n",
+            "w.yaml:3:25: entities.0.body.mass: must be above 0 kg; received '-1 kg'",
+        ),
+        (
+            BALL + "collider: {sphere: {radius: 0}}}\n",
+            "w.yaml:3:38: entities.0.collider.sphere.radius: must be above 0 m; received 0",
+        ),
+        (
+            BALL + "collider: {sphere: {}}}\n",
+            "w.yaml:3:29: entities.0.collider.sphere.radius: is missing; accepted: radius (m)",
+        ),
+        (
+            BALL + "body: {mas: 1}}\n",
+            "w.yaml:3:25: entities.0.body.mas: unknown key; received 'mas'; "
+            "accepted: type, mass, inertia, center_of_mass; did you mean 'mass'?",
+        ),
+        (
+            BALL + "collider: {shpere: {radius: 1}}}\n",
+            f"w.yaml:3:29: entities.0.collider.shpere: unknown key; received 'shpere'; accepted: {SHAPES}, position, "
+            "rotation, sensor, layer, collides_with, on_enter; did you mean 'sphere'?",
+        ),
+        (
+            BALL + "collider: {}}\n",
+            f"w.yaml:3:18: entities.0.collider: state exactly one shape of {SHAPES}; received none",
+        ),
+        (
+            BALL + "transform: {rotation: [0, 0, 0, 0]}}\n",
+            "w.yaml:3:30: entities.0.transform.rotation: is a zero quaternion; "
+            f"received [0.0, 0.0, 0.0, 0.0] of length 0; accepted: {ROTATIONS}",
+        ),
+        (
+            BALL + "transform: {rotation: [0, 0, 0, 1.02]}}\n",
+            "w.yaml:3:30: entities.0.transform.rotation: is not a unit quaternion; "
+            f"received [0.0, 0.0, 0.0, 1.02] of length 1.02; accepted: {ROTATIONS}",
+        ),
+        (
+            "materials: {ivory: {}}\n" + BALL + "material: ivry}\n",
+            "w.yaml:4:18: entities.0.material: unknown material; received 'ivry'; accepted: ivory; did you mean 'ivory'?",
+        ),
+        (
+            "prefabs: {ball: {}}\n" + BALL + "prefab: bal}\n",
+            "w.yaml:4:18: entities.0.prefab: unknown prefab; received 'bal'; accepted: ball; did you mean 'ball'?",
+        ),
+        (
+            "prefabs: {a: {prefab: a}}\n",
+            "w.yaml:2:15: prefabs.a.prefab: extends itself; received 'a'",
+        ),
+        (
+            BALL + "collider: {sphere: {radius: 1 mtr}}}\n",
+            f"w.yaml:3:38: entities.0.collider.sphere.radius: unknown unit 'mtr'; received '1 mtr'; accepted: {LENGTH}",
+        ),
+        (
+            BALL + "collider: {sphere: {radius: 1 kg}}}\n",
+            "w.yaml:3:38: entities.0.collider.sphere.radius: must be a length; "
+            f"received '1 kg', which is a mass; accepted: {LENGTH}",
+        ),
+        (
+            BALL + "body: {mass: 1}}\n  - {name: ball}\n",
+            "w.yaml:4:6: entities.1.name: two entities of one name; received 'ball', also of entities.0 at line 3",
+        ),
+        (
+            BALL + "motion: {linear: [1, 0, 0]}}\n",
+            "w.yaml:3:18: entities.0.motion: a static entity does not move; give it a body",
+        ),
+        (
+            BALL + "body: {}, collider: {point: {}}}\n",
+            "w.yaml:3:18: entities.0.body.mass: must be finite and above 0 kg, received 0; "
+            "state mass, or a shape with volume",
+        ),
+        (
+            "layers: {pocket: [bal]}\n",
+            "w.yaml:2:1: layers: unknown layer 'bal'; the layers are none, default, pocket",
+        ),
+        (
+            "forces: [{wnd: {velocity: [1, 0, 0]}}]\n",
+            "w.yaml:2:11: forces.0.wnd: unknown key; received 'wnd'; accepted: constant_push, linear_drag, "
+            "quadratic_drag, mutual_gravitation, wind, entities; did you mean 'wind'?",
+        ),
+        (
+            "forces: [{wind: {velocity: [1, 0, 0]}, entities: [ball]}]\n",
+            "w.yaml:2:51: forces.0.entities.0: unknown entity; received 'ball'; accepted: none is defined",
+        ),
+        ("run: {}\n", "w.yaml:2:1: run: must state one end; received none; accepted: duration, frames or until"),
+        (
+            "cameras: {main: {position: [1, 1, 1]}}\nrender: {camera: man}\n",
+            "w.yaml:3:10: render.camera: unknown camera; received 'man'; accepted: main; did you mean 'main'?",
+        ),
+    ],
+)  # fmt: skip
+def test_one_fault_one_line(text: str, message: str) -> None:
+    assert messages(text) == [message]
+
+
+def test_nan_and_infinity_are_refused_everywhere() -> None:
+    text = """gravity: [0, .inf, 0]
+seed: .nan
+entities:
+  - {name: ball, body: {mass: 1e999}, collider: {sphere: {radius: 1e999 m}}, transform: {position: [.nan, 0, 0]}}
+expect:
+  - {at: .inf, ball.position: {is: [0, 0, 0], within: 1}}
+  - {at: 0, ground.position: {is: [0, 0, 0], within: .nan}}
+"""
+    assert messages(text + "  - {at: 0, ball.position: {is: [0, -.inf, 0], within: 1}}\n") == [
+        "w.yaml:2:14: gravity.1: must be finite; received inf; accepted: a number in m/s2, or one with a unit: m/s2, ft/s2",
+        "w.yaml:3:1: seed: must be a whole number; received nan; accepted: 0 or more",
+        f"w.yaml:5:25: entities.0.body.mass: must be finite; received inf; accepted: {MASS}",
+        f"w.yaml:5:59: entities.0.collider.sphere.radius: must be finite; received '1e999 m'; accepted: {LENGTH}",
+        f"w.yaml:5:101: entities.0.transform.position.0: must be finite; received nan; accepted: {LENGTH}",
+        "w.yaml:7:6: expect.0.at: must be finite; received inf; accepted: a number in s, or one with a unit: "
+        "s, ms, us, min, h, d",
+        "w.yaml:8:13: expect.1.ground.position: unknown entity; received 'ground'; accepted: none is defined",
+    ]
+    within = "entities: [{name: ball, body: {mass: 1}}]\nexpect: [{at: 0, ball.position: {is: [0, .nan, 0], within: 1}}]\n"
+    assert messages(within) == [f"w.yaml:3:18: expect.0.ball.position: must be finite; received nan; accepted: {LENGTH}"]
+
+
+@pytest.mark.parametrize(
+    ("expectation", "message"),
+    [
+        (
+            "{at: 1 s, bal.position: {is: [0, 0, 0], within: 1}}",
+            "bal.position: unknown entity; received 'bal'; accepted: ball, floor; did you mean 'ball'?",
+        ),
+        (
+            "{at: 1 s, floor.linear: {is: [0, 0, 0], within: 1}}",
+            "floor.linear: floor has no such column; received 'linear'; accepted: position, rotation, friction, restitution, "
+            "density, rolling_friction, spinning_friction, friction_combine, restitution_combine, color",
+        ),
+        ("{never: bal.position.y < 0}", "never: unknown entity; received 'bal'; accepted: ball, floor; did you mean 'ball'?"),
+        (
+            "{when: {impact: [ball, flor]}, time: {is: 1, within: 1}}",
+            "when: unknown entity; received 'flor'; accepted: ball, floor; did you mean 'floor'?",
+        ),
+        (
+            "{when: {enter: [floor, ball]}, time: {is: 1, within: 1}}",
+            "when: is no sensor; received 'floor'; accepted: a collider with sensor: true",
+        ),
+        (
+            "{when: {impact: [ball, floor]}, tim: {is: 1, within: 1}}",
+            "tim: is nothing the event tells; received 'tim'; accepted: time, point, normal, speed, impulse, "
+            "friction_impulse or <entity>.<column>; did you mean 'time'?",
+        ),
+        (
+            "{always: speed(ball) < 3 kg}",
+            "always: must be a speed; received '3 kg', which is a mass; "
+            "accepted: a number in m/s, or one with a unit: m/s, mph, kn, km/h, ft/s",
+        ),
+        (
+            "{always: ball.position < 1}",
+            "always: ball.position has 3 components; received 'ball.position < 1'; "
+            "accepted: one component, such as ball.position.x",
+        ),
+        (
+            "{always: __import__('os')}",
+            "always: unknown function; received \"__import__('os')\"; accepted: speed(entity), spin(entity), "
+            "kinetic_energy(entity), distance(entity, entity)",
+        ),
+        (
+            "{always: ball.position.y + 1 > 0}",
+            "always: is no condition at '+ 1 > 0'; received 'ball.position.y + 1 > 0'; accepted: comparisons such as "
+            "'left.position.y < 0', 'speed(left) > 3 m/s', joined by and, or, not",
+        ),
+        ("{energy: falling}", "energy: is no law of energy; received 'falling'; accepted: constant within X or non-increasing"),
+        ("{penetration: 1 mm}", "penetration: is no bound; received '1 mm'; accepted: '< 1 mm'"),
+        (
+            "{at: 0.123 s, ball.position: {is: [0, 0, 0], within: 1}}",
+            "at: is between two steps; received 0.123 s; accepted: a multiple of dt = 0.0166666667 s, such as 0.116666667 s",
+        ),
+        (
+            "{at: 0, ball.position: {is: 3, within: 1}}",
+            "ball.position: 'is' must be a list of 3 numbers; received 3; accepted: numbers in m",
+        ),
+        (
+            "{}",
+            ": must state a law, or a moment with values; received none; accepted: energy, momentum, angular_momentum, "
+            "penetration, never, always; or at or when, with values such as ball.position: {is, within}",
+        ),
+    ],
+)  # fmt: skip
+def test_an_expectation_that_names_nothing_is_refused(expectation: str, message: str) -> None:
+    world = "entities:\n  - {name: ball, body: {mass: 1}, collider: {point: {}}}\n  - {name: floor, collider: {plane: {}}}\n"
+    (line,) = messages(world + f"expect:\n  - {expectation}\n")
+    place, _, rest = line.partition(": expect.0")
+    assert place.startswith("w.yaml:6:")
+    assert rest.removeprefix(".") == message
+
+
+def test_meshes_that_cannot_be_used(tmp_path: Path) -> None:
+    box = trimesh.creation.box()
+    box.export(tmp_path / "closed.obj")
+    trimesh.Trimesh(box.vertices, box.faces[:-1], process=False).export(tmp_path / "open.obj")
+    trimesh.Trimesh(box.vertices, box.faces[:, ::-1], process=False).export(tmp_path / "inverted.obj")
+    names = ("missing", "open", "inverted", "closed")
+    text = "entities:\n" + "".join(f"  - {{name: {name}, collider: {{mesh: {{file: {name}.obj}}}}}}\n" for name in names)
+    assert messages(text, tmp_path) == [
+        f"w.yaml:3:39: entities.0.collider.mesh.file: mesh file {tmp_path}/missing.obj does not exist",
+        f"w.yaml:4:36: entities.1.collider.mesh.file: mesh file {tmp_path}/open.obj is open: "
+        "11 faces do not close a volume; close its holes, or use convex",
+        f"w.yaml:5:40: entities.2.collider.mesh.file: mesh file {tmp_path}/inverted.obj is inverted: "
+        "its volume is -1 m3; turn its faces outward",
+    ]
+    load_text("carom: 1\nentities: [{body: {}, collider: {convex: {file: open.obj}}}]\n", "w.yaml", tmp_path)
+
+
+def test_all_faults_at_once_in_order_of_position() -> None:
+    text = """step: {dt: 0}
+entities:
+  - {name: left, body: {mass: -1}, collider: {sphere: {radius: 0}}}
+  - {name: right, material: ivory, collider: {box: {size: [1, 1, -1]}}}
+  - {name: middle, material: ivory}
+entites: []
+expect:
+  - never: left.position.y < 0
+  - never: lft.position.y < 0
+"""
+    assert [line.partition("; ")[0] for line in messages(text)] == [
+        "w.yaml:2:8: step.dt: must be above 0 s",
+        "w.yaml:4:25: entities.0.body.mass: must be above 0 kg",
+        "w.yaml:4:56: entities.0.collider.sphere.radius: must be above 0 m",
+        "w.yaml:5:66: entities.1.collider.box.size.2: must be above 0 m",
+        "w.yaml:6:20: entities.2.material: unknown material",
+        "w.yaml:7:1: entites: unknown key",
+        "w.yaml:10:5: expect.1.never: unknown entity",
+    ]
+
+
+def test_a_fault_of_a_prefab_is_told_once_and_there() -> None:
+    text = "prefabs:\n  ball: {body: {mass: -1}}\nentities:\n  - {name: a, prefab: ball}\n  - {name: b, prefab: ball}\n"
+    assert messages(text) == ["w.yaml:3:17: prefabs.ball.body.mass: must be above 0 kg; received -1"]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "w.yaml:1:1: is no world; received nothing; accepted: 'carom: 1' as its first line"),
+        ("- 1\n", "w.yaml:1:1: is no world; received [1]; accepted: 'carom: 1' as its first line"),
+        ("name: x\n", "w.yaml:1:1: carom: is missing; accepted: 'carom: 1' as its first line"),
+        ("carom: 2\n", "w.yaml:1:1: carom: unknown version; received 2; accepted: 1"),
+        ("carom: true\n", "w.yaml:1:1: carom: unknown version; received true; accepted: 1"),
+    ],
+)
+def test_other_files_are_refused_at_once(text: str, message: str) -> None:
+    with pytest.raises(WorldError) as caught:
+        load_text(text, "w.yaml")
+    assert str(caught.value) == message
+
+
+def test_files_that_are_not_there(tmp_path: Path) -> None:
+    def refusal(world: str | Path) -> str:
+        with pytest.raises(WorldError) as caught:
+            load_world(world)
+        return str(caught.value)
+
+    accepted = "a world file, or the name of a library world"
+    assert refusal("nowhere.yaml") == f"nowhere.yaml: does not exist; accepted: {accepted}"
+    assert refusal(tmp_path) == f"{tmp_path}: is a folder; accepted: {accepted}"
+    assert refusal("mirror_rom") == (
+        "mirror_rom: no world of this name; accepted: billiards, bounce, cannon, falling_ball, head_on, mirror_room, orbit; "
+        "did you mean 'mirror_room'?"
+    )
+    (tmp_path / "latin.yaml").write_bytes(b"carom: 1\nname: caf\xe9\n")
+    assert refusal(tmp_path / "latin.yaml") == f"{tmp_path}/latin.yaml: is not text in UTF-8: byte 18 is 0xe9"
