@@ -1,4 +1,4 @@
-"""Filming: the observers that take a film and a last picture of a simulation."""
+"""Filming: from where a world is photographed, one picture of it, and the observer that films a run."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from carom.ecs import World
 from carom.ecs.errors import CaromError
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
@@ -17,6 +18,8 @@ from carom.worlds.errors import did_you_mean
 if TYPE_CHECKING:
     from carom.tools.renderer import Renderer
     from carom.tools.scene import Scene
+
+ROUNDING = 1e-9  # of a picture's time, for steps that meet it but for rounding
 
 
 @dataclass(frozen=True)
@@ -48,17 +51,25 @@ def shot_of(loaded: LoadedWorld, name: str | None = None) -> Shot:
     return Shot(camera, render.width, render.height, render.fps)
 
 
+def photograph(shot: Shot, world: World, path: Path) -> None:
+    """Write a picture (PNG) of a world as it is now."""
+    from carom.tools.renderer import Renderer
+    from carom.tools.scene import Scene
+
+    with Renderer(shot.width, shot.height) as renderer:
+        save_png(path, renderer.picture(Scene(world).batches(), shot.camera))
+
+
 class Filming:
-    """Films a simulation, and photographs its last state; either path may be None.
+    """Films a simulation into an MP4.
 
     A picture is taken at the first step that is not before its time, so that a film of any frame rate runs at the
     speed of the simulation.
     """
 
-    def __init__(self, shot: Shot, *, film: Path | None = None, picture: Path | None = None) -> None:
-        self._shot, self._picture = shot, picture
-        self._film = Film(film, shot.width, shot.height, shot.fps) if film is not None else None
-        self._taken = 0
+    def __init__(self, shot: Shot, path: Path) -> None:
+        self._shot = shot
+        self._film = Film(path, shot.width, shot.height, shot.fps)
         self._renderer: Renderer | None = None
         self._scene: Scene | None = None
 
@@ -72,19 +83,15 @@ class Filming:
         self.observe(simulation)
 
     def observe(self, simulation: Simulation) -> None:
-        """Take the next picture of the film when its time has come."""
-        if self._film is not None and simulation.time * self._shot.fps >= self._taken - 1e-9:
-            assert self._renderer is not None and self._scene is not None
+        """Take the next picture when its time has come."""
+        assert self._renderer is not None and self._scene is not None, "begin() comes before observe()"
+        if simulation.time * self._shot.fps >= self._film.frames - ROUNDING:
             self._film.add(self._renderer.picture(self._scene.batches(), self._shot.camera))
-            self._taken += 1
 
     def end(self, simulation: Simulation) -> None:
-        """Photograph the last state and finish the film."""
+        """Finish the film."""
         try:
-            if self._picture is not None and self._renderer is not None and self._scene is not None:
-                save_png(self._picture, self._renderer.picture(self._scene.batches(), self._shot.camera))
+            self._film.close()
         finally:
-            if self._film is not None:
-                self._film.close()
             if self._renderer is not None:
                 self._renderer.close()

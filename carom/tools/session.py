@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, field
-from pathlib import Path
 from time import perf_counter
 from typing import Any
 
@@ -89,27 +89,27 @@ def run(loaded: LoadedWorld, observers: Sequence[Observer] = (), *, frames: int 
     Observers are begun in order, and all ended in whatever way the run ends; Ctrl-C ends it between two steps. What the
     world expects is judged only of a whole run.
     """
+    with np.errstate(all="ignore"):  # the step itself finds what is not finite, and says where
+        return _run(loaded, observers, frames)
+
+
+def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None) -> Summary:
     simulation = loaded.simulation
     watch = Watch()
     summary = Summary(loaded.name or loaded.path, bodies=simulation.world.count(RigidBody), judged=frames is None)
     summary.energy_before = total_energy(simulation.world)
     expectations = loaded.expectations if summary.judged else []
-    watching: list[Observer] = [watch, *expectations, *observers]
-    begun: list[Observer] = []
+    simulation.observers = [watch, *expectations, *observers]
     start = perf_counter()
-    try:
-        with deferred_interrupt() as check, _bar(frames or loaded.run.frames) as bar:
-            for observer in watching:
-                begun.append(observer)
-                observer.begin(simulation)
-            simulation.observers = watching
-            while not (simulation.frame >= frames if frames is not None else loaded.run.finished(simulation)):
-                simulation.step()
-                bar.update()
-                check()
-    finally:
-        for observer in reversed(begun):
-            observer.end(simulation)
+    planned = loaded.run.frames if frames is None else frames
+    with deferred_interrupt() as check, _bar(planned) as bar, ExitStack() as ending:
+        for observer in simulation.observers:
+            ending.callback(observer.end, simulation)
+            observer.begin(simulation)
+        while not (loaded.run.finished(simulation) if frames is None else simulation.frame >= frames):
+            simulation.step()
+            bar.update()
+            check()
     summary.frames, summary.simulated_seconds = simulation.frame, simulation.time
     summary.real_seconds = perf_counter() - start
     summary.energy_after = total_energy(simulation.world)
@@ -126,11 +126,3 @@ def _bar(frames: int) -> Any:
     from tqdm import tqdm
 
     return tqdm(total=frames, unit="frame", leave=False, disable=not sys.stderr.isatty())
-
-
-def relative(path: Path) -> str:
-    """Return a path as short as it can be said from here."""
-    try:
-        return str(path.resolve().relative_to(Path.cwd()))
-    except ValueError:
-        return str(path)

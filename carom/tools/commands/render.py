@@ -21,7 +21,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace) -> int:
     """Step to the moment and write the picture."""
-    from carom.tools.filming import Filming, shot_of
+    from carom.tools.filming import photograph, shot_of
     from carom.tools.outputs import prepare_outputs
     from carom.tools.session import run
     from carom.worlds.builder import load_world
@@ -32,7 +32,8 @@ def execute(arguments: argparse.Namespace) -> int:
     shot = shot_of(loaded, arguments.camera)
     prepare_outputs([arguments.out])
     frames = frames_of(moment, loaded.simulation.settings.dt)
-    run(loaded, [Filming(shot, picture=arguments.out)], frames=frames)
+    run(loaded, frames=frames)
+    photograph(shot, loaded.simulation.world, arguments.out)
     result = {"picture": str(arguments.out), "frame": frames, "time": loaded.simulation.time}
     if arguments.json:
         print_json(result)

@@ -28,7 +28,7 @@ def execute(arguments: argparse.Namespace) -> int:
     """Run the world and print the summary; 1 when an expectation failed or a number became infinite."""
     from carom.ecs.errors import NonFiniteError
     from carom.systems.observer import Observer
-    from carom.tools.filming import Filming, shot_of
+    from carom.tools.filming import Filming, photograph, shot_of
     from carom.tools.outputs import prepare_outputs
     from carom.tools.recorder import Recorder
     from carom.tools.session import run
@@ -41,8 +41,8 @@ def execute(arguments: argparse.Namespace) -> int:
     if arguments.record:
         title = loaded.name or Path(loaded.path).stem
         observers.append(Recorder(arguments.record, title=title, source=loaded.source_text, camera=shot.camera))
-    if arguments.film or arguments.picture:
-        observers.append(Filming(shot, film=arguments.film, picture=arguments.picture))
+    if arguments.film:
+        observers.append(Filming(shot, arguments.film))
     kept = f"; the recording up to there: carom view {arguments.record}" if arguments.record else ""
     try:
         summary = run(loaded, observers, frames=arguments.frames)
@@ -52,6 +52,8 @@ def execute(arguments: argparse.Namespace) -> int:
     except NonFiniteError as fault:
         print(f"{fault}{kept}", file=sys.stderr)
         return 1
+    if arguments.picture:
+        photograph(shot, loaded.simulation.world, arguments.picture)
     written = {"recording": arguments.record, "film": arguments.film, "picture": arguments.picture}
     summary.outputs = {kind: str(path) for kind, path in written.items() if path}
     if arguments.json:
