@@ -68,7 +68,7 @@ def read_term(text: str, world: World) -> Term:
 
 
 def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
-    wanted = {name: 1 for name in CALLS} | {DISTANCE: 2}
+    wanted = dict.fromkeys(CALLS, 1) | {DISTANCE: 2}
     if wanted.get(function) != len(patterns):
         accepted = ", ".join(f"{name}({', '.join(['entity'] * count)})" for name, count in wanted.items())
         hint = did_you_mean(function, wanted) if function not in wanted else ""

@@ -1,5 +1,7 @@
 """Whatever is wrong with a file is told in whole sentences, all of it at once, where it stands."""
 
+# ruff: noqa: E501 - messages stand whole, as a user sees them
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -52,13 +54,13 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         ),
         (
             BALL + "body: {mas: 1}}\n",
-            "w.yaml:3:25: entities.0.body.mas: unknown key; received 'mas'; "
-            "accepted: type, mass, inertia, center_of_mass; did you mean 'mass'?",
+            ("w.yaml:3:25: entities.0.body.mas: unknown key; received 'mas'; "
+            "accepted: type, mass, inertia, center_of_mass; did you mean 'mass'?"),
         ),
         (
             BALL + "collider: {shpere: {radius: 1}}}\n",
-            f"w.yaml:3:29: entities.0.collider.shpere: unknown key; received 'shpere'; accepted: {SHAPES}, position, "
-            "rotation, sensor, layer, collides_with, on_enter; did you mean 'sphere'?",
+            (f"w.yaml:3:29: entities.0.collider.shpere: unknown key; received 'shpere'; accepted: {SHAPES}, position, "
+            "rotation, sensor, layer, collides_with, on_enter; did you mean 'sphere'?"),
         ),
         (
             BALL + "collider: {}}\n",
@@ -66,13 +68,13 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         ),
         (
             BALL + "transform: {rotation: [0, 0, 0, 0]}}\n",
-            "w.yaml:3:30: entities.0.transform.rotation: is a zero quaternion; "
-            f"received [0.0, 0.0, 0.0, 0.0] of length 0; accepted: {ROTATIONS}",
+            ("w.yaml:3:30: entities.0.transform.rotation: is a zero quaternion; "
+            f"received [0.0, 0.0, 0.0, 0.0] of length 0; accepted: {ROTATIONS}"),
         ),
         (
             BALL + "transform: {rotation: [0, 0, 0, 1.02]}}\n",
-            "w.yaml:3:30: entities.0.transform.rotation: is not a unit quaternion; "
-            f"received [0.0, 0.0, 0.0, 1.02] of length 1.02; accepted: {ROTATIONS}",
+            ("w.yaml:3:30: entities.0.transform.rotation: is not a unit quaternion; "
+            f"received [0.0, 0.0, 0.0, 1.02] of length 1.02; accepted: {ROTATIONS}"),
         ),
         (
             "materials: {ivory: {}}\n" + BALL + "material: ivry}\n",
@@ -92,8 +94,8 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         ),
         (
             BALL + "collider: {sphere: {radius: 1 kg}}}\n",
-            "w.yaml:3:38: entities.0.collider.sphere.radius: must be a length; "
-            f"received '1 kg', which is a mass; accepted: {LENGTH}",
+            ("w.yaml:3:38: entities.0.collider.sphere.radius: must be a length; "
+            f"received '1 kg', which is a mass; accepted: {LENGTH}"),
         ),
         (
             BALL + "body: {mass: 1}}\n  - {name: ball}\n",
@@ -105,8 +107,8 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         ),
         (
             BALL + "body: {}, collider: {point: {}}}\n",
-            "w.yaml:3:18: entities.0.body.mass: must be finite and above 0 kg, received 0; "
-            "state mass, or a shape with volume",
+            ("w.yaml:3:18: entities.0.body.mass: must be finite and above 0 kg, received 0; "
+            "state mass, or a shape with volume"),
         ),
         (
             "layers: {pocket: [bal]}\n",
@@ -114,8 +116,8 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         ),
         (
             "forces: [{wnd: {velocity: [1, 0, 0]}}]\n",
-            "w.yaml:2:11: forces.0.wnd: unknown key; received 'wnd'; accepted: constant_push, linear_drag, "
-            "quadratic_drag, mutual_gravitation, wind, entities; did you mean 'wind'?",
+            ("w.yaml:2:11: forces.0.wnd: unknown key; received 'wnd'; accepted: constant_push, linear_drag, "
+            "quadratic_drag, mutual_gravitation, wind, entities; did you mean 'wind'?"),
         ),
         (
             "forces: [{wind: {velocity: [1, 0, 0]}, entities: [ball]}]\n",
@@ -129,10 +131,12 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
     ],
 )  # fmt: skip
 def test_one_fault_one_line(text: str, message: str) -> None:
+    """Each wrong word is told in one line: where, what, what was received and what is accepted."""
     assert messages(text) == [message]
 
 
 def test_nan_and_infinity_are_refused_everywhere() -> None:
+    """No number of a file may be NaN or infinite, however it is written."""
     text = """gravity: [0, .inf, 0]
 seed: .nan
 entities:
@@ -147,12 +151,18 @@ expect:
         f"w.yaml:5:25: entities.0.body.mass: must be finite; received inf; accepted: {MASS}",
         f"w.yaml:5:59: entities.0.collider.sphere.radius: must be finite; received '1e999 m'; accepted: {LENGTH}",
         f"w.yaml:5:101: entities.0.transform.position.0: must be finite; received nan; accepted: {LENGTH}",
-        "w.yaml:7:6: expect.0.at: must be finite; received inf; accepted: a number in s, or one with a unit: "
-        "s, ms, us, min, h, d",
+        (
+            "w.yaml:7:6: expect.0.at: must be finite; received inf; accepted: a number in s, or one with a unit: "
+            "s, ms, us, min, h, d"
+        ),
         "w.yaml:8:13: expect.1.ground.position: unknown entity; received 'ground'; accepted: none is defined",
     ]
-    within = "entities: [{name: ball, body: {mass: 1}}]\nexpect: [{at: 0, ball.position: {is: [0, .nan, 0], within: 1}}]\n"
-    assert messages(within) == [f"w.yaml:3:18: expect.0.ball.position: must be finite; received nan; accepted: {LENGTH}"]
+    within = (
+        "entities: [{name: ball, body: {mass: 1}}]\nexpect: [{at: 0, ball.position: {is: [0, .nan, 0], within: 1}}]\n"
+    )
+    assert messages(within) == [
+        f"w.yaml:3:18: expect.0.ball.position: must be finite; received nan; accepted: {LENGTH}"
+    ]
 
 
 @pytest.mark.parametrize(
@@ -164,8 +174,8 @@ expect:
         ),
         (
             "{at: 1 s, floor.linear: {is: [0, 0, 0], within: 1}}",
-            "floor.linear: floor has no such column; received 'linear'; accepted: position, rotation, friction, restitution, "
-            "density, rolling_friction, spinning_friction, friction_combine, restitution_combine, color",
+            ("floor.linear: floor has no such column; received 'linear'; accepted: position, rotation, friction, restitution, "
+            "density, rolling_friction, spinning_friction, friction_combine, restitution_combine, color"),
         ),
         ("{never: bal.position.y < 0}", "never: unknown entity; received 'bal'; accepted: ball, floor; did you mean 'ball'?"),
         (
@@ -178,28 +188,28 @@ expect:
         ),
         (
             "{when: {impact: [ball, floor]}, tim: {is: 1, within: 1}}",
-            "tim: is nothing the event tells; received 'tim'; accepted: time, point, normal, speed, impulse, "
-            "friction_impulse or <entity>.<column>; did you mean 'time'?",
+            ("tim: is nothing the event tells; received 'tim'; accepted: time, point, normal, speed, impulse, "
+            "friction_impulse or <entity>.<column>; did you mean 'time'?"),
         ),
         (
             "{always: speed(ball) < 3 kg}",
-            "always: must be a speed; received '3 kg', which is a mass; "
-            "accepted: a number in m/s, or one with a unit: m/s, mph, kn, km/h, ft/s",
+            ("always: must be a speed; received '3 kg', which is a mass; "
+            "accepted: a number in m/s, or one with a unit: m/s, mph, kn, km/h, ft/s"),
         ),
         (
             "{always: ball.position < 1}",
-            "always: ball.position has 3 components; received 'ball.position < 1'; "
-            "accepted: one component, such as ball.position.x",
+            ("always: ball.position has 3 components; received 'ball.position < 1'; "
+            "accepted: one component, such as ball.position.x"),
         ),
         (
             "{always: __import__('os')}",
-            "always: unknown function; received \"__import__('os')\"; accepted: speed(entity), spin(entity), "
-            "kinetic_energy(entity), distance(entity, entity)",
+            ("always: unknown function; received \"__import__('os')\"; accepted: speed(entity), spin(entity), "
+            "kinetic_energy(entity), distance(entity, entity)"),
         ),
         (
             "{always: ball.position.y + 1 > 0}",
-            "always: is no condition at '+ 1 > 0'; received 'ball.position.y + 1 > 0'; accepted: comparisons such as "
-            "'left.position.y < 0', 'speed(left) > 3 m/s', joined by and, or, not",
+            ("always: is no condition at '+ 1 > 0'; received 'ball.position.y + 1 > 0'; accepted: comparisons such as "
+            "'left.position.y < 0', 'speed(left) > 3 m/s', joined by and, or, not"),
         ),
         ("{energy: falling}", "energy: is no law of energy; received 'falling'; accepted: constant within X or non-increasing"),
         ("{penetration: 1 mm}", "penetration: is no bound; received '1 mm'; accepted: '< 1 mm'"),
@@ -213,12 +223,13 @@ expect:
         ),
         (
             "{}",
-            ": must state a law, or a moment with values; received none; accepted: energy, momentum, angular_momentum, "
-            "penetration, never, always; or at or when, with values such as ball.position: {is, within}",
+            (": must state a law, or a moment with values; received none; accepted: energy, momentum, angular_momentum, "
+            "penetration, never, always; or at or when, with values such as ball.position: {is, within}"),
         ),
     ],
 )  # fmt: skip
 def test_an_expectation_that_names_nothing_is_refused(expectation: str, message: str) -> None:
+    """Entities, columns, sensors, functions and laws that are not there are faults of the file."""
     world = "entities:\n  - {name: ball, body: {mass: 1}, collider: {point: {}}}\n  - {name: floor, collider: {plane: {}}}\n"
     (line,) = messages(world + f"expect:\n  - {expectation}\n")
     place, _, rest = line.partition(": expect.0")
@@ -227,23 +238,31 @@ def test_an_expectation_that_names_nothing_is_refused(expectation: str, message:
 
 
 def test_meshes_that_cannot_be_used(tmp_path: Path) -> None:
+    """A mesh must be there, closed and turned outward; a hull takes open ones."""
     box = trimesh.creation.box()
     box.export(tmp_path / "closed.obj")
     trimesh.Trimesh(box.vertices, box.faces[:-1], process=False).export(tmp_path / "open.obj")
     trimesh.Trimesh(box.vertices, box.faces[:, ::-1], process=False).export(tmp_path / "inverted.obj")
     names = ("missing", "open", "inverted", "closed")
-    text = "entities:\n" + "".join(f"  - {{name: {name}, collider: {{mesh: {{file: {name}.obj}}}}}}\n" for name in names)
+    text = "entities:\n" + "".join(
+        f"  - {{name: {name}, collider: {{mesh: {{file: {name}.obj}}}}}}\n" for name in names
+    )
     assert messages(text, tmp_path) == [
         f"w.yaml:3:39: entities.0.collider.mesh.file: mesh file {tmp_path}/missing.obj does not exist",
-        f"w.yaml:4:36: entities.1.collider.mesh.file: mesh file {tmp_path}/open.obj is open: "
-        "11 faces do not close a volume; close its holes, or use convex",
-        f"w.yaml:5:40: entities.2.collider.mesh.file: mesh file {tmp_path}/inverted.obj is inverted: "
-        "its volume is -1 m3; turn its faces outward",
+        (
+            f"w.yaml:4:36: entities.1.collider.mesh.file: mesh file {tmp_path}/open.obj is open: "
+            "11 faces do not close a volume; close its holes, or use convex"
+        ),
+        (
+            f"w.yaml:5:40: entities.2.collider.mesh.file: mesh file {tmp_path}/inverted.obj is inverted: "
+            "its volume is -1 m3; turn its faces outward"
+        ),
     ]
     load_text("carom: 1\nentities: [{body: {}, collider: {convex: {file: open.obj}}}]\n", "w.yaml", tmp_path)
 
 
 def test_all_faults_at_once_in_order_of_position() -> None:
+    """One run tells everything, and does not complain of names whose entity it complained of."""
     text = """step: {dt: 0}
 entities:
   - {name: left, body: {mass: -1}, collider: {sphere: {radius: 0}}}
@@ -266,6 +285,7 @@ expect:
 
 
 def test_a_fault_of_a_prefab_is_told_once_and_there() -> None:
+    """A prefab is checked where it stands, not where it is used."""
     text = "prefabs:\n  ball: {body: {mass: -1}}\nentities:\n  - {name: a, prefab: ball}\n  - {name: b, prefab: ball}\n"
     assert messages(text) == ["w.yaml:3:17: prefabs.ball.body.mass: must be above 0 kg; received -1"]
 
@@ -281,12 +301,15 @@ def test_a_fault_of_a_prefab_is_told_once_and_there() -> None:
     ],
 )
 def test_other_files_are_refused_at_once(text: str, message: str) -> None:
+    """Without the header of this version nothing else counts."""
     with pytest.raises(WorldError) as caught:
         load_text(text, "w.yaml")
     assert str(caught.value) == message
 
 
 def test_files_that_are_not_there(tmp_path: Path) -> None:
+    """A path that leads nowhere and a name that nothing bears are told apart."""
+
     def refusal(world: str | Path) -> str:
         with pytest.raises(WorldError) as caught:
             load_world(world)

@@ -21,6 +21,7 @@ def load(text: str, **options: object) -> LoadedWorld:
 
 
 def test_an_empty_world_has_the_defaults() -> None:
+    """A header alone makes a world with the defaults of Settings."""
     world = load("")
     settings = world.simulation.settings
     assert (settings.dt, settings.substeps, settings.gravity) == (1 / 60, 4, (0.0, -9.81, 0.0))
@@ -29,6 +30,7 @@ def test_an_empty_world_has_the_defaults() -> None:
 
 
 def test_options_override_the_file() -> None:
+    """What the caller states wins, None states nothing."""
     text = "seed: 3\ncollision: auto\nstep: {dt: 1/240, integrator: verlet}\nrun: {duration: 1 s}\n"
     world = load(text, dt=0.01, integrator="euler", collision="fcl", seed=7)
     settings = world.simulation.settings
@@ -38,6 +40,7 @@ def test_options_override_the_file() -> None:
 
 
 def test_up_z_turns_gravity_cameras_and_display_but_not_data() -> None:
+    """Positions stay as written."""
     world = load("up: z\nentities: [{name: a, transform: {position: [1, 2, 3]}, collider: {point: {}}}]\n")
     assert world.simulation.settings.gravity == (0.0, 0.0, -9.81)
     assert world.up == (0.0, 0.0, 1.0)
@@ -46,6 +49,7 @@ def test_up_z_turns_gravity_cameras_and_display_but_not_data() -> None:
 
 
 def test_an_entity_lies_over_its_prefab_and_that_over_its_own() -> None:
+    """The nearer word wins; rotations and shapes are taken whole."""
     world = load("""
 materials: {ivory: {friction: 0.1, restitution: 0.9}}
 prefabs:
@@ -66,6 +70,7 @@ entities:
 
 
 def test_a_grid_places_named_copies() -> None:
+    """Copies stand at origin plus spacing times index and are found by name and pattern."""
     world = load("""
 entities:
   - name: rain
@@ -82,7 +87,9 @@ forces:
 
 
 def test_jitter_is_drawn_from_the_seed_in_the_order_of_the_file() -> None:
-    text = "seed: 5\nentities: [{name: a, transform: {position: [1, 1, 1], jitter: [0, 1 mm, 1]}, grid: {count: [9, 1, 1], spacing: 0}}]\n"
+    """The same seed gives the same places, bit by bit."""
+    place = "transform: {position: [1, 1, 1], jitter: [0, 1 mm, 1]}"
+    text = f"seed: 5\nentities: [{{name: a, {place}, grid: {{count: [9, 1, 1], spacing: 0}}}}]\n"
     first, same, other = (load(text, seed=seed).simulation.world[Transform].position[:9] for seed in (None, 5, 6))
     generator = np.random.Generator(np.random.PCG64(5))
     expected = [np.ones(3) + generator.uniform([0, -0.001, -1], [0, 0.001, 1]) for _ in range(9)]
@@ -103,11 +110,13 @@ def test_jitter_is_drawn_from_the_seed_in_the_order_of_the_file() -> None:
     ],
 )
 def test_rotations(words: str, expected: list[float]) -> None:
+    """All four forms give the same quaternions."""
     rotation = load(f"entities: [{{name: a, transform: {{rotation: {words}}}}}]").simulation["a"].transform.rotation
     np.testing.assert_allclose(rotation, expected, atol=1e-12)
 
 
 def test_bodies_colliders_and_visuals() -> None:
+    """Words of bodies, colliders and visuals arrive in their columns."""
     world = load("""
 layers: {ball: [cloth, ball], cloth: all, pocketed: []}
 entities:
@@ -137,20 +146,23 @@ entities:
 
 
 def test_materials_say_how_they_combine() -> None:
-    text = "entities: [{name: a, material: {friction: {value: 20 %, combine: min}, restitution: 0.5, color: [1, 0, 0, 0.5]}}]"
-    material = load(text).simulation["a"].material
+    """A quantity may come with its rule."""
+    words = "{friction: {value: 20 %, combine: min}, restitution: 0.5, color: [1, 0, 0, 0.5]}"
+    material = load(f"entities: [{{name: a, material: {words}}}]").simulation["a"].material
     assert (material.friction, material.friction_combine) == (0.2, Combine.MIN)
     assert (material.restitution, material.restitution_combine) == (0.5, Combine.DEFAULT)
     assert list(material.color) == [1, 0, 0, 0.5]
 
 
 def test_hulls_of_stated_points() -> None:
+    """A hull weighs what its volume does."""
     points = "[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]"
     world = load(f"entities: [{{name: a, collider: {{convex: {{points: {points}}}}}, body: {{}}}}]").simulation
     assert world["a"].rigid_body.mass == pytest.approx(1000 / 6)
 
 
 def test_runs() -> None:
+    """A run ends after its frames, its duration, or at rest."""
     still = "entities: [{body: {mass: 1}, collider: {sphere: {radius: 1}}}]\ngravity: [0, 0, 0]\n"
     world = load(still + "run: {until: rest, at_most: 3 s}\n")
     assert world.run.frames == 180
@@ -162,6 +174,7 @@ def test_runs() -> None:
 
 
 def test_a_refused_file_leaves_nothing_behind() -> None:
+    """The next file starts afresh."""
     with pytest.raises(WorldError):
         load("entities: [{name: a}, {name: a}]\n")
     assert load("entities: [{name: a}]\n").simulation.world.names() == ["a"]

@@ -1,0 +1,138 @@
+"""Every library world runs to its end with all it expects, and notices when one of its quantities is off."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from carom.worlds import LoadedWorld, library, load_text, load_world
+from carom.worlds.expectation import Outcome
+
+WEIGHT = r"gravity: \[0, (-[\d.]+), 0\]"
+
+
+def run(world: LoadedWorld, *, to_first_failure: bool = False) -> list[Outcome]:
+    """Run to the end, or to the first failure, and return what became of each expectation."""
+    simulation = world.simulation
+    simulation.observers += world.expectations
+    for item in world.expectations:
+        item.begin(simulation)
+    while not world.run.finished(simulation):
+        if to_first_failure and not all(item.held for item in world.expectations):
+            break
+        simulation.step()
+    for item in world.expectations:
+        item.end(simulation)
+    return [item.outcome() for item in world.expectations]
+
+
+@pytest.mark.parametrize("collision", ["auto", "fcl"])
+@pytest.mark.parametrize("name", library.names())
+def test_expectations_hold(name: str, collision: str) -> None:
+    """All expectations of a library world hold, with and without kernels in the place of FCL."""
+    failed = [str(outcome) for outcome in run(load_world(name, collision=collision)) if not outcome.held]
+    assert failed == []
+
+
+@pytest.mark.parametrize(
+    ("name", "pattern", "factor", "offset"),
+    [
+        ("falling_ball", r"gravity: \[0, (-9), 0\]", 1.01, 0.0),
+        ("bounce", WEIGHT, 1.01, 0.0),
+        ("bounce", r"restitution: (0), color: brown", 1.0, 0.1),
+        ("bounce", r"restitution: (0\.25)", 1.0, 0.1),
+        ("bounce", r"restitution: (0\.5)", 1.0, 0.1),
+        ("bounce", r"restitution: (0\.75)", 1.0, 0.1),
+        ("bounce", r"restitution: (1), color: blue", 1.0, -0.1),
+        ("mirror_room", r"restitution: (1)", 1.0, -0.1),
+        ("cannon", WEIGHT, 1.01, 0.0),
+        *[("cannon", rf"name: {group}_{mass}, prefab: shell, body: {{mass: ({mass})}}", 1.05, 0.0)
+          for group in ("bare", "drag", "wind") for mass in (1, 2, 4)],
+        ("head_on", r"elastic: {restitution: (1)", 1.0, -0.1),
+        ("head_on", r"half: {restitution: (0\.5)", 1.0, 0.1),
+        ("head_on", r"plastic: {restitution: (0)", 1.0, 0.1),
+        *[("head_on", rf"name: {group}_right_{mass}, .*body: {{mass: ({mass})}}", 1.05, 0.0)
+          for group in ("elastic", "half", "plastic") for mass in (1, 10, 1000)],
+        ("orbit", r"mass: (100)\b", 1.05, 0.0),
+        ("orbit", r"mass: (1)\b", 1.05, 0.0),
+        ("orbit", r"constant: ([\d.]+)", 1.01, 0.0),
+    ],
+)  # fmt: skip
+def test_a_quantity_that_is_off_is_noticed(name: str, pattern: str, factor: float, offset: float) -> None:
+    """Gravity off by 1 %, a mass by 5 % or a restitution by 0.1 makes an expectation fail."""
+    text = library.find(name).read_text(encoding="utf-8")
+    found = re.search(pattern, text)
+    assert found is not None
+    changed = text[: found.start(1)] + repr(float(found[1]) * factor + offset) + text[found.end(1) :]
+    assert not all(outcome.held for outcome in run(load_text(changed, name), to_first_failure=True))
+
+
+def stated(name: str, event: str) -> tuple[float, list[float]]:
+    """Return time and point that a library world expects of an event."""
+    for item in load_world(name).document["expect"]:
+        if str(item.get("when", "")) == event:
+            return item["time"]["is"], item["point"]["is"]
+    raise AssertionError(f"{name} expects nothing of {event}")
+
+
+def test_the_numbers_of_the_mirror_room_are_those_of_a_solution_event_by_event() -> None:
+    """A thousand reflections, each at the plane met first, give the times and points of the file."""
+    world = load_world("mirror_room").document
+    planes = [entity["collider"]["plane"] for entity in world["entities"] if "plane" in entity["collider"]]
+    ball = world["entities"][0]
+    normals = np.array([plane["normal"] for plane in planes])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    offsets = np.array([plane["offset"] for plane in planes]) + ball["collider"]["sphere"]["radius"]
+    position, velocity = np.array(ball["transform"]["position"]), np.array(ball["motion"]["linear"])
+    time = 0.0
+    for number in range(1, 1001):
+        closing = -normals @ velocity
+        waits = np.where(closing > 0.0, (normals @ position - offsets) / np.where(closing > 0.0, closing, 1.0), np.inf)
+        first = int(np.argmin(waits))
+        time, position = time + waits[first], position + velocity * waits[first]
+        velocity = velocity - 2.0 * (velocity @ normals[first]) * normals[first]
+        if number in (1, 10, 100, 1000):
+            expected = stated("mirror_room", str({"impact": ["ball", "wall_*"], "nth": number}))
+            point = position - ball["collider"]["sphere"]["radius"] * normals[first]
+            np.testing.assert_allclose([time, *point], [expected[0], *expected[1]], rtol=0, atol=2e-9)
+
+
+@pytest.mark.parametrize("mass", [1, 2, 4])
+@pytest.mark.parametrize(
+    ("group", "drag", "wind"), [("bare", 0.0, (0, 0, 0)), ("drag", 0.1, (0, 0, 0)), ("wind", 0.1, (-5, 0, 2))]
+)
+def test_the_numbers_of_the_cannon_are_roots_of_the_closed_forms(
+    mass: int, group: str, drag: float, wind: tuple[float, ...]
+) -> None:
+    """Leaving the barrel and landing, found by bisection, give the times and places of the file."""
+    force, gravity, rate = np.array([300.0, 400.0, 0.0]), np.array([0.0, -9.81, 0.0]), drag / mass
+    lane = 2.0 * (["bare", "drag", "wind"].index(group) * 3 + [1, 2, 4].index(mass) - 4)
+    start = np.array([0.0, 1.0, lane])
+
+    def flight(begin: np.ndarray, velocity: np.ndarray, push: np.ndarray, time: float) -> tuple[np.ndarray, np.ndarray]:
+        """Return position and velocity after a time of v' = push - rate v."""
+        if rate == 0.0:
+            return begin + velocity * time + push * time**2 / 2, velocity + push * time
+        final, decay = push / rate, math.exp(-rate * time)
+        return begin + final * time + (velocity - final) * (1 - decay) / rate, final + (velocity - final) * decay
+
+    air = gravity + rate * np.array(wind)
+    still = np.zeros(3)
+    leave = root(lambda t: (flight(start, still, force / mass + air, t)[0] - start) @ force / 500.0 - 2.0, 1e-6, 1.0)
+    muzzle = flight(start, still, force / mass + air, leave)
+    land = root(lambda t: 0.1 - flight(*muzzle, air, t)[0][1], 1.0, 20.0)
+    place = flight(*muzzle, air, land)[0] - [0.0, 0.1, 0.0]
+    time, point = stated("cannon", str({"impact": [f"{group}_{mass}", "ground"]}))
+    np.testing.assert_allclose([leave + land, *place], [time, *point], rtol=0, atol=1e-7)
+
+
+def root(function: Callable[[float], float], low: float, high: float) -> float:
+    """Return where an increasing function is 0, by bisection."""
+    for _ in range(100):
+        middle = (low + high) / 2
+        low, high = (low, middle) if function(middle) > 0 else (middle, high)
+    return (low + high) / 2
