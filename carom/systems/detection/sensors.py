@@ -17,24 +17,25 @@ if TYPE_CHECKING:
 
 def sense(world: World, found: Found) -> Found:
     """Take the sensors' pairs out of ``found``, log who newly overlaps one, and queue its change of layer."""
-    collider = world[Collider]
-    if not collider.sensor.any() and not world.count(Inside):
+    sensor = world[Collider].sensor
+    sensing_a = sensor[found.row_a]
+    sensing = sensing_a | sensor[found.row_b]
+    if not sensing.any():
+        if world.count(Inside):
+            world.resize(Inside, 0)
         return found
-    sensing_a, sensing_b = collider.sensor[found.row_a], collider.sensor[found.row_b]
-    sensing = sensing_a | sensing_b
     overlapping = sensing & (found.depth >= 0.0)
-    sensor = world.entities(np.where(sensing_a, found.row_a, found.row_b)[overlapping])
-    entity = world.entities(np.where(sensing_a, found.row_b, found.row_a)[overlapping])
-    now = {(int(s), int(e)) for s, e in zip(sensor, entity, strict=True)}
+    sensors = world.entities(np.where(sensing_a, found.row_a, found.row_b)[overlapping])
+    entities = world.entities(np.where(sensing_a, found.row_b, found.row_a)[overlapping])
+    now = sorted(zip(sensors.tolist(), entities.tolist(), strict=True))
     inside = world[Inside]
-    before = {(int(inside.sensor[k]), int(inside.entity[k])) for k in range(inside.count)}
-    for s, e in sorted(now - before):
-        _log(world, s, e)
-    ordered = sorted(now)
-    world.resize(Inside, len(ordered))
+    before = set(zip(inside.sensor[: inside.count].tolist(), inside.entity[: inside.count].tolist(), strict=True))
+    for one, other in now:
+        if (one, other) not in before:
+            _log(world, one, other)
+    world.resize(Inside, len(now))
     inside = world[Inside]
-    for k, (s, e) in enumerate(ordered):
-        inside.sensor[k], inside.entity[k] = s, e
+    inside.sensor[: len(now)], inside.entity[: len(now)] = [s for s, _ in now], [e for _, e in now]
     keep = ~sensing
     return type(found)(*(column[keep] for column in found))
 

@@ -9,6 +9,7 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import (
     APPROACH,
+    BLOW_SPEED_FACTOR,
     IMPACTS_AT_LEAST,
     IMPACTS_PER_PAIR,
     REST_SPEED_FACTOR,
@@ -152,7 +153,7 @@ def fly(
                 pressing = -(nx * felt[i, 0] + ny * felt[i, 1] + nz * felt[i, 2])
                 if o >= 0:
                     pressing += nx * felt[o, 0] + ny * felt[o, 1] + nz * felt[o, 2]
-                if gap <= TOUCH and closing > max(APPROACH, REST_SPEED_FACTOR * pressing * h):
+                if gap <= TOUCH and closing > max(APPROACH, BLOW_SPEED_FACTOR * pressing * h):
                     resting[p] = False
             if not resting[p]:
                 foreseen = now + first_touch(
@@ -240,24 +241,15 @@ def fly(
             kzz += inverse_mass[o] + cz
         vn = nx * sx + ny * sy + nz * sz
         if vn >= -APPROACH:
-            # Pressed together without closing: hold the pair by taking the pressing part out of the arcs.
-            bent = -(nx * acceleration[i, 0] + ny * acceleration[i, 1] + nz * acceleration[i, 2])
-            total = im
-            if o >= 0:
-                bent += nx * acceleration[o, 0] + ny * acceleration[o, 1] + nz * acceleration[o, 2]
-                total += inverse_mass[o]
-            if bent > 0.0:
-                for k, n in enumerate((nx, ny, nz)):
-                    acceleration[i, k] += bent * im / total * n
-                    if o >= 0:
-                        acceleration[o, k] -= bent * inverse_mass[o] / total * n
+            # Pressed together without closing: no impulse, but the pair must not fall through.
             enter_time(soonest, leaves + m, NEVER)
-            for body in (i, o):
-                if body >= 0 and bent > 0.0:
-                    for slot in range(begin[body], begin[body + 1]):
-                        if of_body[slot] != m:
-                            seek[seek_count] = of_body[slot]
-                            seek_count += 1
+            if stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration):
+                for body in (i, o):
+                    if body >= 0:
+                        for slot in range(begin[body], begin[body + 1]):
+                            if of_body[slot] != m:
+                                seek[seek_count] = of_body[slot]
+                                seek_count += 1
             continue
         rest = REST_SPEED_FACTOR * max(0.0, pressing) * h
         bounce = restitution[p] if -vn > rest else 0.0
@@ -276,6 +268,8 @@ def fly(
             for k, (j, w) in enumerate(((jx, wx), (jy, wy), (jz, wz))):
                 linear[o, k] -= inverse_mass[o] * j
                 angular[o, k] -= w
+        if bounce == 0.0:
+            stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration)
         impulse[p] += normal
         s = sign[p]
         for k, (j, n, at) in enumerate(((jx, nx, px), (jy, ny, py), (jz, nz, pz))):
@@ -316,6 +310,23 @@ def fly(
                 inertia, principal_axes,
             )  # fmt: skip
     return now, log_count, reason, cut
+
+
+@inlined
+def stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration):
+    """Take out of two arcs the acceleration by which the bodies press on each other, as a contact force would."""
+    pressing = -(nx * acceleration[i, 0] + ny * acceleration[i, 1] + nz * acceleration[i, 2])
+    total = inverse_mass[i]
+    if o >= 0:
+        pressing += nx * acceleration[o, 0] + ny * acceleration[o, 1] + nz * acceleration[o, 2]
+        total += inverse_mass[o]
+    if pressing <= 0.0:
+        return False
+    for k, n in enumerate((nx, ny, nz)):
+        acceleration[i, k] += pressing * inverse_mass[i] / total * n
+        if o >= 0:
+            acceleration[o, k] -= pressing * inverse_mass[o] / total * n
+    return True
 
 
 @inlined
