@@ -36,6 +36,7 @@ class Passes(pyrender.Renderer):  # type: ignore[misc]
     def see(self, nodes: list[Any], camera: Camera, spread: float) -> None:
         """Take what the next picture shows, from where, and within which distance of its target things cast shadows."""
         self._nodes = nodes
+        self._lit: set[Any] = set()
         pose = camera.pose()
         self._camera_matrices: tuple[Any, Any] = np.linalg.inv(pose), camera.projection(self._aspect)
         up = np.array(camera.up) / np.linalg.norm(camera.up)
@@ -65,6 +66,9 @@ class Passes(pyrender.Renderer):  # type: ignore[misc]
         GL.glViewport(0, 0, self.shadow_texels, self.shadow_texels)
 
     def _bind_lighting(self, scene: Any, program: Any, node: Any, flags: int) -> None:
+        if program in self._lit:  # what is set stays set for the other nodes of this picture
+            return
+        self._lit.add(program)
         for name, value in self._uniforms.items():
             program.set_uniform(name, value)
         (light,) = scene.lights
