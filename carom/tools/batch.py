@@ -10,7 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs.column import Floats, Integers
+from carom.ecs.errors import CaromError
 
+LARGEST_ID = 2**24 - 2  # an id goes through the three colour channels, and 0 means background
 CREASE = math.cos(math.radians(30.0))  # faces that meet at a flatter angle are shaded as one curved surface
 
 
@@ -32,6 +34,15 @@ class Batch:
     ids: Integers
     smooth: bool = False
     floor: Floats | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse columns of different lengths and ids that do not fit; raise CaromError."""
+        if not len(self.poses) == len(self.colors) == len(self.ids):
+            lengths = f"{len(self.poses)}, {len(self.colors)} and {len(self.ids)}"
+            raise CaromError(f"batch: poses, colors and ids must be as many, received {lengths}")
+        if len(self.ids) and not 0 <= self.ids.min() <= self.ids.max() <= LARGEST_ID:
+            received = f"{self.ids.min()} to {self.ids.max()}"
+            raise CaromError(f"batch: ids must lie from 0 to {LARGEST_ID}, received {received}")
 
 
 class Shading(NamedTuple):

@@ -15,7 +15,6 @@ from carom.tools import offscreen
 from carom.tools.batch import Batch
 from carom.tools.cameras import Camera
 
-LARGEST_ID = 2**24 - 2  # an id goes through the three colour channels, and 0 means background
 SKY = np.array([[-1.0, -1.0, 0.0], [3.0, -1.0, 0.0], [-1.0, 3.0, 0.0]])  # covers the picture, in its own coordinates
 
 
@@ -104,10 +103,6 @@ class Renderer:
         for batch in batches:
             if not len(batch.ids):
                 continue
-            if batch.ids.min() < 0 or batch.ids.max() > LARGEST_ID:
-                raise CaromError(
-                    f"renderer: ids must lie from 0 to {LARGEST_ID}, received {batch.ids.min()} to {batch.ids.max()}"
-                )
             mesh = (id(batch.vertices), id(batch.faces), id(batch.floor), int(batch.smooth))
             key = next((*mesh, n) for n in count() if (*mesh, n) not in drawn)
             known = self._drawn.pop(key, None)

@@ -14,9 +14,9 @@ from trimesh.creation import box, icosphere
 
 from carom.ecs.errors import CaromError
 from carom.tools import offscreen
-from carom.tools.batch import Batch, shading
+from carom.tools.batch import LARGEST_ID, Batch, shading
 from carom.tools.cameras import Camera
-from carom.tools.renderer import LARGEST_ID, Renderer
+from carom.tools.renderer import Renderer
 
 WIDTH, HEIGHT = 320, 240
 BALL = icosphere(subdivisions=4, radius=1.0)
@@ -244,10 +244,16 @@ def test_a_camera_that_sees_nothing_is_refused(arguments: dict[str, object], mes
     assert str(caught.value) == message
 
 
-def test_ids_that_do_not_fit_are_refused(renderer: Renderer) -> None:
+def test_ids_that_do_not_fit_are_refused() -> None:
     with pytest.raises(CaromError) as caught:
-        renderer.ids([batch(CUBE, (0.0, 0.0, 0.0), first=LARGEST_ID + 1)], Camera((0.0, 0.0, 3.0)))
-    assert str(caught.value) == "renderer: ids must lie from 0 to 16777214, received 16777215 to 16777215"
+        batch(CUBE, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), first=LARGEST_ID)
+    assert str(caught.value) == "batch: ids must lie from 0 to 16777214, received 16777214 to 16777215"
+
+
+def test_columns_of_different_lengths_are_refused() -> None:
+    with pytest.raises(CaromError) as caught:
+        Batch(CUBE.vertices, CUBE.faces, poses((0.0, 0.0, 0.0)), np.ones((2, 4)), np.zeros(1, np.int64))
+    assert str(caught.value) == "batch: poses, colors and ids must be as many, received 1, 2 and 1"
 
 
 def test_a_picture_without_area_is_refused() -> None:
