@@ -87,7 +87,7 @@ def test_it_holds(expectation: str) -> None:
         ("{at: 0.25 s, ball.position.y: {is: 1, within: 1 mm}}", 30, "ball.position.y = 0.9696875 m, off by 0.0303"),
         ("{at: 1.5 s, ball.position.y: {is: 1, within: 1}}", 120, "the run ended at frame 120, before frame 180"),
         ("{when: {impact: [ball, floor]}, speed: {is: 5, within: 1 mm/s}}", 61, "speed = 4.905 m/s, off by 0.095"),
-        ("{when: {impact: [ball, floor], nth: 2}, time: {is: 1, within: 1}}", 120, "1 of 2 such events by the end of the run"),
+        ("{when: {impact: [ball, floor], nth: 2}, time: {is: 1, within: 1}}", 120, "1 of 2 such events by the end of the run"),  # noqa: E501
         ("{when: {impact: [ball, stone]}, time: {is: 1, within: 1}}", 120, "0 of 1 such events by the end of the run"),
         ("{when: {enter: [gate, stone]}, time: {is: 1, within: 1}}", 120, "0 of 1 such events by the end of the run"),
     ],
