@@ -129,7 +129,6 @@ def fly(
             ox, oy, oz = other_position[p, 0], other_position[p, 1], other_position[p, 2]
             qx, qy, qz, qw = other_rotation[p, 0], other_rotation[p, 1], other_rotation[p, 2], other_rotation[p, 3]
             ux, uy, uz, bx, by, bz, wx, wy, wz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-            pressing = 0.0
             if o >= 0:
                 to = now - time[o]
                 co = bend * to * to
@@ -150,9 +149,7 @@ def fly(
                     kind[p], x, y, z, radius[p], ox, oy, oz, qx, qy, qz, qw, extent[p, 0], extent[p, 1], extent[p, 2]
                 )
                 closing = -(nx * (vx - ux) + ny * (vy - uy) + nz * (vz - uz))
-                pressing = -(nx * felt[i, 0] + ny * felt[i, 1] + nz * felt[i, 2])
-                if o >= 0:
-                    pressing += nx * felt[o, 0] + ny * felt[o, 1] + nz * felt[o, 2]
+                pressing = pressing_of(i, o, nx, ny, nz, felt)
                 if gap <= TOUCH and closing > max(APPROACH, BLOW_SPEED_FACTOR * pressing * h):
                     resting[p] = False
             if not resting[p]:
@@ -212,13 +209,12 @@ def fly(
         kyy = im + ii * (rx * rx + rz * rz)
         kzz = im + ii * (rx * rx + ry * ry)
         kxy, kxz, kyz = -ii * rx * ry, -ii * rx * rz, -ii * ry * rz
-        pressing = -(nx * felt[i, 0] + ny * felt[i, 1] + nz * felt[i, 2])
+        pressing = pressing_of(i, o, nx, ny, nz, felt)
         gx, gy, gz = 0.0, 0.0, 0.0
         if o >= 0:
             gx, gy, gz = px - center[o, 0], py - center[o, 1], pz - center[o, 2]
             tx, ty, tz = cross(angular[o, 0], angular[o, 1], angular[o, 2], gx, gy, gz)
             sx, sy, sz = sx - linear[o, 0] - tx, sy - linear[o, 1] - ty, sz - linear[o, 2] - tz
-            pressing += nx * felt[o, 0] + ny * felt[o, 1] + nz * felt[o, 2]
             ax_, ay_, az_, aw_ = product(
                 qx, qy, qz, qw, principal_axes[o, 0], principal_axes[o, 1], principal_axes[o, 2], principal_axes[o, 3]
             )
@@ -251,6 +247,8 @@ def fly(
                                 seek[seek_count] = of_body[slot]
                                 seek_count += 1
             continue
+        # Forces press the bodies together, or what contacts with others do to their arcs.
+        pressing = max(pressing, pressing_of(i, o, nx, ny, nz, acceleration))
         rest = REST_SPEED_FACTOR * max(0.0, pressing) * h
         bounce = restitution[p] if -vn > rest else 0.0
         jx, jy, jz, normal = struck(
@@ -313,13 +311,19 @@ def fly(
 
 
 @inlined
-def stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration):
-    """Take out of two arcs the acceleration by which the bodies press on each other, as a contact force would."""
+def pressing_of(i, o, nx, ny, nz, acceleration):
+    """Return how fast two bodies accelerate towards each other along the normal n from o to i."""
     pressing = -(nx * acceleration[i, 0] + ny * acceleration[i, 1] + nz * acceleration[i, 2])
-    total = inverse_mass[i]
     if o >= 0:
         pressing += nx * acceleration[o, 0] + ny * acceleration[o, 1] + nz * acceleration[o, 2]
-        total += inverse_mass[o]
+    return pressing
+
+
+@inlined
+def stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration):
+    """Take out of two arcs the acceleration by which the bodies press on each other, as a contact force would."""
+    pressing = pressing_of(i, o, nx, ny, nz, acceleration)
+    total = inverse_mass[i] + (inverse_mass[o] if o >= 0 else 0.0)
     if pressing <= 0.0:
         return False
     for k, n in enumerate((nx, ny, nz)):
