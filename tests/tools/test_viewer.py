@@ -1,4 +1,4 @@
-"""A real viewer sees it: Rerun's own viewer opens a recording, moves through time and shows the bodies where they are."""
+"""A real viewer sees it: Rerun's own opens a recording, moves through time and shows bodies where they are."""
 
 from __future__ import annotations
 
@@ -14,8 +14,12 @@ import pytest
 
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
+from carom.tools.cli import main
+from carom.tools.filming import shot_of
 from carom.tools.recorder import Recorder
+from carom.tools.recording import Recording
 from carom.tools.viewer import viewer_binary
+from carom.worlds.builder import load_world
 
 PATIENCE = 60.0  # s, on a busy machine
 COLORS = {"red": (1.0, 0.0, 0.0), "green": (0.0, 1.0, 0.0), "blue": (0.0, 0.0, 1.0)}
@@ -59,8 +63,9 @@ def screenshot(viewer: Any, frame: int, path: Path) -> npt.NDArray[np.uint8]:
         time.sleep(1.0)  # the viewer loads and draws on its own time, and jumps to the end when it has loaded
         viewer.save_screenshot(str(path))
         recordings = viewer.get_state().recordings
-        if recordings and recordings[0].current_time == frame or time.monotonic() > deadline:
+        if recordings and recordings[0].current_time == frame:
             break
+        assert time.monotonic() < deadline, f"the viewer does not stay at frame {frame}: {recordings}"
     with Image.open(path) as image:
         picture = np.asarray(image.convert("RGB"))
     return picture[60:-60, : picture.shape[1] * 7 // 10]
@@ -99,3 +104,56 @@ def test_the_viewer_shows_the_balls_where_they_are_at_each_time(tmp_path: Path, 
         assert abs(across[0]) < 5.0
     heights = [middles[0][name][0] for name in COLORS]
     assert heights == sorted(heights), "red above green above blue"
+
+
+# Hue in degrees, least saturation and value: what tells these balls from cloth, wood and the lighter balls.
+HUES = {"ball_1": (38.0, 52.0, 0.65, 150), "ball_2": (212.0, 232.0, 0.65, 100), "ball_4": (255.0, 280.0, 0.5, 70)}
+CUE_SATURATION, CUE_VALUE = 0.12, 200
+
+
+def hued_pixels(picture: npt.NDArray[np.uint8], name: str) -> npt.NDArray[np.int64]:
+    """Return the places (n, 2: row, column) of the pixels of a ball of the billiards world."""
+    high, low = picture.max(axis=2).astype(float), picture.min(axis=2).astype(float)
+    saturation = (high - low) / np.maximum(high, 1.0)
+    if name == "cue":
+        return np.argwhere((saturation < CUE_SATURATION) & (high > CUE_VALUE))
+    red, green, blue = np.moveaxis(picture.astype(float), 2, 0)
+    spread = np.maximum(high - low, 1.0)
+    hue = np.where(
+        high == red,
+        (green - blue) / spread,
+        np.where(high == green, 2 + (blue - red) / spread, 4 + (red - green) / spread),
+    )
+    least, most, least_saturation, least_value = HUES[name]
+    degrees = (60.0 * hue) % 360.0
+    return np.argwhere((degrees > least) & (degrees < most) & (saturation > least_saturation) & (high > least_value))
+
+
+def test_the_balls_of_a_break_are_seen_where_the_simulation_has_them(tmp_path: Path, viewer: Any) -> None:
+    path = tmp_path / "billiards.rrd"
+    assert main(["run", "billiards", "--record", str(path), "--frames", "480"]) == 0
+    recording = Recording(path)
+    names = recording.names(0)
+    loaded = load_world("billiards")
+    camera_from_world = np.linalg.inv(shot_of(loaded).camera.pose())
+    viewer.open(str(path))
+    screenshot(viewer, 240, tmp_path / "loading.png")
+    rows, seen, moved = [], [], []
+    for frame, looked_for in ((8, ("cue", "ball_1")), (480, ("cue", *HUES))):  # others hide each other in the rack
+        picture = screenshot(viewer, frame, tmp_path / f"break-{frame}.png")
+        for entity, pose in recording.poses(frame).items():
+            if names[entity] not in looked_for or pose.position[1] < 0.0:
+                continue
+            places = hued_pixels(picture, names[entity])
+            assert len(places) > 30, f"frame {frame}: {names[entity]} is {len(places)} px"
+            x, y, z, _ = camera_from_world @ [*pose.position, 1.0]
+            rows += [[1.0, 0.0, y / z], [0.0, 1.0, -x / z]]
+            seen += list(np.median(places, axis=0))
+            moved.append((names[entity], np.median(places, axis=0)))
+    assert len(rows) >= 10
+    # Three unknowns, the middle of the view and its scale, explain where all balls are seen at both times.
+    (middle_row, middle_column, scale), *_ = np.linalg.lstsq(np.array(rows), np.array(seen), rcond=None)
+    off = np.abs(np.array(rows) @ [middle_row, middle_column, scale] - seen)
+    assert scale > 300.0
+    assert off.max() < 6.0, list(zip(moved, off.reshape(-1, 2), strict=True))
+    assert np.linalg.norm(np.ptp([place for name, place in moved if name == "cue"], axis=0)) > 50.0

@@ -42,7 +42,7 @@ def blueprint(camera: Camera, *, grid: bool) -> Any:
         rrb.Horizontal(scene, rrb.Vertical(curves, texts, row_shares=[2, 1]), column_shares=[3, 1]),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
-        rrb.TimePanel(timeline=TIME, state="collapsed"),
+        rrb.TimePanel(timeline=TIME, state="collapsed", play_state="paused"),
         auto_views=False,
         auto_layout=False,
     )
