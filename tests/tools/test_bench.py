@@ -1,0 +1,82 @@
+"""A bench states every figure with its bound, and fails where one does not hold or a peer is missing."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from types import ModuleType
+
+import pytest
+
+from carom.tools.bench import BENCHES
+from carom.tools.bench.measure import Figure, timed, timed_process
+from carom.tools.cli import main
+
+
+@pytest.fixture
+def tiny(monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """Put in a bench of two figures, one above and one below its bound."""
+    bench = ModuleType("carom.tools.bench.tiny")
+
+    def figures() -> Iterator[Figure]:
+        yield Figure("fast", "s", 1.0, 0.5, 2.0)
+        yield Figure("speed", "x", 3.0, 5.0, 4.0, by="cpu", at_least=True)
+
+    bench.figures = figures  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, bench.__name__, bench)
+    monkeypatch.setitem(BENCHES, "tiny", "tiny")
+    return bench
+
+
+def test_bounds_hold_from_either_side_by_wall_or_cpu() -> None:
+    """A bound is a most or a least, of the stated clock."""
+    assert Figure("a", "s", 1.0, 9.0, 1.0).holds
+    assert not Figure("a", "s", 1.1, 0.0, 1.0).holds
+    assert Figure("a", "x", 1.0, 9.0, 5.0, by="cpu", at_least=True).holds
+    assert not Figure("a", "x", 9.0, 1.0, 5.0, by="cpu", at_least=True).holds
+
+
+def test_every_figure_is_printed_with_its_bound(tiny: ModuleType, capsys: pytest.CaptureFixture[str]) -> None:
+    """The machine's line comes first."""
+    assert main(["bench", "tiny"]) == 0
+    machine, fast, speed = capsys.readouterr().out.splitlines()
+    assert "Python" in machine and "numba" in machine
+    assert fast.startswith("holds  fast ") and fast.endswith("at most 2 s by wall, median of 1")
+    assert speed.startswith("holds  speed ") and speed.endswith("at least 4 x by cpu, median of 1")
+
+
+def test_a_figure_that_does_not_hold_makes_exit_1(
+    tiny: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Also as JSON, where every figure tells whether it holds."""
+    monkeypatch.setattr(tiny, "figures", lambda: iter([Figure("slow", "s", 3.0, 0.5, 2.0)]))
+    assert main(["bench", "tiny", "--json"]) == 1
+    (figure,) = json.loads(capsys.readouterr().out)["figures"]
+    assert figure["holds"] is False
+    assert figure["bound"] == 2.0
+
+
+def test_a_missing_peer_makes_exit_1_and_names_the_extra(
+    tiny: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Nothing is measured then."""
+    monkeypatch.setattr(tiny, "PEERS", ("json", "no_such_engine"), raising=False)
+    assert main(["bench", "tiny"]) == 1
+    assert capsys.readouterr().err == "bench tiny compares with no_such_engine; run: pip install 'carom[peers]'\n"
+
+
+def test_timings_are_medians_of_wall_and_cpu() -> None:
+    """In this process and of others."""
+    assert timed(lambda: sum(range(1000)), 3).repeats == 3
+    spent = timed_process([sys.executable, "-c", "pass"], 3)
+    assert 0.0 < spent.cpu < 10.0 * spent.wall
+
+
+def test_the_benches_of_this_issue_are_there() -> None:
+    """Each file of the registry is importable and has figures."""
+    from importlib import import_module
+
+    assert {"start", "break"} <= BENCHES.keys()
+    for module in BENCHES.values():
+        assert callable(import_module(f"carom.tools.bench.{module}").figures)
