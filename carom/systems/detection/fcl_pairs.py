@@ -28,6 +28,7 @@ Points = list[tuple[Floats, Floats, float]]  # (point, unit normal from the firs
 
 MOST_CONTACTS = 32  # points FCL may return for a pair; a mesh gives one per triangle
 SHALLOW = 0.1  # part of the smaller size up to which FCL's signed distance is safe to call (it may hang beyond)
+NEAR = 0.01  # m, growth of two boxes together when their manifold is measured; more only to see a fast one coming
 LEAST_PART = 1e-9  # m, distance of FCL's two nearest points below which they give no direction
 BALLS = (Sphere, Point)
 # Pairs whose collide() is exact, so that no second opinion is needed.
@@ -99,7 +100,8 @@ def measure_by_fcl(world: World, pairs: Integers, reaches: Floats) -> Found:
     normals, depths, places = [], [], []
     for (a, b), reach in zip(pairs.tolist(), reaches.tolist(), strict=True):
         points = measure(Side(objects, world, a), Side(objects, world, b), reach)
-        for feature, (point, normal, depth) in enumerate(points):
+        features = corner_features([point for point, _, _ in points], objects, world, a)
+        for feature, (point, normal, depth) in sorted(zip(features, points, strict=True), key=lambda known: known[0]):
             rows.append((a, b, feature))
             normals.append(normal)
             depths.append(depth)
@@ -110,6 +112,19 @@ def measure_by_fcl(world: World, pairs: Integers, reaches: Floats) -> Found:
         np.array(normals).reshape(-1, 3), np.array(depths, np.float64), np.array(places).reshape(-1, 3),
         np.ones(len(rows), np.bool_),
     )  # fmt: skip
+
+
+def corner_features(points: list[Floats], objects: FclObjects, world: World, row: int) -> list[int]:
+    """Return a number per point by the octant of the first shape it lies in, which stays while the pair moves little."""
+    taken: dict[int, int] = {}
+    features = []
+    side = Side(objects, world, row)
+    for point in points:
+        local = quaternion.rotate(quaternion.conjugate(side.rotation), point - side.position)
+        octant = int((local > 0.0) @ (1, 2, 4))
+        features.append(octant + 8 * taken.get(octant, 0))
+        taken[octant] = taken.get(octant, 0) + 1
+    return features
 
 
 def measure(a: Side, b: Side, reach: float) -> Points:
@@ -126,6 +141,8 @@ def measure(a: Side, b: Side, reach: float) -> Points:
         if exact:  # growing a ball is exact, so that FCL also measures the gap
             points = collide(a.fcl(reach if ball is a else 0.0), b.fcl(reach if ball is b else 0.0))
             return [_shrunk(p, reach, ball is a) for p in points if _valid(p, b)]
+    if isinstance(a.shape, Box) and isinstance(b.shape, Box):
+        return _boxes(a, b, min(reach, NEAR)) or _boxes(a, b, reach)
     points = collide(a.fcl(), b.fcl())
     if not points:
         return _apart(a, b, reach)
@@ -155,12 +172,22 @@ def signed_distance(one: Any, two: Any) -> tuple[float, Floats, Floats]:
     return distance, np.array(result.nearest_points[0]), np.array(result.nearest_points[1])
 
 
+def _boxes(a: Side, b: Side, reach: float) -> Points:
+    """Measure two boxes grown by half of ``reach`` each, so that corners about to touch are points of the manifold."""
+    half = 0.5 * reach
+    points = [p for p in collide(a.fcl(half), b.fcl(half)) if _valid(p, b)]
+    return reduce_points([(_within(b, _within(a, place)), normal, depth - reach) for place, normal, depth in points])
+
+
+def _within(side: Side, place: Floats) -> Floats:
+    """Return the point of a box nearest to ``place``, for points that growing moved off its faces."""
+    half = np.array(side.shape.bounds().half)
+    local = quaternion.rotate(quaternion.conjugate(side.rotation), place - side.position)
+    return side.position + quaternion.rotate(side.rotation, np.clip(local, -half, half))
+
+
 def _apart(a: Side, b: Side, reach: float) -> Points:
-    """Measure a pair that does not overlap: boxes by growing them, others by the nearest points."""
-    if isinstance(a.shape, Box) and isinstance(b.shape, Box):
-        half = 0.5 * reach
-        points = collide(a.fcl(half), b.fcl(half))
-        return reduce_points([(p, n, d - reach) for p, n, d in points if _valid((p, n, d), b)])
+    """Measure a pair that does not overlap by its nearest points."""
     distance, p, q = signed_distance(a.fcl(), b.fcl())
     length = float(np.sqrt(((q - p) ** 2).sum()))
     if not LEAST_PART < distance <= reach or length <= LEAST_PART:
