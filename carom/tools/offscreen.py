@@ -36,15 +36,13 @@ def loads(libraries: tuple[str, ...]) -> bool:
 
 
 def backend() -> str:
-    """Return ``osmesa`` or ``egl``: the one the user chose by PYOPENGL_PLATFORM, else the first whose library loads.
+    """Return ``osmesa`` or ``egl``, whose library loads; of both the one in PYOPENGL_PLATFORM, else ``osmesa``.
 
     Raises GraphicsError, which says how to mend it, when there is neither.
     """
     chosen = os.environ.get(PLATFORM_VARIABLE)
-    if chosen in LIBRARIES:
-        return chosen
-    for name, alternatives in LIBRARIES.items():
-        if any(loads(libraries) for libraries in alternatives):
+    for name in sorted(LIBRARIES, key=lambda name: name != chosen):
+        if any(loads(libraries) for libraries in LIBRARIES[name]):
             return name
     raise GraphicsError(
         "pictures need software OpenGL, and neither libOSMesa.so nor libEGL.so.1 was found; accepted: either of them; "
@@ -62,7 +60,7 @@ def load() -> Any:
     if "OpenGL" in sys.modules and os.environ.get(PLATFORM_VARIABLE) != name:
         raise GraphicsError(
             "OpenGL was imported before carom could choose how to draw without a screen; "
-            f"set the environment variable {PLATFORM_VARIABLE}={name} before Python starts, or import carom's "
+            f"set the environment variable {PLATFORM_VARIABLE}={name} before Python starts, or make carom's "
             "renderer first"
         )
     os.environ[PLATFORM_VARIABLE] = name

@@ -283,6 +283,18 @@ def test_without_any_opengl_the_message_says_what_to_install(monkeypatch: pytest
     )
 
 
+def test_opengl_imported_for_a_screen_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv(offscreen.PLATFORM_VARIABLE, raising=False)
+    monkeypatch.setitem(sys.modules, "OpenGL", sys)
+    monkeypatch.setattr(offscreen, "loads", lambda libraries: True)
+    with pytest.raises(offscreen.GraphicsError) as caught:
+        offscreen.load()
+    assert str(caught.value) == (
+        "OpenGL was imported before carom could choose how to draw without a screen; set the environment variable "
+        "PYOPENGL_PLATFORM=osmesa before Python starts, or make carom's renderer first"
+    )
+
+
 def test_where_there_is_no_osmesa_egl_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(offscreen.PLATFORM_VARIABLE, raising=False)
     monkeypatch.setattr(offscreen, "loads", lambda libraries: "EGL" in libraries[0])
