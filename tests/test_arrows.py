@@ -71,10 +71,12 @@ def faults(path: Path) -> list[str]:
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(PACKAGE)))
 def test_arrows_point_one_way_and_heavy_imports_are_lazy(path: Path) -> None:
+    """Every file of the package, by the roots of what it imports."""
     assert faults(path) == []
 
 
 def test_a_relative_import_is_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A relative import against the arrow is a fault like an absolute one."""
     for folder in ("carom", "carom/ecs"):
         (tmp_path / folder).mkdir()
     wrong = tmp_path / "carom" / "ecs" / "wrong.py"

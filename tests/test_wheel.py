@@ -15,6 +15,7 @@ ROOT = Path(__file__).parents[1]
 
 @pytest.mark.skipif(not (ROOT / ".git").exists() or shutil.which("git") is None, reason="not in a clone")
 def test_the_wheel_holds_the_tracked_files(tmp_path: Path) -> None:
+    """The library's worlds and the shaders included, and no room under a name of its own."""
     listed = subprocess.run(["git", "ls-files", "carom"], cwd=ROOT, capture_output=True, text=True, check=True)
     tracked = {name for name in listed.stdout.splitlines() if (ROOT / name).is_file()}
     command = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", str(tmp_path), str(ROOT)]
