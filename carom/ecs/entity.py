@@ -38,7 +38,9 @@ class EntityView:
         object.__setattr__(self, "_entity", entity)
 
     def __getattr__(self, key: str) -> RecordView:
-        return RecordView(self._world, self._entity, key)
+        world: World = object.__getattribute__(self, "_world")
+        entity: Entity = object.__getattribute__(self, "_entity")
+        return RecordView(world, entity, key)
 
     def __setattr__(self, key: str, value: Any) -> None:
         raise AttributeError(f"assign to a column: world[entity].{key}.<column> = value")

@@ -16,7 +16,7 @@ from carom.ecs.errors import AccessError, EntityError
 from carom.ecs.query import Rows, find_rows
 from carom.ecs.table import Table
 
-R = TypeVar("R", Record, Resource)
+R = TypeVar("R", bound=Record | Resource)
 
 
 class World:
@@ -116,7 +116,7 @@ class World:
             self.table(Name).fill(rows, Name(text=names))
         self.alive[rows] = True
         self.structure += 1
-        return self.generations[rows] << INDEX_BITS | rows
+        return self.entities(rows)
 
     def _reserve(self, count: int) -> Integers:
         reused = [self._free.pop() for _ in range(min(count, len(self._free)))]
@@ -174,7 +174,8 @@ class World:
 
     def entities(self, rows: Any) -> Integers:
         """Return the handles of the entities in an array of rows."""
-        return self.generations[rows] << INDEX_BITS | rows
+        handles: Integers = self.generations[rows] << INDEX_BITS | rows
+        return handles
 
     def locate(self, entity: int, key: str) -> tuple[type[Component], int]:
         """Return the component called ``key`` (snake case) and the row of an entity that must have it."""
@@ -230,7 +231,9 @@ class World:
     def count(self, kind: type[Record]) -> int:
         """Return how many rows a kind has."""
         if issubclass(kind, Relation):
-            return self.table(kind).view.count  # type: ignore[attr-defined]
+            view = self.table(kind).view
+            assert isinstance(view, Relation)
+            return view.count
         return int(self.table(kind).present[: self._used].sum())
 
     def resize(self, kind: type[Relation], count: int) -> None:

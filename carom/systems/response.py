@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import sqrt
 
+import numpy as np
+
 from carom.ecs import Collider, ColliderPose, Material, Motion, RigidBody, Transform, World, system
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -36,7 +38,7 @@ def sort_out_contacts(world: World, dt: float) -> None:
     )  # fmt: skip
 
 
-@system(reads=(RigidBody, Transform, Settings), writes=(Motion, Contact, Flight))
+@system(reads=(RigidBody, Transform, Settings, Progress), writes=(Motion, Contact, Flight, Impact))
 def hold(world: World, dt: float) -> None:
     """Solve the resting contacts: they do not close, stick or slide within the cone, and resist rolling."""
     contact = world[Contact]
@@ -49,15 +51,35 @@ def hold(world: World, dt: float) -> None:
         contact.offset_a, contact.offset_b, contact.kind, contact.resting,
         contact.friction, contact.restitution, contact.rolling, contact.spinning,
         body.inverse_mass, body.inverse_inertia, body.principal_axes, world[Transform].rotation,
-        flight.start_linear, flight.start_angular, motion.linear, motion.angular,
+        flight.start_linear, flight.start_angular, motion.linear, motion.angular, contact.blow,
         contact.impulse, contact.friction_impulse, contact.warm_normal, contact.warm_friction, contact.warm_rolling,
     )  # fmt: skip
+    log_blows(world, dt)
     if world[Settings].integrator == "verlet":
         bend_arcs(
             contact.count, dt, contact.body_a, contact.body_b, contact.normal, contact.kind, contact.resting,
             flight.touching, flight.start_linear, flight.start_angular,
             motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
         )  # fmt: skip
+
+
+def log_blows(world: World, dt: float) -> None:
+    """Log an impact per pair that the resting stage made bounce: one row for all points of its manifold."""
+    contact = world[Contact]
+    rows = np.nonzero((contact.blow[: contact.count] > 0.0) & (contact.warm_normal[: contact.count] > 0.0))[0]
+    if not len(rows):
+        return
+    pairs = np.stack([contact.a[rows], contact.b[rows]], axis=1)
+    for a, b in sorted(set(map(tuple, pairs.tolist()))):
+        of_pair = rows[(pairs == (a, b)).all(axis=1)]
+        at = world.count(Impact)
+        world.resize(Impact, at + 1)
+        impact = world[Impact]
+        impact.time[at], impact.a[at], impact.b[at] = world[Progress].clock, a, b
+        impact.point[at], impact.normal[at] = contact.point[of_pair].mean(axis=0), contact.normal[of_pair[0]]
+        impact.speed[at] = contact.blow[of_pair].max()
+        impact.impulse[at] = contact.warm_normal[of_pair].sum()
+        impact.friction_impulse[at] = contact.warm_friction[of_pair].sum(axis=0)
 
 
 @system(

@@ -56,7 +56,7 @@ class Random(Resource):
 
     def state(self) -> bytes:
         """Return the generator's position."""
-        inner = self.generator.bit_generator.state["state"]
+        inner: dict[str, int] = self.generator.bit_generator.state["state"]
         return inner["state"].to_bytes(16, "big") + inner["inc"].to_bytes(16, "big")
 
     def restore(self, state: bytes) -> None:

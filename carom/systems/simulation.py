@@ -7,9 +7,19 @@ import os
 from collections.abc import Callable, Iterable
 from typing import Any
 
+import numpy as np
 import numpy.typing as npt
 
-from carom.ecs import Entity, Schedule, System, World, system
+from carom.ecs import (
+    Entity,
+    NonFiniteError,
+    Schedule,
+    System,
+    World,
+    restore_snapshot,
+    system,
+    take_snapshot,
+)
 from carom.ecs.commands import Commands
 from carom.ecs.components.force import Force
 from carom.ecs.components.motion import Motion
@@ -17,6 +27,7 @@ from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
 from carom.ecs.column import Floats, Integers
 from carom.systems.assembly import Materials, Words, add_entity
+from carom.systems.finish import find_not_finite
 from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
 from carom.systems.detection.answered import Answered
@@ -35,7 +46,8 @@ CHECK_VARIABLE = "CAROM_CHECK"
 class Simulation:
     """A world that steps: ``Simulation(dt=1/240)``; every option of `Settings` is a keyword.
 
-    ``checked`` enforces what systems declare to touch (default: the environment variable CAROM_CHECK).
+    ``checked`` enforces what systems declare to touch (default: the environment variable CAROM_CHECK). Set ``watched``
+    to have a NaN traced to the system that made it, at the price of a snapshot before every step.
     """
 
     def __init__(self, *, checked: bool | None = None, **settings: Any) -> None:
@@ -43,6 +55,7 @@ class Simulation:
         self.world = World()
         self.schedule: Schedule = STEP
         self.checked = bool(os.environ.get(CHECK_VARIABLE)) if checked is None else checked
+        self.watched = False
         self.observers: list[Observer] = []
         self._owed = 0.0
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), Forces(), Commands())
@@ -73,9 +86,9 @@ class Simulation:
         def push(world: World, dt: float) -> None:
             rows = world.row_numbers(RigidBody, Motion)
             force: Floats = world[Force].force
-            force[rows] += function(world, rows)
+            force[rows] += np.asarray(function(world, rows), np.float64)
 
-        push.__name__ = name or getattr(function, "__name__", "force_function")
+        push.__name__ = name or str(getattr(function, "__name__", "force_function"))
         push.__doc__ = function.__doc__
         made = system(reads=(Transform, Motion, RigidBody), adds=(Force,))(push)
         self.schedule = self.schedule.with_system(made, after="apply_quadratic_drag")
@@ -95,10 +108,20 @@ class Simulation:
     def step(self, count: int = 1, *, after: Callable[[System], None] | None = None) -> None:
         """Take ``count`` steps of dt; ``after`` is told of every system run."""
         for _ in range(count):
-            self.world.frame += 1
-            self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=after)
+            before = take_snapshot(self.world) if self.watched else None
+            try:
+                self._take_step(after)
+            except NonFiniteError:
+                if before is None:
+                    raise
+                restore_snapshot(self.world, before)  # the same step again, looking after every system
+                self._take_step(lambda system: find_not_finite(self.world, system.name))
             for observer in self.observers:
                 observer.observe(self)
+
+    def _take_step(self, after: Callable[[System], None] | None) -> None:
+        self.world.frame += 1
+        self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=after)
 
     def advance(self, seconds: float) -> float:
         """Take as many steps as ``seconds`` of real time ask for; return how far (0 to 1) time is into the next one.

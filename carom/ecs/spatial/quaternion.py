@@ -28,7 +28,8 @@ def multiply(a: npt.ArrayLike, b: npt.ArrayLike) -> Floats:
 
 def conjugate(q: npt.ArrayLike) -> Floats:
     """Return the inverse rotation, shape (..., 4)."""
-    return np.asarray(q, np.float64) * np.array([-1.0, -1.0, -1.0, 1.0])
+    flipped: Floats = np.asarray(q, np.float64) * np.array([-1.0, -1.0, -1.0, 1.0])
+    return flipped
 
 
 def rotate(q: npt.ArrayLike, v: npt.ArrayLike) -> Floats:
@@ -47,7 +48,8 @@ def matrix(q: npt.ArrayLike) -> Floats:
 def normalise(q: npt.ArrayLike) -> Floats:
     """Return q over its length, shape (..., 4)."""
     q = np.asarray(q, np.float64)
-    return q / np.sqrt((q * q).sum(axis=-1, keepdims=True))
+    unit: Floats = q / np.sqrt((q * q).sum(axis=-1, keepdims=True))
+    return unit
 
 
 def from_axis_angle(axis: npt.ArrayLike, angle: float) -> Floats:
@@ -85,7 +87,7 @@ def look_at(direction: npt.ArrayLike, up: npt.ArrayLike = (0.0, 1.0, 0.0)) -> Fl
     """Return the rotation that turns forward (-z) to ``direction`` and keeps y as near ``up`` as it can."""
     back = -np.asarray(direction, np.float64)
     back = back / np.sqrt((back * back).sum())
-    right = np.cross(up, back)
+    right = np.cross(np.asarray(up, np.float64), back)
     if (right * right).sum() < 1e-18:
         right = np.cross((0.0, 0.0, 1.0), back) if abs(back[2]) < 0.9 else np.cross((1.0, 0.0, 0.0), back)
     right = right / np.sqrt((right * right).sum())

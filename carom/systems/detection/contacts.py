@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -31,6 +31,10 @@ class Found(NamedTuple):
     depth: Floats
     point: Floats
     by_fcl: Booleans
+
+    def take(self, which: Any) -> Found:
+        """Return some of the contacts, by mask or by order."""
+        return Found(*(column[which] for column in self))
 
 
 @system(
@@ -74,9 +78,8 @@ def measure_pairs(world: World) -> Found:
     others = ~by_kernel
     answered.fcl += int(np.count_nonzero(others))
     measured = measure_by_fcl(world, pairs[others], reaches[others])
-    joined = [np.concatenate(columns) for columns in zip(closed, measured, strict=True)]
-    order = np.lexsort((joined[2], joined[1], joined[0]))
-    return Found(*(column[order] for column in joined))
+    joined = Found(*(np.concatenate(columns) for columns in zip(closed, measured, strict=True)))
+    return joined.take(np.lexsort((joined.feature, joined.row_b, joined.row_a)))
 
 
 def measure_closed(world: World, pairs: Integers, reaches: Floats) -> tuple[Booleans, Found]:

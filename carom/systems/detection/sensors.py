@@ -37,7 +37,7 @@ def sense(world: World, found: Found) -> Found:
     inside = world[Inside]
     inside.sensor[: len(now)], inside.entity[: len(now)] = [s for s, _ in now], [e for _, e in now]
     keep = ~sensing
-    return type(found)(*(column[keep] for column in found))
+    return found.take(keep)
 
 
 def _log(world: World, sensor: int, entity: int) -> None:

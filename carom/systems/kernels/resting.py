@@ -133,13 +133,13 @@ def sort_contacts(
 
 
 @kernel(
-    "linear", "angular", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling",
+    "linear", "angular", "blow", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling",
 )  # fmt: skip
 def hold_contacts(
     count, h, rest_pull, body_a, body_b, normal, depth, offset_a, offset_b, kind, resting,
     friction, restitution, rolling, spinning,
     inverse_mass, inverse_inertia, principal, rotation, start_linear, start_angular,
-    linear, angular, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling,
+    linear, angular, blow, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling,
 ):  # fmt: skip
     """Find impulses by which resting contacts do not close, stick or slide within the cone, and roll with resistance.
 
@@ -184,12 +184,15 @@ def hold_contacts(
         give[m, 0] = 1.0 / knn if knn > 0.0 else 0.0
         give[m, 1], give[m, 2], give[m, 3] = kuu / determinant, -ktu / determinant, ktt / determinant
         wanted = depth[c] / h if depth[c] < 0.0 else 0.0
-        if kind[c] < 0 and restitution[c] > 0.0:
+        blow[c] = 0.0
+        if kind[c] < 0:
             ax, ay, az = surface_velocity(a, rax, ray, raz, start_linear, start_angular)
             bx, by, bz = surface_velocity(b, rbx, rby, rbz, start_linear, start_angular)
             closing = -(nx * (bx - ax) + ny * (by - ay) + nz * (bz - az))
             if closing > REST_SPEED_FACTOR * rest_pull * h + APPROACH:
-                wanted = restitution[c] * closing
+                blow[c] = closing
+                if restitution[c] > 0.0:
+                    wanted = restitution[c] * closing
         give[m, 4] = wanted
         j = warm_normal[c]
         jx, jy, jz = j * nx + warm_friction[c, 0], j * ny + warm_friction[c, 1], j * nz + warm_friction[c, 2]
