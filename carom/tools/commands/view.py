@@ -10,6 +10,9 @@ from pathlib import Path
 from carom.tools.commands.options import print_json
 
 
+WEB = ("--serve-web", "--bind", "127.0.0.1")
+
+
 def declare(parser: argparse.ArgumentParser) -> None:
     """Declare the recording and how to show it."""
     parser.add_argument("file", type=Path, metavar="FILE", help="a recording (.rrd)")
@@ -27,7 +30,7 @@ def execute(arguments: argparse.Namespace) -> int:
         )
     if not arguments.web and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.name == "nt"):
         raise CaromError(f"no display to open a window on; serve it instead: carom view --web {arguments.file}")
-    command = [str(viewer_binary()), str(arguments.file), *(["--serve-web"] if arguments.web else [])]
+    command = [str(viewer_binary()), str(arguments.file), *(WEB if arguments.web else [])]
     if arguments.json:
         print_json({"command": command})
         return 0
