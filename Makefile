@@ -1,10 +1,10 @@
-# What a clone can do. Every target sets up what it needs, once: a stamp in .venv is older than
-# pyproject.toml or missing only when there is something to set up.
+# What a clone can do. Every target sets up what it needs, once: a stamp in .venv is missing or older than
+# pyproject.toml only when there is something to set up. It carries the folder's checksum, since a .venv cannot be moved.
 
 .NOTPARALLEL:
 .PHONY: demo test lint clean
 
-READY := .venv/.carom
+READY := .venv/.carom-$(shell pwd -P | cksum | cut -d' ' -f1)
 
 demo: $(READY)-run
 	.venv/bin/carom run billiards --record out/billiards.rrd --film out/billiards.mp4 --picture out/billiards.png
@@ -24,3 +24,4 @@ clean:
 
 $(READY)-%: pyproject.toml .ci/setup
 	.ci/setup $*
+	@touch $@
