@@ -181,6 +181,20 @@ def test_view_tells_how_to_get_a_recording(tmp_path: Path, capsys: pytest.Captur
     assert capsys.readouterr().err == message
 
 
+def test_view_needs_a_display_or_a_browser(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "a.rrd"
+    path.write_bytes(b"")
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(sys, "platform", "linux")
+    assert main(["view", str(path)]) == 2
+    assert capsys.readouterr().err == f"no display to open a window on; serve it instead: carom view --web {path}\n"
+    assert main(["view", "--web", "--json", str(path)]) == 0
+    assert json.loads(capsys.readouterr().out)["command"][1:] == [str(path), "--serve-web", "--bind", "127.0.0.1"]
+
+
 def test_render_photographs_a_moment(world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     picture = tmp_path / "out" / "a.png"
     assert main(["render", str(world), "--at", "0.1 s", "--camera", "top", "--out", str(picture)]) == 0

@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 from carom.tools.commands.options import print_json
 
-
+DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
 WEB = ("--serve-web", "--bind", "127.0.0.1")
 
 
@@ -28,7 +29,7 @@ def execute(arguments: argparse.Namespace) -> int:
         raise CaromError(
             f"no recording at {arguments.file}; make one with: carom run billiards --record {arguments.file}"
         )
-    if not arguments.web and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY") or os.name == "nt"):
+    if sys.platform == "linux" and not arguments.web and not any(map(os.environ.get, DISPLAYS)):
         raise CaromError(f"no display to open a window on; serve it instead: carom view --web {arguments.file}")
     command = [str(viewer_binary()), str(arguments.file), *(WEB if arguments.web else [])]
     if arguments.json:
