@@ -55,7 +55,7 @@ def column(
     if not unit or not doc:
         missing = " and ".join(name for name, given in (("unit", unit), ("doc", doc)) if not given)
         raise DeclarationError(
-            f"a column is declared without {missing}; write column(3, unit=\"m/s\", doc=\"linear velocity\")"
+            f'a column is declared without {missing}; write column(3, unit="m/s", doc="linear velocity")'
         )
     if entity:
         dtype, default = np.int64, -1

@@ -124,7 +124,9 @@ class World:
         self._used = max(self._used, fresh.stop)
         if self._used > self.capacity:
             self.capacity = max(self._used, 2 * self.capacity)
-            self.generations = np.concatenate([self.generations, np.zeros(self.capacity - len(self.generations), np.int64)])
+            self.generations = np.concatenate(
+                [self.generations, np.zeros(self.capacity - len(self.generations), np.int64)]
+            )
             self.alive = np.concatenate([self.alive, np.zeros(self.capacity - len(self.alive), np.bool_)])
             for table in self.tables.values():
                 if issubclass(table.kind, Component):
@@ -162,7 +164,12 @@ class World:
     def row(self, entity: int) -> int:
         """Return the row of a living entity; raise EntityError for a stale handle, saying when the entity went."""
         index = index_of(entity)
-        if 0 <= entity and index < self._used and self.alive[index] and self.generations[index] == generation_of(entity):
+        if (
+            0 <= entity
+            and index < self._used
+            and self.alive[index]
+            and self.generations[index] == generation_of(entity)
+        ):
             return index
         went = self.died_at.get(entity)
         when = "never was in this world" if went is None else f"was despawned in frame {went}"
@@ -180,7 +187,9 @@ class World:
     def locate(self, entity: int, key: str) -> tuple[type[Component], int]:
         """Return the component called ``key`` (snake case) and the row of an entity that must have it."""
         row = self.row(entity)
-        held = {kind.key: kind for kind, table in self.tables.items() if issubclass(kind, Component) and table.present[row]}
+        held = {
+            kind.key: kind for kind, table in self.tables.items() if issubclass(kind, Component) and table.present[row]
+        }
         if key not in held:
             raise EntityError(f"entity '{self.name(entity)}' has no {key}, only {', '.join(sorted(held))}")
         return held[key], row
@@ -219,7 +228,9 @@ class World:
         """Return the same rows always as an int64 array, as kernels take them."""
         return self._query(kinds, tuple(without))[2]
 
-    def _query(self, kinds: tuple[type[Component], ...], without: tuple[type[Component], ...]) -> tuple[int, Rows, Integers]:
+    def _query(
+        self, kinds: tuple[type[Component], ...], without: tuple[type[Component], ...]
+    ) -> tuple[int, Rows, Integers]:
         found = self._queries.get((kinds, without))
         if found is None or found[0] != self.structure:
             masks = [self.table(kind).present[: self._used] for kind in kinds]
@@ -256,5 +267,3 @@ class World:
         self._free = [int(row) for row in np.nonzero(~alive)[0][::-1]]
         self.frame = frame
         self.structure += 1
-
-

@@ -8,7 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from carom.ecs import Collider, Combine, Entity, ExternalForce, Force, Material, Motion, RigidBody, Transform, Visual, World
+from carom.ecs import (
+    Collider,
+    Combine,
+    Entity,
+    ExternalForce,
+    Force,
+    Material,
+    Motion,
+    RigidBody,
+    Transform,
+    Visual,
+    World,
+)
 from carom.ecs.column import Floats
 from carom.ecs.component import Component, Resource
 from carom.ecs.components.collider import ColliderPose
@@ -56,7 +68,13 @@ def add_entity(
             raise DeclarationError(f"collider.{shape.key}: only a static entity may have it; remove body")
         bundles += [_collider(world, collider, shape), ColliderPose()]
     if body is not None:
-        bundles += [_body(body, shape, collider or {}, surface), Motion(**(motion or {})), ExternalForce(), Force(), Flight()]
+        bundles += [
+            _body(body, shape, collider or {}, surface),
+            Motion(**(motion or {})),
+            ExternalForce(),
+            Force(),
+            Flight(),
+        ]
     elif motion is not None:
         raise DeclarationError("motion: a static entity does not move; give it a body")
     seen = _visual(world, visual, collider, shape, surface)
@@ -137,11 +155,17 @@ def _shape_columns(world: World, shape: Shape) -> dict[str, Any]:
 
 def _body(words: Words, shape: Shape | None, collider: Words, material: Material) -> RigidBody:
     kind = BodyType[words.get("type", "dynamic").upper()]
-    solid = shape.mass_properties() if shape is not None else MassProperties(0.0, (0.0,) * 3, (0.0,) * 3, (0.0, 0.0, 0.0, 1.0))
+    solid = (
+        shape.mass_properties()
+        if shape is not None
+        else MassProperties(0.0, (0.0,) * 3, (0.0,) * 3, (0.0, 0.0, 0.0, 1.0))
+    )
     density = float(getattr(material, "density", 1000.0))
     mass = float(words.get("mass", density * solid.volume))
     if kind is BodyType.DYNAMIC and not (math.isfinite(mass) and mass > 0.0):
-        raise DeclarationError(f"body.mass: must be finite and above 0 kg, received {mass:g}; state mass, or a shape with volume")
+        raise DeclarationError(
+            f"body.mass: must be finite and above 0 kg, received {mass:g}; state mass, or a shape with volume"
+        )
     rotation = collider.get("rotation", quaternion.IDENTITY)
     center = np.asarray(collider.get("position", (0.0, 0.0, 0.0))) + quaternion.rotate(rotation, solid.center)
     inertia = np.asarray(words.get("inertia", [mass * moment for moment in solid.inertia]), np.float64)

@@ -30,7 +30,13 @@ def clear_forces(world: World, dt: float) -> None:
     """Start the sums of this substep from zero."""
     force = world[Force]
     clear_sums(
-        world.row_numbers(Force), force.force, force.torque, force.drag, force.drag_flow, force.angular_drag, force.medium
+        world.row_numbers(Force),
+        force.force,
+        force.torque,
+        force.drag,
+        force.drag_flow,
+        force.angular_drag,
+        force.medium,
     )
 
 

@@ -137,5 +137,3 @@ class Simulation:
     def __getitem__(self, key: Any) -> Any:
         """Return ``world[key]``; a text finds an entity by name."""
         return self.world[self.world.find(key) if isinstance(key, str) else key]
-
-

@@ -22,7 +22,7 @@ def unit_vectors(count: int, seed: int) -> np.ndarray:
 
 @pytest.mark.parametrize("normal", unit_vectors(20, seed=1), ids=lambda n: np.array2string(n, precision=2))
 def test_a_ball_is_reflected_off_any_plane(normal: np.ndarray) -> None:
-    """v' = v - 2 (v.n) n within 1e-9 of the speed, without gravity, friction or loss."""
+    """V' = v - 2 (v.n) n within 1e-9 of the speed, without gravity, friction or loss."""
     velocity = 3.0 * unit_vectors(1, seed=int(abs(normal[0]) * 1e6))[0]
     velocity -= normal * (velocity @ normal + 2.0)  # closes at 2 m/s
     simulation = Simulation(gravity=(0.0, 0.0, 0.0))
@@ -45,7 +45,11 @@ def test_two_bodies_exchange_velocities_elastically(ratio: float, shape: dict[st
     """v1' = (m1 - m2) / (m1 + m2) u and v2' = 2 m1 / (m1 + m2) u within 1e-9, momentum within 1e-12."""
     simulation = Simulation(gravity=(0.0, 0.0, 0.0))
     one = simulation.add(
-        collider=shape, body={"mass": ratio}, material=SMOOTH, transform={"position": (-1.0, 0.0, 0.0)}, motion={"linear": (4.0, 0.0, 0.0)}
+        collider=shape,
+        body={"mass": ratio},
+        material=SMOOTH,
+        transform={"position": (-1.0, 0.0, 0.0)},
+        motion={"linear": (4.0, 0.0, 0.0)},
     )
     two = simulation.add(collider={"sphere": {"radius": 0.1}}, body={"mass": 1.0}, material=SMOOTH)
     simulation.step(60)
@@ -63,7 +67,11 @@ def test_two_blocks_meet_head_on(ratio: float, restitution: float) -> None:
     material = {"friction": 0.5, "restitution": restitution}
     block = {"box": {"size": (0.5, 0.4, 0.3)}}
     one = simulation.add(
-        collider=block, body={"mass": ratio}, material=material, transform={"position": (-1.0, 0.0, 0.0)}, motion={"linear": (2.0, 0.0, 0.0)}
+        collider=block,
+        body={"mass": ratio},
+        material=material,
+        transform={"position": (-1.0, 0.0, 0.0)},
+        motion={"linear": (2.0, 0.0, 0.0)},
     )
     two = simulation.add(collider=block, body={"mass": 1.0}, material=material)
     simulation.step(60)
@@ -81,7 +89,10 @@ def test_a_dropped_ball_rises_by_the_square_of_its_restitution(restitution: floa
     simulation = Simulation(dt=dt)
     simulation.add(collider={"plane": {}}, material={"restitution": 0.0})
     ball = simulation.add(
-        collider={"sphere": {"radius": 0.1}}, body={}, material={"restitution": restitution}, transform={"position": (0.0, 1.1, 0.0)}
+        collider={"sphere": {"radius": 0.1}},
+        body={},
+        material={"restitution": restitution},
+        transform={"position": (0.0, 1.1, 0.0)},
     )
     while simulation.world.count(Impact) == 0:
         simulation.step()
@@ -93,7 +104,9 @@ def test_a_dropped_ball_rises_by_the_square_of_its_restitution(restitution: floa
     assert simulation.world[Impact].time[0] == pytest.approx(math.sqrt(2.0 / 9.81), abs=1e-12)
 
 
-@pytest.mark.parametrize(("sideways", "after", "spin"), [(10.0, 7.3, 13.5), (5.0, 25.0 / 7.0, 50.0 / 7.0)], ids=["slides", "sticks"])
+@pytest.mark.parametrize(
+    ("sideways", "after", "spin"), [(10.0, 7.3, 13.5), (5.0, 25.0 / 7.0, 50.0 / 7.0)], ids=["slides", "sticks"]
+)
 def test_a_bounce_with_friction_gives_spin(sideways: float, after: float, spin: float) -> None:
     """Coulomb's cone over the whole normal impulse: a solid sphere of radius 0.5 slides at 10 m/s and sticks at 5."""
     simulation = Simulation(gravity=(0.0, 0.0, 0.0))
@@ -117,12 +130,17 @@ def test_a_half_ball_hit_parts_the_balls_at_30_and_60_degrees(phase: int) -> Non
     simulation = Simulation(dt=1 / 240, gravity=(0.0, 0.0, 0.0))
     start = -0.5 - 8.0 / 240.0 * phase / 20.0
     cue = simulation.add(
-        collider={"sphere": {"radius": radius}}, body={"mass": 0.17}, material=SMOOTH, transform={"position": (start, 0.0, radius)}, motion={"linear": (8.0, 0.0, 0.0)}
+        collider={"sphere": {"radius": radius}},
+        body={"mass": 0.17},
+        material=SMOOTH,
+        transform={"position": (start, 0.0, radius)},
+        motion={"linear": (8.0, 0.0, 0.0)},
     )
     target = simulation.add(collider={"sphere": {"radius": radius}}, body={"mass": 0.17}, material=SMOOTH)
     simulation.step(40)
     angles = [
-        math.degrees(math.atan2(simulation[ball].motion.linear[2], simulation[ball].motion.linear[0])) for ball in (target, cue)
+        math.degrees(math.atan2(simulation[ball].motion.linear[2], simulation[ball].motion.linear[0]))
+        for ball in (target, cue)
     ]
     assert angles == pytest.approx([-30.0, 60.0], abs=1e-7)
 
@@ -130,7 +148,9 @@ def test_a_half_ball_hit_parts_the_balls_at_30_and_60_degrees(phase: int) -> Non
 def test_points_and_boxes_meet_where_their_arcs_do() -> None:
     """A thrown point meets a box face, edge-on and under gravity, at the time of the closed form."""
     simulation = Simulation(dt=1 / 60)
-    simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, material=SMOOTH, transform={"position": (2.0, 0.0, 0.0)})
+    simulation.add(
+        collider={"box": {"size": (1.0, 1.0, 1.0)}}, material=SMOOTH, transform={"position": (2.0, 0.0, 0.0)}
+    )
     point = simulation.add(
         collider={"point": {}}, body={"mass": 1.0}, material=SMOOTH, motion={"linear": (3.0, 2.0, 0.0)}
     )

@@ -15,7 +15,7 @@ from carom.systems.simulation import Simulation
 @pytest.mark.parametrize("damping", [0.0, 0.8])
 @pytest.mark.parametrize(("integrator", "order"), [("euler", 1), ("semi_implicit", 1), ("verlet", 2)])
 def test_the_error_of_a_spring_falls_with_the_order(integrator: str, order: int, damping: float) -> None:
-    """x'' = -4 x - c x' at 2 s: halving dt divides the error by 2^order, within 0.1 of the exponent."""
+    """X'' = -4 x - c x' at 2 s: halving dt divides the error by 2^order, within 0.1 of the exponent."""
     rate, frequency = damping / 2.0, math.sqrt(4.0 - damping**2 / 4.0)
     exact = math.exp(-2.0 * rate) * (math.cos(2.0 * frequency) + rate / frequency * math.sin(2.0 * frequency))
     errors = [abs(spring_after_two_seconds(dt, integrator, damping) - exact) for dt in (1 / 60, 1 / 120)]
@@ -57,7 +57,7 @@ def test_verlet_is_exact_in_constant_gravity(dt: float) -> None:
 
 @pytest.mark.parametrize("dt", [1 / 60, 1 / 240])
 def test_linear_drag_meets_the_closed_form(dt: float) -> None:
-    """m = 1, c = 2, v0 = 10 after 2 s: velocity exact, position within the splitting's (c h)^2 / 24."""
+    """M = 1, c = 2, v0 = 10 after 2 s: velocity exact, position within the splitting's (c h)^2 / 24."""
     simulation = Simulation(dt=dt, gravity=(0.0, 0.0, 0.0))
     ball = simulation.add(body={"mass": 1.0}, motion={"linear": (10.0, 0.0, 0.0)})
     simulation.force("linear_drag", coefficient=2.0)
@@ -76,11 +76,13 @@ def test_mutual_gravitation_weighs_a_person() -> None:
     simulation.step()
     pull = -simulation[person].motion.linear / 1e-3 * 70.0
     assert pull == pytest.approx([685.8592679, 0.0, 0.0], rel=1e-9)
-    assert 5.972e24 * simulation[earth].motion.linear[0] == pytest.approx(70.0 * -simulation[person].motion.linear[0], rel=1e-12)
+    assert 5.972e24 * simulation[earth].motion.linear[0] == pytest.approx(
+        70.0 * -simulation[person].motion.linear[0], rel=1e-12
+    )
 
 
 def test_an_off_centre_force_turns_a_free_box() -> None:
-    """omega = I^-1 (r x F) t to rounding while the box turns about one principal axis; the centre moves by F t / m."""
+    """Omega = I^-1 (r x F) t to rounding while the box turns about one principal axis; the centre moves by F t / m."""
     simulation = Simulation(dt=1 / 240, gravity=(0.0, 0.0, 0.0))
     box = simulation.add(collider={"box": {"size": (0.4, 0.2, 0.6)}}, body={"mass": 3.0})
     lever, push, seconds = np.array([0.2, 0.0, 0.0]), np.array([0.0, 5.0, 0.0]), 0.5

@@ -19,7 +19,9 @@ VELOCITY = 40.0 * np.array([0.48, 0.6, 0.64])
 
 def bounces(count: int) -> list[tuple[float, np.ndarray]]:
     """Return (time, centre) of each bounce by solving for the next wall alone, in extended precision."""
-    normals = np.array([np.array(n, np.longdouble) / np.sqrt((np.array(n, np.longdouble) ** 2).sum()) for n, _ in WALLS])
+    normals = np.array(
+        [np.array(n, np.longdouble) / np.sqrt((np.array(n, np.longdouble) ** 2).sum()) for n, _ in WALLS]
+    )
     offsets = np.array([offset for _, offset in WALLS], np.longdouble)
     place, velocity, time = START.astype(np.longdouble), VELOCITY.astype(np.longdouble), np.longdouble(0.0)
     found = []

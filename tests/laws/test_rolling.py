@@ -14,8 +14,10 @@ SLIDING, ROLLING = 0.2, 0.012
 
 @pytest.mark.parametrize("dt", [1 / 240, 1 / 60])
 @pytest.mark.parametrize("direction", [(1.0, 0.0, 0.0), (0.6, 0.0, -0.8)], ids=["along x", "askew"])
-def test_a_sliding_ball_comes_to_roll_at_five_sevenths_and_stops(direction: tuple[float, float, float], dt: float) -> None:
-    """Rolls after 2 v / (7 mu g) and 12 v^2 / (49 mu g) at 5/7 v, then slows by 5/7 mu_r g (Shepard, Amateur Physics, 1997).
+def test_a_sliding_ball_comes_to_roll_at_five_sevenths_and_stops(
+    direction: tuple[float, float, float], dt: float
+) -> None:
+    """Rolls after 2 v / (7 mu g) and 12 v^2 / (49 mu g) at 5/7 v, then slows by 5/7 mu_r g (Shepard, 1997).
 
     The rolling resistance acts as a torque mu_r N r on the ball, which friction at the cloth shares: 5/7 of mu_r g.
     Within 1 %: semi-implicit substeps lose half a substep of friction, h mu g / 2 in v and 7/12 h mu g / v in distance.
@@ -55,7 +57,9 @@ def test_a_rolling_ball_without_resistance_keeps_rolling() -> None:
     assert simulation[ball].transform.position == pytest.approx([2.0 * speed, 0.0, 0.0], abs=1e-10)
 
 
-def ball_on_cloth(dt: float, velocity: object, spin: object = (0.0, 0.0, 0.0), rolling: float = ROLLING) -> tuple[int, Simulation]:
+def ball_on_cloth(
+    dt: float, velocity: object, spin: object = (0.0, 0.0, 0.0), rolling: float = ROLLING
+) -> tuple[int, Simulation]:
     """Return a pool ball at the origin that touches the cloth, with this velocity."""
     simulation = Simulation(dt=dt)
     cloth = {"friction": {"value": SLIDING, "combine": "max"}, "rolling_friction": rolling}

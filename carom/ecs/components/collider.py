@@ -21,7 +21,9 @@ class Collider(Component):
     layer: Integers = column(unit="1", doc="bit of the layer it is on, 0 for none", dtype="int64", default=1)
     mask: Integers = column(unit="1", doc="bits of the layers it collides with", dtype="int64", default=-1)
     sensor: Booleans = column(unit="1", doc="reports who enters, touches nothing", dtype="bool")
-    enter_layer: Integers = column(unit="1", doc="sensor: layer bit given to who enters; -1 keeps", dtype="int64", default=-1)
+    enter_layer: Integers = column(
+        unit="1", doc="sensor: layer bit given to who enters; -1 keeps", dtype="int64", default=-1
+    )
     enter_mask: Integers = column(unit="1", doc="sensor: mask given to who enters", dtype="int64", default=-1)
 
 

@@ -9,4 +9,3 @@ class ExternalForce(Component):
 
     force: Floats = column(3, unit="N", doc="force at the centre of mass, world frame", role="input")
     torque: Floats = column(3, unit="N m", doc="torque about the centre of mass, world frame", role="input")
-

@@ -16,7 +16,9 @@ class Flight(Component):
     decay: Floats = column(unit="1", doc="part of the velocity drag leaves at the end of the substep", role="derived")
     angular_decay: Floats = column(unit="1", doc="likewise of angular velocity", role="derived")
     flow: Floats = column(3, unit="m/s", doc="velocity towards which drag pulls", role="derived")
-    touching: Booleans = column(unit="1", doc="in resting contact, so stepped semi-implicitly", dtype="bool", role="derived")
+    touching: Booleans = column(
+        unit="1", doc="in resting contact, so stepped semi-implicitly", dtype="bool", role="derived"
+    )
     start_position: Floats = column(3, unit="m", doc="origin at the start of the substep", role="derived")
     start_rotation: Floats = column(4, unit="1", doc="rotation at the start of the substep", role="derived")
     start_linear: Floats = column(3, unit="m/s", doc="velocity at the start of the substep", role="derived")

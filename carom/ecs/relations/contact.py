@@ -23,7 +23,9 @@ class Contact(Relation):
     friction_impulse: Floats = column(3, unit="N s", doc="friction impulse on b, world frame, summed over the step")
     warm_normal: Floats = column(unit="N s", doc="normal impulse of the last substep")
     warm_friction: Floats = column(3, unit="N s", doc="friction impulse of the last substep")
-    warm_rolling: Floats = column(3, unit="N m s", doc="angular impulse of rolling and spinning friction of the last substep")
+    warm_rolling: Floats = column(
+        3, unit="N m s", doc="angular impulse of rolling and spinning friction of the last substep"
+    )
     friction: Floats = column(unit="1", doc="combined friction", role="derived")
     restitution: Floats = column(unit="1", doc="combined restitution", role="derived")
     rolling: Floats = column(unit="m", doc="rolling friction times radius", role="derived")
@@ -37,9 +39,13 @@ class Contact(Relation):
     body_b: Integers = column(unit="1", doc="row of the body of b, -1 static", dtype="int64", role="derived")
     offset_a: Floats = column(3, unit="m", doc="point on a from the centre of mass of its body", role="derived")
     offset_b: Floats = column(3, unit="m", doc="point on b from the centre of mass of its body", role="derived")
-    kind: Integers = column(unit="1", doc="exact impacts: how to read extent; -1 for others", dtype="int64", role="derived")
+    kind: Integers = column(
+        unit="1", doc="exact impacts: how to read extent; -1 for others", dtype="int64", role="derived"
+    )
     ball: Integers = column(unit="1", doc="exact impacts: row of the ball's body", dtype="int64", role="derived")
-    other: Integers = column(unit="1", doc="exact impacts: row of the other body, -1 static", dtype="int64", role="derived")
+    other: Integers = column(
+        unit="1", doc="exact impacts: row of the other body, -1 static", dtype="int64", role="derived"
+    )
     sign: Floats = column(unit="1", doc="exact impacts: 1 where the ball is a, -1 where it is b", role="derived")
     radius: Floats = column(unit="m", doc="exact impacts: radius of the ball", role="derived")
     extent: Floats = column(3, unit="m", doc="exact impacts: radius, half edges or normal of the other", role="derived")

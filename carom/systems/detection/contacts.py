@@ -21,6 +21,7 @@ from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.plane import Plane
 
+
 class Found(NamedTuple):
     """Contact points in order of (row a, row b, feature)."""
 

@@ -41,9 +41,7 @@ def merge_triangles(points: Points) -> Points:
     """Keep the deepest of the points that several triangles report for one contact."""
     kept: Points = []
     for point, normal, depth in sorted(points, key=lambda p: -p[2]):
-        near = any(
-            (normal * n).sum() > SAME_DIRECTION and ((point - p) ** 2).sum() < SAME_PLACE**2 for p, n, _ in kept
-        )
+        near = any((normal * n).sum() > SAME_DIRECTION and ((point - p) ** 2).sum() < SAME_PLACE**2 for p, n, _ in kept)
         if not near:
             kept.append((point, normal, depth))
     return kept

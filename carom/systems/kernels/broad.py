@@ -68,7 +68,9 @@ def place_bounds(
 
 
 @kernel("found")
-def sweep_bounds(finite, planes, size, lower, upper, body_row, layer, mask, sensor, pose_position, pose_rotation, found):
+def sweep_bounds(
+    finite, planes, size, lower, upper, body_row, layer, mask, sensor, pose_position, pose_rotation, found
+):
     """Write pairs of collider rows, lower first, whose bounds overlap and whose layers both accept; return their count.
 
     Where the count exceeds the rows of ``found`` (n, 2), the caller must call again with more room.

@@ -124,9 +124,7 @@ def complete_contacts(
     """
     for c in range(count):
         a, b = row_a[c], row_b[c]
-        friction[c] = combined(
-            material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT
-        )
+        friction[c] = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)
         restitution[c] = combined(
             material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
         )

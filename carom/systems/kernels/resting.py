@@ -9,65 +9,9 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APPROACH, PUSH_OUT, REST_SPEED_FACTOR, SLOP, SOLVED, SWEEPS, TOUCH
 from carom.systems.kernels.balls import gap_of_ball
-from carom.systems.kernels.kernel import inlined, kernel
-from carom.systems.kernels.spatial import cross, inverse_inertia_times, product, turn
-
-
-@inlined
-def surface_velocity(i, rx, ry, rz, linear, angular):
-    """Return the velocity of the point at r from the centre of body i, zero for a static one."""
-    if i < 0:
-        return 0.0, 0.0, 0.0
-    x, y, z = cross(angular[i, 0], angular[i, 1], angular[i, 2], rx, ry, rz)
-    return linear[i, 0] + x, linear[i, 1] + y, linear[i, 2] + z
-
-
-@inlined
-def push_at(i, sign, jx, jy, jz, rx, ry, rz, linear, angular, inverse_mass, inverse_inertia, principal, rotation):
-    """Apply an impulse times ``sign`` at r from the centre of body i."""
-    if i < 0:
-        return
-    m = sign * inverse_mass[i]
-    linear[i, 0] += m * jx
-    linear[i, 1] += m * jy
-    linear[i, 2] += m * jz
-    tx, ty, tz = cross(rx, ry, rz, jx, jy, jz)
-    turn_at(i, sign, tx, ty, tz, angular, inverse_inertia, principal, rotation)
-
-
-@inlined
-def turn_at(i, sign, tx, ty, tz, angular, inverse_inertia, principal, rotation):
-    """Apply an angular impulse times ``sign`` to body i."""
-    if i < 0:
-        return
-    wx, wy, wz = turned_by(i, tx, ty, tz, inverse_inertia, principal, rotation)
-    angular[i, 0] += sign * wx
-    angular[i, 1] += sign * wy
-    angular[i, 2] += sign * wz
-
-
-@inlined
-def turned_by(i, tx, ty, tz, inverse_inertia, principal, rotation):
-    """Return I^-1 t of body i in the world frame."""
-    ix, iy, iz = inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2]
-    if ix == iy and iy == iz:
-        return ix * tx, ix * ty, ix * tz
-    qx, qy, qz, qw = product(
-        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-        principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
-    )  # fmt: skip
-    return inverse_inertia_times(qx, qy, qz, qw, ix, iy, iz, tx, ty, tz)
-
-
-@inlined
-def yielding(i, dx, dy, dz, ex, ey, ez, rx, ry, rz, inverse_mass, inverse_inertia, principal, rotation):
-    """Return d . K e of body i: the velocity along d at r that a unit impulse along e there causes."""
-    if i < 0:
-        return 0.0
-    tx, ty, tz = cross(rx, ry, rz, ex, ey, ez)
-    wx, wy, wz = turned_by(i, tx, ty, tz, inverse_inertia, principal, rotation)
-    vx, vy, vz = cross(wx, wy, wz, rx, ry, rz)
-    return inverse_mass[i] * (dx * ex + dy * ey + dz * ez) + dx * vx + dy * vy + dz * vz
+from carom.systems.kernels.bodies import push_at, surface_velocity, turn_at, yielding
+from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.spatial import cross, turn
 
 
 @kernel(
@@ -258,7 +202,11 @@ def hold_contacts(
                 ease, lever = 0.0, 0.0
                 for body, sense, rx, ry, rz in ((a, -1.0, rax, ray, raz), (b, 1.0, rbx, rby, rbz)):
                     if body >= 0:
-                        sx, sy, sz = sx + sense * angular[body, 0], sy + sense * angular[body, 1], sz + sense * angular[body, 2]
+                        sx, sy, sz = (
+                            sx + sense * angular[body, 0],
+                            sy + sense * angular[body, 1],
+                            sz + sense * angular[body, 2],
+                        )
                         ease += max(inverse_inertia[body, 0], inverse_inertia[body, 1], inverse_inertia[body, 2])
                         lever += rx * rx + ry * ry + rz * rz
                 px, py, pz = warm_rolling[c, 0], warm_rolling[c, 1], warm_rolling[c, 2]

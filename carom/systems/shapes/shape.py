@@ -79,7 +79,9 @@ class Shape(ABC):
             above = field.metadata.get("above")
             for value in np.atleast_1d(np.asarray(getattr(self, field.name))) if above is not None else ():
                 if not (math.isfinite(value) and value > above):
-                    found.append((field.name, f"must be finite and above {above:g} {field.metadata['unit']}, received {value:g}"))
+                    found.append(
+                        (field.name, f"must be finite and above {above:g} {field.metadata['unit']}, received {value:g}")
+                    )
                     break
         return found
 

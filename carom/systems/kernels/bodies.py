@@ -1,0 +1,110 @@
+"""What impulses do to bodies, and how bodies move between them."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product
+
+
+@inlined
+def surface_velocity(i, rx, ry, rz, linear, angular):
+    """Return the velocity of the point at r from the centre of body i, zero for a static one."""
+    if i < 0:
+        return 0.0, 0.0, 0.0
+    x, y, z = cross(angular[i, 0], angular[i, 1], angular[i, 2], rx, ry, rz)
+    return linear[i, 0] + x, linear[i, 1] + y, linear[i, 2] + z
+
+
+@inlined
+def push_at(i, sign, jx, jy, jz, rx, ry, rz, linear, angular, inverse_mass, inverse_inertia, principal, rotation):
+    """Apply an impulse times ``sign`` at r from the centre of body i."""
+    if i < 0:
+        return
+    m = sign * inverse_mass[i]
+    linear[i, 0] += m * jx
+    linear[i, 1] += m * jy
+    linear[i, 2] += m * jz
+    tx, ty, tz = cross(rx, ry, rz, jx, jy, jz)
+    turn_at(i, sign, tx, ty, tz, angular, inverse_inertia, principal, rotation)
+
+
+@inlined
+def turn_at(i, sign, tx, ty, tz, angular, inverse_inertia, principal, rotation):
+    """Apply an angular impulse times ``sign`` to body i."""
+    if i < 0:
+        return
+    wx, wy, wz = turned_by(i, tx, ty, tz, inverse_inertia, principal, rotation)
+    angular[i, 0] += sign * wx
+    angular[i, 1] += sign * wy
+    angular[i, 2] += sign * wz
+
+
+@inlined
+def turned_by(i, tx, ty, tz, inverse_inertia, principal, rotation):
+    """Return I^-1 t of body i in the world frame."""
+    ix, iy, iz = inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2]
+    if ix == iy and iy == iz:
+        return ix * tx, ix * ty, ix * tz
+    qx, qy, qz, qw = product(
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
+        principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
+    )  # fmt: skip
+    return inverse_inertia_times(qx, qy, qz, qw, ix, iy, iz, tx, ty, tz)
+
+
+@inlined
+def yielding(i, dx, dy, dz, ex, ey, ez, rx, ry, rz, inverse_mass, inverse_inertia, principal, rotation):
+    """Return d . K e of body i: the velocity along d at r that a unit impulse along e there causes."""
+    if i < 0:
+        return 0.0
+    tx, ty, tz = cross(rx, ry, rz, ex, ey, ez)
+    wx, wy, wz = turned_by(i, tx, ty, tz, inverse_inertia, principal, rotation)
+    vx, vy, vz = cross(wx, wy, wz, rx, ry, rz)
+    return inverse_mass[i] * (dx * ex + dy * ey + dz * ez) + dx * vx + dy * vy + dz * vz
+
+
+@inlined
+def pressing_of(i, o, nx, ny, nz, acceleration):
+    """Return how fast two bodies accelerate towards each other along the normal n from o to i."""
+    pressing = -(nx * acceleration[i, 0] + ny * acceleration[i, 1] + nz * acceleration[i, 2])
+    if o >= 0:
+        pressing += nx * acceleration[o, 0] + ny * acceleration[o, 1] + nz * acceleration[o, 2]
+    return pressing
+
+
+@inlined
+def stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration):
+    """Take out of two arcs the acceleration by which the bodies press on each other, as a contact force would."""
+    pressing = pressing_of(i, o, nx, ny, nz, acceleration)
+    total = inverse_mass[i] + (inverse_mass[o] if o >= 0 else 0.0)
+    if pressing <= 0.0:
+        return False
+    for k, n in enumerate((nx, ny, nz)):
+        acceleration[i, k] += pressing * inverse_mass[i] / total * n
+        if o >= 0:
+            acceleration[o, k] -= pressing * inverse_mass[o] / total * n
+    return True
+
+
+@inlined
+def advance_body(
+    i, now, bend, center, rotation, linear, angular, time, acceleration, angular_acceleration, inertia, principal_axes
+):
+    """Bring one body along its arc to ``now``: half the turning kick, free rotation, the other half."""
+    t = now - time[i]
+    for k in range(3):
+        center[i, k] += linear[i, k] * t + bend * acceleration[i, k] * t * t
+        linear[i, k] += acceleration[i, k] * t
+        angular[i, k] += bend * angular_acceleration[i, k] * t
+    qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
+    ax, ay, az, aw = principal_axes[i, 0], principal_axes[i, 1], principal_axes[i, 2], principal_axes[i, 3]
+    qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
+    qx, qy, qz, qw, wx, wy, wz = freely_turned(
+        qx, qy, qz, qw, angular[i, 0], angular[i, 1], angular[i, 2], inertia[i, 0], inertia[i, 1], inertia[i, 2], t
+    )
+    rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3] = product(qx, qy, qz, qw, -ax, -ay, -az, aw)
+    angular[i, 0] = wx + (1.0 - bend) * angular_acceleration[i, 0] * t
+    angular[i, 1] = wy + (1.0 - bend) * angular_acceleration[i, 1] * t
+    angular[i, 2] = wz + (1.0 - bend) * angular_acceleration[i, 2] * t
+    time[i] = now

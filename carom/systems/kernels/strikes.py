@@ -1,0 +1,151 @@
+"""One pair of bodies whose impacts are exact: when they strike next, and what a strike does to them."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, REST_SPEED_FACTOR, TOUCH
+from carom.systems.kernels.balls import BALL, NEVER, first_touch, gap_of_ball
+from carom.systems.kernels.bodies import pressing_of, push_at, stop_pressing, surface_velocity, turned_by
+from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.spatial import cross, spun
+
+
+@inlined
+def foresee(
+    p, i, o, now, h, blown, bend, center, rotation, linear, angular, time, acceleration, felt,
+    kind, radius, extent, other_position, other_rotation, resting,
+):  # fmt: skip
+    """Return when the bodies of pair p strike each other within the substep, NEVER if they do not.
+
+    A resting pair is held by the solver; only a blow on one of its bodies (``blown``) makes it an impact.
+    """
+    if resting[p] and not blown:
+        return NEVER
+    t = now - time[i]
+    c, g = bend * t * t, 2.0 * bend * t
+    ax, ay, az = acceleration[i, 0], acceleration[i, 1], acceleration[i, 2]
+    x = center[i, 0] + linear[i, 0] * t + ax * c
+    y = center[i, 1] + linear[i, 1] * t + ay * c
+    z = center[i, 2] + linear[i, 2] * t + az * c
+    vx, vy, vz = linear[i, 0] + ax * g, linear[i, 1] + ay * g, linear[i, 2] + az * g
+    ox, oy, oz = other_position[p, 0], other_position[p, 1], other_position[p, 2]
+    qx, qy, qz, qw = other_rotation[p, 0], other_rotation[p, 1], other_rotation[p, 2], other_rotation[p, 3]
+    ux, uy, uz, bx, by, bz, wx, wy, wz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    if o >= 0:
+        t = now - time[o]
+        c, g = bend * t * t, 2.0 * bend * t
+        bx, by, bz = acceleration[o, 0], acceleration[o, 1], acceleration[o, 2]
+        ox = center[o, 0] + linear[o, 0] * t + bx * c
+        oy = center[o, 1] + linear[o, 1] * t + by * c
+        oz = center[o, 2] + linear[o, 2] * t + bz * c
+        ux, uy, uz = linear[o, 0] + bx * g, linear[o, 1] + by * g, linear[o, 2] + bz * g
+        if kind[p] != BALL:
+            wx, wy, wz = angular[o, 0], angular[o, 1], angular[o, 2]
+            qx, qy, qz, qw = spun(rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3], wx, wy, wz, t)
+    ex, ey, ez = extent[p, 0], extent[p, 1], extent[p, 2]
+    if resting[p]:
+        gap, nx, ny, nz = gap_of_ball(kind[p], x, y, z, radius[p], ox, oy, oz, qx, qy, qz, qw, ex, ey, ez)
+        closing = -(nx * (vx - ux) + ny * (vy - uy) + nz * (vz - uz))
+        if gap > TOUCH or closing <= max(APPROACH, BLOW_SPEED_FACTOR * h * pressing_of(i, o, nx, ny, nz, felt)):
+            return NEVER
+        resting[p] = False
+    return now + first_touch(
+        kind[p], x, y, z, radius[p], vx, vy, vz, ax, ay, az, ox, oy, oz, qx, qy, qz, qw, ex, ey, ez,
+        ux, uy, uz, bx, by, bz, wx, wy, wz, bend, h - now,
+    )  # fmt: skip
+
+
+@inlined
+def strike(
+    p, i, o, h, center, rotation, linear, angular, acceleration, felt,
+    inverse_mass, inverse_inertia, principal_axes,
+    kind, radius, extent, other_position, other_rotation, friction, restitution,
+):  # fmt: skip
+    """Let the bodies of pair p strike each other where they are.
+
+    Returns (closing speed, normal impulse, normal from the other to the ball, point, impulse on the ball). A speed of 0
+    means that they are pressed together without closing: no impulse, but then, as after a plastic impact, what presses
+    them is taken out of their arcs.
+    """
+    ox, oy, oz = other_position[p, 0], other_position[p, 1], other_position[p, 2]
+    qx, qy, qz, qw = other_rotation[p, 0], other_rotation[p, 1], other_rotation[p, 2], other_rotation[p, 3]
+    if o >= 0:
+        ox, oy, oz = center[o, 0], center[o, 1], center[o, 2]
+        qx, qy, qz, qw = rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3]
+    gap, nx, ny, nz = gap_of_ball(
+        kind[p], center[i, 0], center[i, 1], center[i, 2], radius[p], ox, oy, oz, qx, qy, qz, qw,
+        extent[p, 0], extent[p, 1], extent[p, 2],
+    )  # fmt: skip
+    lever = radius[p] + 0.5 * gap
+    rx, ry, rz = -nx * lever, -ny * lever, -nz * lever
+    px, py, pz = center[i, 0] + rx, center[i, 1] + ry, center[i, 2] + rz
+    gx, gy, gz = px - ox, py - oy, pz - oz
+    ax, ay, az = surface_velocity(i, rx, ry, rz, linear, angular)
+    bx, by, bz = surface_velocity(o, gx, gy, gz, linear, angular)
+    sx, sy, sz = ax - bx, ay - by, az - bz
+    vn = nx * sx + ny * sy + nz * sz
+    if vn >= -APPROACH:
+        stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration)
+        return 0.0, 0.0, nx, ny, nz, px, py, pz, 0.0, 0.0, 0.0
+    kxx, kxy, kxz, kyy, kyz, kzz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for body, x, y, z in ((i, rx, ry, rz), (o, gx, gy, gz)):
+        if body >= 0:
+            m = inverse_mass[body]
+            # Columns of the 3 x 3 inverse mass at the point: (I^-1 (r x e)) x r for each axis e.
+            tx, ty, tz = turned_by(body, 0.0, z, -y, inverse_inertia, principal_axes, rotation)
+            cx, cy, cz = cross(tx, ty, tz, x, y, z)
+            kxx, kxy, kxz = kxx + m + cx, kxy + cy, kxz + cz
+            tx, ty, tz = turned_by(body, -z, 0.0, x, inverse_inertia, principal_axes, rotation)
+            cx, cy, cz = cross(tx, ty, tz, x, y, z)
+            kyy, kyz = kyy + m + cy, kyz + cz
+            tx, ty, tz = turned_by(body, y, -x, 0.0, inverse_inertia, principal_axes, rotation)
+            cx, cy, cz = cross(tx, ty, tz, x, y, z)
+            kzz = kzz + m + cz
+    # Forces press the bodies together, or what contacts with others do to their arcs.
+    pressing = max(pressing_of(i, o, nx, ny, nz, felt), pressing_of(i, o, nx, ny, nz, acceleration))
+    bounce = restitution[p] if -vn > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
+    jx, jy, jz, normal = struck(vn, sx, sy, sz, nx, ny, nz, (kxx, kxy, kxz, kyy, kyz, kzz), bounce, friction[p])
+    push_at(i, 1.0, jx, jy, jz, rx, ry, rz, linear, angular, inverse_mass, inverse_inertia, principal_axes, rotation)
+    push_at(o, -1.0, jx, jy, jz, gx, gy, gz, linear, angular, inverse_mass, inverse_inertia, principal_axes, rotation)
+    if bounce == 0.0:
+        stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration)
+    return -vn, normal, nx, ny, nz, px, py, pz, jx, jy, jz
+
+
+@inlined
+def struck(vn, sx, sy, sz, nx, ny, nz, k, restitution, friction):
+    """Return the impulse (3) on the second body for closing velocity s with normal part vn < 0 at inverse mass k (3x3).
+
+    Newton's restitution along the normal; the tangential part stops sliding if Coulomb's cone allows it, and else
+    slides at the cone's edge (Mirtich, Impulse-based Dynamic Simulation, 1996, section 3.2, for two-stage impact laws).
+    """
+    kxx, kxy, kxz, kyy, kyz, kzz = k
+    knx, kny, knz = kxx * nx + kxy * ny + kxz * nz, kxy * nx + kyy * ny + kyz * nz, kxz * nx + kyz * ny + kzz * nz
+    knn = nx * knx + ny * kny + nz * knz
+    tx, ty, tz = sx - vn * nx, sy - vn * ny, sz - vn * nz
+    sliding = sqrt(tx * tx + ty * ty + tz * tz)
+    wanted = -(1.0 + restitution) * vn
+    if friction == 0.0 or sliding <= APPROACH:
+        normal = wanted / knn
+        return normal * nx, normal * ny, normal * nz, normal
+    # Stick: solve K j = (wanted n - t) by Cramer's rule.
+    rx, ry, rz = wanted * nx - tx, wanted * ny - ty, wanted * nz - tz
+    cxx, cxy, cxz = kyy * kzz - kyz * kyz, kxz * kyz - kxy * kzz, kxy * kyz - kxz * kyy
+    cyy, cyz, czz = kxx * kzz - kxz * kxz, kxy * kxz - kxx * kyz, kxx * kyy - kxy * kxy
+    determinant = kxx * cxx + kxy * cxy + kxz * cxz
+    jx = (cxx * rx + cxy * ry + cxz * rz) / determinant
+    jy = (cxy * rx + cyy * ry + cyz * rz) / determinant
+    jz = (cxz * rx + cyz * ry + czz * rz) / determinant
+    normal = jx * nx + jy * ny + jz * nz
+    fx, fy, fz = jx - normal * nx, jy - normal * ny, jz - normal * nz
+    if normal > 0.0 and fx * fx + fy * fy + fz * fz <= friction * friction * normal * normal:
+        return jx, jy, jz, normal
+    tx, ty, tz = tx / sliding, ty / sliding, tz / sliding
+    normal = wanted / (knn - friction * (tx * knx + ty * kny + tz * knz))
+    if normal <= 0.0:  # jamming: friction alone would stop the approach
+        normal = wanted / knn
+        return normal * nx, normal * ny, normal * nz, normal
+    edge = friction * normal
+    return normal * nx - edge * tx, normal * ny - edge * ty, normal * nz - edge * tz, normal
