@@ -100,6 +100,7 @@ def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None)
     summary.energy_before = total_energy(simulation.world)
     expectations = loaded.expectations if summary.judged else []
     simulation.observers = [watch, *expectations, *observers]
+    simulation.watched = True
     start = perf_counter()
     planned = loaded.run.frames if frames is None else frames
     with deferred_interrupt() as check, _bar(planned) as bar, ExitStack() as ending:

@@ -252,6 +252,7 @@ def test_a_number_that_runs_away_stops_the_run_with_1_and_keeps_the_recording(
     assert printed.out == ""
     assert printed.err.startswith("frame ")
     assert "of entity 'ball' is " in printed.err
+    assert ", written by system '" in printed.err
     assert printed.err.endswith(f"; the recording up to there: carom view {record}\n")
     assert Recording(record).frames[0] == 0
 
