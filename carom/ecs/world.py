@@ -165,7 +165,7 @@ class World:
         """Return the row of a living entity; raise EntityError for a stale handle, saying when the entity went."""
         index = index_of(entity)
         if (
-            0 <= entity
+            entity >= 0
             and index < self._used
             and self.alive[index]
             and self.generations[index] == generation_of(entity)

@@ -15,8 +15,8 @@ TOUCH = 1e-4
 # within about two substeps is a contact. Below 1, gravity alone would make a resting body bounce.
 REST_SPEED_FACTOR = 2.0
 
-# A blow that makes a resting pair close faster than this many times (pressing acceleration x substep) is an impact of its
-# own. Smaller: blows run through piles as endless rows of impacts. Larger: bodies sink in until the next substep.
+# A blow that makes a resting pair close faster than this many times (pressing acceleration x substep) is an impact of
+# its own. Smaller: blows run through piles as endless rows of impacts. Larger: bodies sink in until the next substep.
 BLOW_SPEED_FACTOR = 0.1
 
 # m/s. Closing slower than this is not closing. It ends the infinite row of ever smaller impacts between bodies that

@@ -15,7 +15,9 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, fly
-from carom.systems.kernels.resting import bend_arcs, finish_drift, hold_contacts, sort_contacts
+from carom.systems.kernels.resting import bend_arcs, hold_contacts
+from carom.systems.kernels.settling import finish_drift
+from carom.systems.kernels.sorting import sort_contacts
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
@@ -111,7 +113,8 @@ def _fly(world: World, at: float, h: float) -> tuple[float, int]:
         contact.kind[n], contact.ball, contact.other, contact.extent, contact.radius,
         contact.other_position, contact.other_rotation, contact.sign, contact.friction, contact.restitution,
         contact.resting, contact.impulse, contact.friction_impulse,
-        logged, impact.time, impact.a, impact.point, impact.normal, impact.speed, impact.impulse, impact.friction_impulse,
+        logged, impact.time, impact.a, impact.point, impact.normal, impact.speed, impact.impulse,
+        impact.friction_impulse,
     )  # fmt: skip
     world[Answered].impacts_cut += cut
     world.resize(Impact, count + (1 if count == len(impact.time) else 0))
@@ -134,6 +137,6 @@ def _finish(world: World, dt: float, *, ended: bool) -> None:
     finish_drift(
         world.row_numbers(RigidBody), contact.count if ended else 0, dt, ended, body.center_of_mass, body.inverse_mass,
         flight.decay, flight.angular_decay, flight.flow, world[Transform].rotation,
-        contact.body_a, contact.body_b, contact.normal, contact.offset_a, contact.offset_b, contact.kind, contact.resting,
-        flight.start_center, motion.linear, motion.angular, world[Transform].position, flight.center, contact.depth,
+        contact.body_a, contact.body_b, contact.normal, contact.offset_a, contact.offset_b, contact.kind,
+        contact.resting, flight.start_center, motion.linear, motion.angular, world[Transform].position, flight.center, contact.depth,
     )  # fmt: skip

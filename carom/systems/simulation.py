@@ -20,18 +20,18 @@ from carom.ecs import (
     system,
     take_snapshot,
 )
+from carom.ecs.column import Floats, Integers
 from carom.ecs.commands import Commands
 from carom.ecs.components.force import Force
 from carom.ecs.components.motion import Motion
 from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
-from carom.ecs.column import Floats, Integers
-from carom.systems.assembly import Materials, Words, add_entity
+from carom.systems.assembly import Materials, add_entity
+from carom.systems.detection.answered import Answered
+from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.finish import find_not_finite
 from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
-from carom.systems.detection.answered import Answered
-from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.layers import Layers
 from carom.systems.observer import Observer
 from carom.systems.progress import Progress
@@ -62,7 +62,7 @@ class Simulation:
         for resource in (self.settings, *made, Progress(), Answered(), FclObjects()):
             self.world.add(resource)
 
-    # Building: the words are those of world files, numbers are SI ------------------------------------------------------
+    # Building: the words are those of world files, numbers are SI.
     def add(self, **words: Any) -> Entity:
         """Add one entity: ``add(name="ball", collider={"sphere": {"radius": 0.1}}, body={})``; see `add_entity`."""
         return add_entity(self.world, **words)
@@ -94,7 +94,7 @@ class Simulation:
         self.schedule = self.schedule.with_system(made, after="apply_quadratic_drag")
         return made
 
-    # Running ------------------------------------------------------------------------------------------------------------
+    # Running.
     @property
     def frame(self) -> int:
         """Steps taken."""

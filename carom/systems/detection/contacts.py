@@ -65,7 +65,7 @@ def detect(world: World) -> None:
 
 
 def measure_pairs(world: World) -> Found:
-    """Return the contact points of all pairs whose bounds overlap: by array kernels where one stands in, else by FCL."""
+    """Return the contact points of all pairs whose bounds overlap: by kernels where one stands in, else by FCL."""
     pairs = overlapping(world)
     reaches = np.empty(len(pairs))
     reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)

@@ -1,4 +1,4 @@
-"""FCL's answers, through guarded calls only: no crash, flipped normal or wrong depth of FCL reaches the contact table."""
+"""FCL's answers, by guarded calls only: no crash, flipped normal or wrong depth of FCL reaches the contact table."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ def measure_by_fcl(world: World, pairs: Integers, reaches: Floats) -> Found:
 
 
 def corner_features(points: list[Floats], objects: FclObjects, world: World, row: int) -> list[int]:
-    """Return a number per point by the octant of the first shape it lies in, which stays while the pair moves little."""
+    """Return a number per point: the octant of the first shape it lies in, the same while the pair moves little."""
     taken: dict[int, int] = {}
     features = []
     side = Side(objects, world, row)

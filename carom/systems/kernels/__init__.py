@@ -1,1 +1,1 @@
-""""""
+"""Kernels: hot loops over arrays, compiled by Numba; no World inside."""

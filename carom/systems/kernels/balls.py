@@ -15,9 +15,9 @@ NEVER = 1e300
 
 @inlined
 def gap_of_ball(kind, x, y, z, radius, ox, oy, oz, qx, qy, qz, qw, ex, ey, ez):
-    """Return (gap, normal) between a ball at x and another body at o; the unit normal points from that body to the ball.
+    """Return (gap, normal) between a ball at x and another body at o; the unit normal points from that to the ball.
 
-    ``kind`` says how to read the extent e: BALL (radius, -, -), BOX (half edges, turned by q), HALF_SPACE (normal at o).
+    ``kind`` says how to read the extent e: BALL (radius, -, -), BOX (half edges, turned by q), HALF_SPACE (normal).
     """
     dx, dy, dz = x - ox, y - oy, z - oz
     if kind == HALF_SPACE:
@@ -55,9 +55,9 @@ def first_touch(
 ):  # fmt: skip
     """Return the seconds until the gap closes, or NEVER within ``horizon``.
 
-    Both bodies move on arcs p + v t + bend a t^2, the other one also turns at w. The gap to a convex body curves down at
-    most by the relative acceleration (and what turning adds), so that the parabola with that curvature meets zero no
-    later than the gap itself: its root is a safe step, and Newton's method where it matters. For a half space the
+    Both bodies move on arcs p + v t + bend a t^2, the other one also turns at w. The gap to a convex body curves down
+    at most by the relative acceleration (and what turning adds), so that the parabola with that curvature meets zero
+    no later than the gap itself: its root is a safe step, and Newton's method where it matters. For a half space the
     parabola is the gap.
     """
     rax, ray, raz = 2.0 * bend * (ax - bx), 2.0 * bend * (ay - by), 2.0 * bend * (az - bz)

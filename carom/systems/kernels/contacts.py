@@ -80,7 +80,7 @@ def measure_balls(
 @inlined
 def kind_and_extent(shape, sx, sy, sz, qx, qy, qz, qw):
     """Return how `gap_of_ball` reads a shape, and its extent; kind -1 where it has no closed form."""
-    if shape == SPHERE_SHAPE or shape == POINT_SHAPE:
+    if shape in (SPHERE_SHAPE, POINT_SHAPE):
         return BALL, sx, 0.0, 0.0
     if shape == BOX_SHAPE:
         return BOX, 0.5 * sx, 0.5 * sy, 0.5 * sz

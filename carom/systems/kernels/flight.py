@@ -130,6 +130,6 @@ def first_not_finite(rows, position, rotation, linear, angular):
         total = rotation[i, 0] + rotation[i, 1] + rotation[i, 2] + rotation[i, 3]
         for k in range(3):
             total += position[i, k] + linear[i, k] + angular[i, k]
-        if not total - total == 0.0:
+        if total - total != 0.0:  # neither NaN nor infinity less itself is 0
             return i
     return -1

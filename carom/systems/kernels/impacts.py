@@ -28,7 +28,7 @@ def fly(
     friction, restitution, resting, impulse, friction_impulse,
     log_count, log_time, log_pair, log_point, log_normal, log_speed, log_impulse, log_friction,
 ):  # fmt: skip
-    """Fly all bodies from ``start`` to ``h`` (s) into the substep and return (time reached, impacts logged, reason, cut).
+    """Fly all bodies from ``start`` to ``h`` (s) into the substep; return (time reached, impacts logged, reason, cut).
 
     ``left`` is the time from the substep's end to the step's. Pairs are rows of the contact table with ``kind`` >= 0;
     their first body is the ball. Where a body comes to move faster than its detection foresaw, or the log is full,

@@ -37,6 +37,7 @@ class Kernel:
         KERNELS.append(self)
 
     def __call__(self, *arguments: Any) -> Any:
+        """Run the compiled function, compiling it on the first call."""
         if self._settled and not GUARDED.get():
             try:
                 return self._run(*arguments)

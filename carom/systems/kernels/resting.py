@@ -1,4 +1,4 @@
-"""The resting stage: which contacts rest in this substep, and the impulses that hold them."""
+"""The resting stage: the impulses that hold resting contacts, and the arcs that follow from them."""
 
 from __future__ import annotations
 
@@ -7,73 +7,10 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APPROACH, PUSH_OUT, REST_SPEED_FACTOR, SLOP, SOLVED, SWEEPS, TOUCH
-from carom.systems.kernels.balls import gap_of_ball
+from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SOLVED, SWEEPS
 from carom.systems.kernels.bodies import push_at, surface_velocity, turn_at, yielding
 from carom.systems.kernels.kernel import kernel
-from carom.systems.kernels.spatial import cross, turn
-
-
-@kernel(
-    "normal", "depth", "point", "offset_a", "offset_b", "resting", "touching",
-    "warm_normal", "warm_friction", "warm_rolling",
-)  # fmt: skip
-def sort_contacts(
-    count, h, resting_stage, center, rotation, linear, angular, felt,
-    kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
-    normal, depth, point, offset_a, offset_b, resting, touching, warm_normal, warm_friction, warm_rolling,
-):  # fmt: skip
-    """Say which contacts rest, from where their bodies are at the start of the substep, and mark those bodies.
-
-    A ball's pair is measured anew. It rests when it touches, closes no faster than the rest speed and would not be clear
-    of the other at the end of the substep. Any other shape's contact takes part once it would close within the substep.
-    """
-    for c in range(count):
-        if kind[c] >= 0:
-            i, o = ball[c], other[c]
-            ox, oy, oz = other_position[c, 0], other_position[c, 1], other_position[c, 2]
-            qx, qy, qz, qw = other_rotation[c, 0], other_rotation[c, 1], other_rotation[c, 2], other_rotation[c, 3]
-            if o >= 0:
-                ox, oy, oz = center[o, 0], center[o, 1], center[o, 2]
-                qx, qy, qz, qw = rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3]
-            gap, nx, ny, nz = gap_of_ball(
-                kind[c], center[i, 0], center[i, 1], center[i, 2], radius[c], ox, oy, oz, qx, qy, qz, qw,
-                extent[c, 0], extent[c, 1], extent[c, 2],
-            )  # fmt: skip
-            depth[c] = -gap
-            lever = radius[c] + 0.5 * gap
-            for k, n in enumerate((nx, ny, nz)):
-                normal[c, k] = -sign[c] * n
-                point[c, k] = center[i, k] - lever * n
-                to_ball = -lever * n
-                to_other = point[c, k] - (center[o, k] if o >= 0 else other_position[c, k])
-                offset_a[c, k] = to_ball if sign[c] > 0.0 else to_other
-                offset_b[c, k] = to_other if sign[c] > 0.0 else to_ball
-        a, b = body_a[c], body_b[c]
-        nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
-        ax, ay, az = surface_velocity(a, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2], linear, angular)
-        bx, by, bz = surface_velocity(b, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2], linear, angular)
-        parting = nx * (bx - ax) + ny * (by - ay) + nz * (bz - az)
-        pulling = 0.0
-        for k, n in enumerate((nx, ny, nz)):
-            pulling += n * ((felt[b, k] if b >= 0 else 0.0) - (felt[a, k] if a >= 0 else 0.0))
-        gap = -depth[c]
-        after = gap + parting * h + 0.5 * pulling * h * h
-        if kind[c] >= 0:
-            rests = gap <= TOUCH and -parting <= max(APPROACH, REST_SPEED_FACTOR * -pulling * h) and after <= 0.0
-        else:
-            rests = gap <= SLOP and after <= SLOP or after <= 0.0
-        resting[c] = rests and resting_stage
-        if resting[c]:
-            if a >= 0:
-                touching[a] = True
-            if b >= 0:
-                touching[b] = True
-        else:
-            warm_normal[c] = 0.0
-            for k in range(3):
-                warm_friction[c, k] = 0.0
-                warm_rolling[c, k] = 0.0
+from carom.systems.kernels.spatial import cross
 
 
 @kernel(
@@ -87,9 +24,9 @@ def hold_contacts(
 ):  # fmt: skip
     """Find impulses by which resting contacts do not close, stick or slide within the cone, and roll with resistance.
 
-    Projected Gauss-Seidel over accumulated impulses with warm starts (Catto, Iterative Dynamics with Temporal Coherence,
-    2005); friction is a disc, not a pyramid. Shapes without exact impacts bounce here: the part of the velocity at the
-    start of the substep that closes faster than the rest speed is given back times the restitution.
+    Projected Gauss-Seidel over accumulated impulses with warm starts (Catto, Iterative Dynamics with Temporal
+    Coherence, 2005); friction is a disc, not a pyramid. Shapes without exact impacts bounce here: what closes faster
+    than the rest speed at the start of the substep is given back times the restitution.
     """
     members = np.nonzero(resting[:count])[0]
     n = len(members)
@@ -276,53 +213,3 @@ def bend_arcs(
                 for k in range(3):
                     linear[body, k] -= h * acceleration[body, k]
                     angular[body, k] -= h * angular_acceleration[body, k]
-
-
-@kernel("linear", "angular", "position", "center", "depth")
-def finish_drift(
-    rows, count, h, ended, center_of_mass, inverse_mass, decay, angular_decay, flow, rotation,
-    body_a, body_b, normal, offset_a, offset_b, kind, resting, start_center,
-    linear, angular, position, center, depth,
-):  # fmt: skip
-    """End the substep: the second half of drag, overlap pushed out without adding velocity, and the origins placed."""
-    for c in range(count):
-        a, b = body_a[c], body_b[c]
-        if kind[c] < 0:
-            ax, ay, az, bx, by, bz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-            if a >= 0:
-                ax, ay, az = cross(
-                    angular[a, 0], angular[a, 1], angular[a, 2], offset_a[c, 0], offset_a[c, 1], offset_a[c, 2]
-                )
-                ax += (center[a, 0] - start_center[a, 0]) / h
-                ay += (center[a, 1] - start_center[a, 1]) / h
-                az += (center[a, 2] - start_center[a, 2]) / h
-            if b >= 0:
-                bx, by, bz = cross(
-                    angular[b, 0], angular[b, 1], angular[b, 2], offset_b[c, 0], offset_b[c, 1], offset_b[c, 2]
-                )
-                bx += (center[b, 0] - start_center[b, 0]) / h
-                by += (center[b, 1] - start_center[b, 1]) / h
-                bz += (center[b, 2] - start_center[b, 2]) / h
-            depth[c] -= h * (normal[c, 0] * (bx - ax) + normal[c, 1] * (by - ay) + normal[c, 2] * (bz - az))
-    for c in range(count):
-        if resting[c] and depth[c] > SLOP:
-            a, b = body_a[c], body_b[c]
-            total = (inverse_mass[a] if a >= 0 else 0.0) + (inverse_mass[b] if b >= 0 else 0.0)
-            if total > 0.0:
-                share = PUSH_OUT * (depth[c] - SLOP) / total
-                for k in range(3):
-                    if a >= 0:
-                        center[a, k] -= share * inverse_mass[a] * normal[c, k]
-                    if b >= 0:
-                        center[b, k] += share * inverse_mass[b] * normal[c, k]
-                depth[c] -= PUSH_OUT * (depth[c] - SLOP)
-    for i in rows:
-        qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
-        cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
-        x, y, z = turn(qx, qy, qz, qw, cx, cy, cz)
-        position[i, 0], position[i, 1], position[i, 2] = center[i, 0] - x, center[i, 1] - y, center[i, 2] - z
-        for k in range(3):
-            if ended and decay[i] != 1.0:
-                linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * decay[i]
-            if ended:
-                angular[i, k] *= angular_decay[i]

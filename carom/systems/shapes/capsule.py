@@ -24,7 +24,7 @@ class Capsule(Shape):
     length: float = parameter(unit="m", doc="length of the straight part, caps excluded", above=0.0)
 
     def mass_properties(self) -> MassProperties:
-        """Return the sums over a cylinder and two half balls (Eberly, Polyhedral Mass Properties, 2009, for the parts)."""
+        """Return the sums over a cylinder and two half balls, the latter moved out by Steiner's theorem."""
         r, half = self.radius, self.length / 2.0
         tube, ball = math.pi * r * r * self.length, 4.0 / 3.0 * math.pi * r**3
         axial = tube * r * r / 2.0 + ball * 0.4 * r * r

@@ -32,7 +32,7 @@ class Surface(NamedTuple):
 
 
 class MassProperties(NamedTuple):
-    """Of a solid of density 1: volume in m3, centre in m, principal moments over mass in m2, axes as quaternion xyzw."""
+    """Of a solid: volume in m3, centre in m, principal moments over mass in m2, their axes as quaternion xyzw."""
 
     volume: float
     center: tuple[float, float, float]
