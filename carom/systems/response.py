@@ -138,5 +138,6 @@ def _finish(world: World, dt: float, *, ended: bool) -> None:
         world.row_numbers(RigidBody), contact.count if ended else 0, dt, ended, body.center_of_mass, body.inverse_mass,
         flight.decay, flight.angular_decay, flight.flow, world[Transform].rotation,
         contact.body_a, contact.body_b, contact.normal, contact.offset_a, contact.offset_b, contact.kind,
-        contact.resting, flight.start_center, motion.linear, motion.angular, world[Transform].position, flight.center, contact.depth,
+        contact.resting, flight.start_center, motion.linear, motion.angular,
+        world[Transform].position, flight.center, contact.depth,
     )  # fmt: skip

@@ -1,1 +1,1 @@
-""""""
+"""How to look at it: the command line, recordings, pictures, films, goldens, benches."""

@@ -60,7 +60,7 @@ def from_axis_angle(axis: npt.ArrayLike, angle: float) -> Floats:
 
 
 def from_euler(angles: npt.ArrayLike, order: str) -> Floats:
-    """Return rotations about the axes named in ``order`` one after another; XYZ about the turning axes, xyz fixed ones."""
+    """Return rotations about the axes of ``order`` one after another: XYZ about turning axes, xyz about fixed ones."""
     turns = [
         from_axis_angle(np.eye(3)["xyz".index(o.lower())], float(a))
         for o, a in zip(order, np.asarray(angles), strict=True)

@@ -14,7 +14,7 @@ SAME_PLACE = 1e-3  # m
 
 
 def under_plane(corners: Floats, radius: float, normal: Floats, origin: Floats, reach: float) -> Points:
-    """Return a point per corner ball (n, 3) nearer than ``reach`` to the half space below ``origin`` along ``normal``."""
+    """Return a point per corner ball (n, 3) nearer than ``reach`` to the half space under ``origin``."""
     points = []
     for corner in corners:
         gap = float(((corner - origin) * normal).sum()) - radius
