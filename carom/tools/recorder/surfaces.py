@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,8 @@ from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.systems.shapes import Shape
 from carom.systems.shapes.shape import Surface
+
+ENDLESS = 20.0  # an endless surface is drawn this many times as wide as its sample of 100 m: a shell flies that far
 
 
 def mesh_of(shape: Shape, position: Floats, rotation: Floats, color: Floats) -> Any:
@@ -21,6 +24,9 @@ def mesh_of(shape: Shape, position: Floats, rotation: Floats, color: Floats) -> 
     import rerun
 
     surface = shape.surface()
+    if math.isinf(max(shape.bounds().half)):
+        middle = surface.vertices.mean(axis=0)
+        surface = surface._replace(vertices=middle + ENDLESS * (surface.vertices - middle))
     vertices, faces, normals = _with_normals(surface)
     return rerun.Mesh3D(
         vertex_positions=quaternion.rotate(rotation, vertices) + position,
