@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import textwrap
+from itertools import zip_longest
+
 from carom.ecs.schedule import Schedule
 from carom.ecs.system import Kind
 
+CELL = 40  # characters after which a list of components goes on in the next line
+
 
 def explain(schedule: Schedule) -> str:
-    """Return the frame as text: one line per system under its phase, in order of execution."""
-    rows = [("phase", "system", "reads", "writes", "adds")]
+    """Return the frame as text: its systems under their phases, in order of execution."""
+    rows: list[tuple[str, ...]] = [("phase", "system", "reads", "writes", "adds")]
+    shown = ""
     for phase, system in schedule:
-        label = phase.name + (" (repeated)" if phase.repeat else "")
-        label = "" if any(row[0] == label for row in rows) else label
-        rows.append((label, system.name, _names(system.reads), _names(system.writes), _names(system.adds)))
+        label = "" if phase.name == shown else phase.name + (" (repeated)" if phase.repeat else "")
+        shown = phase.name
+        lists = [textwrap.wrap(_names(kinds), CELL) for kinds in (system.reads, system.writes, system.adds)]
+        rows += zip_longest([label], [system.name], *lists, fillvalue="")
     widths = [max(len(row[i]) for row in rows) for i in range(5)]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
     lines.insert(1, "  ".join("-" * width for width in widths))
