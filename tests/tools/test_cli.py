@@ -56,6 +56,7 @@ def files(folder: Path) -> list[str]:
 def test_run_writes_recording_film_and_picture_and_tells_how_to_open_them(
     world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """Folders are made with their parents; the summary is the same ten lines every time."""
     out = tmp_path / "deep" / "out"
     outputs = ["--record", f"{out}/a.rrd", "--film", f"{out}/a.mp4", "--picture", f"{out}/a.png"]
     assert main(["run", str(world), *outputs]) == 0
@@ -79,6 +80,7 @@ def test_run_writes_recording_film_and_picture_and_tells_how_to_open_them(
 
 
 def test_run_as_json(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """For programs; and --collision fcl leaves no pair to kernels."""
     assert main(["run", str(world), "--json", "--collision", "fcl"]) == 0
     summary = json.loads(capsys.readouterr().out)
     assert summary["frames"] == 30
@@ -87,6 +89,7 @@ def test_run_as_json(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_an_expectation_that_fails_makes_exit_1(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """By run as by test, with when and by how much it failed."""
     assert main(["run", changed(world, "0.8038", "0.9")]) == 1
     assert "  expectations  0 of 1 held" in capsys.readouterr().out.splitlines()
     assert main(["test", str(world)]) == 1
@@ -96,6 +99,7 @@ def test_an_expectation_that_fails_makes_exit_1(world: Path, capsys: pytest.Capt
 
 
 def test_a_run_cut_short_is_not_judged(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What a world expects holds for whole runs."""
     assert main(["run", str(world), "--frames", "5"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "Falling: 5 frames, 1 bodies"
@@ -103,6 +107,7 @@ def test_a_run_cut_short_is_not_judged(world: Path, capsys: pytest.CaptureFixtur
 
 
 def test_test_holds_worlds(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Files and library worlds alike; no world at all is wrong usage."""
     assert main(["test", str(world), "falling_ball"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == f"ok     {world}: 1 of 1 expectations held"
@@ -112,6 +117,7 @@ def test_test_holds_worlds(world: Path, capsys: pytest.CaptureFixture[str]) -> N
 
 
 def test_check_tells_every_fault_of_every_world(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A bad world does not hide the next one."""
     assert main(["check", str(world)]) == 0
     assert capsys.readouterr().out == f"ok     {world}: 2 entities, 1 expectations\n"
     changed(world, "radius: 0.1", "radius: 0")
@@ -126,6 +132,7 @@ def test_check_tells_every_fault_of_every_world(world: Path, capsys: pytest.Capt
 def test_a_bad_world_ends_with_2_and_writes_nothing(
     words: list[str], world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """Not even the folder of the output."""
     out = tmp_path / "out"
     stated = [word.format(out=out) for word in words]
     records = ["--record", f"{out}/a.rrd"] if words[0] == "run" else []
@@ -139,6 +146,7 @@ def test_a_bad_world_ends_with_2_and_writes_nothing(
 def test_an_output_that_cannot_be_written_ends_with_2_before_anything_runs(
     world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """Every bad output is named, and not even the good one's folder is made."""
     (tmp_path / "file").write_text("")
     record, film = tmp_path / "file" / "out" / "a.rrd", tmp_path / "good" / "a.mp4"
     assert main(["run", str(world), "--record", str(record), "--film", str(film), "--picture", str(tmp_path)]) == 2
@@ -160,11 +168,13 @@ def test_an_output_that_cannot_be_written_ends_with_2_before_anything_runs(
 def test_wrong_options_end_with_2_and_say_what_is_accepted(
     words: list[str], message: str, world: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """Options are read like the values of a file."""
     assert main([words[0], str(world), *words[1:]]) == 2
     assert capsys.readouterr().err == message.format(world=world) + "\n"
 
 
 def test_wrong_usage_ends_with_2(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """By argparse, which leaves through SystemExit."""
     with pytest.raises(SystemExit, match="2"):
         main(["run", str(world), "--frames", "-3"])
     assert capsys.readouterr().err.splitlines()[-1] == (
@@ -175,6 +185,7 @@ def test_wrong_usage_ends_with_2(world: Path, capsys: pytest.CaptureFixture[str]
 
 
 def test_view_tells_how_to_get_a_recording(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The message holds a command to paste."""
     path = tmp_path / "none.rrd"
     assert main(["view", str(path)]) == 2
     message = f"no recording at {path}; make one with: carom run billiards --record {path}\n"
@@ -184,6 +195,7 @@ def test_view_tells_how_to_get_a_recording(tmp_path: Path, capsys: pytest.Captur
 def test_view_needs_a_display_or_a_browser(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """On a server the browser is the way."""
     path = tmp_path / "a.rrd"
     path.write_bytes(b"")
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
@@ -196,6 +208,7 @@ def test_view_needs_a_display_or_a_browser(
 
 
 def test_render_photographs_a_moment(world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """With any camera of the world."""
     picture = tmp_path / "out" / "a.png"
     assert main(["render", str(world), "--at", "0.1 s", "--camera", "top", "--out", str(picture)]) == 0
     assert capsys.readouterr().out == f"{picture}: frame 6, 0.1 s\n"
@@ -203,6 +216,7 @@ def test_render_photographs_a_moment(world: Path, tmp_path: Path, capsys: pytest
 
 
 def test_explain_schema_and_worlds_print(capsys: pytest.CaptureFixture[str]) -> None:
+    """The commands that only tell."""
     assert main(["explain"]) == 0
     assert capsys.readouterr().out.startswith("phase")
     assert main(["explain", "--json"]) == 0
@@ -214,6 +228,7 @@ def test_explain_schema_and_worlds_print(capsys: pytest.CaptureFixture[str]) -> 
 
 
 def test_help_names_every_command_and_imports_nothing_of_weight() -> None:
+    """So that it comes at once."""
     code = (
         "import sys\nfrom carom.tools.cli import main\n"
         "try:\n    main(['--help'])\nexcept SystemExit:\n    pass\n"
@@ -226,6 +241,7 @@ def test_help_names_every_command_and_imports_nothing_of_weight() -> None:
 
 
 def test_ctrl_c_ends_cleanly_with_the_recording_flushed(world: Path, tmp_path: Path) -> None:
+    """Between two steps: the last recorded frame is the last frame."""
     record = tmp_path / "a.rrd"
     long = changed(world, "duration: 0.5 s", "duration: 1000 s")
     words = [*CAROM, "run", long, "--record", str(record)]
@@ -244,6 +260,7 @@ def test_ctrl_c_ends_cleanly_with_the_recording_flushed(world: Path, tmp_path: P
 def test_a_number_that_runs_away_stops_the_run_with_1_and_keeps_the_recording(
     world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    """The message names frame, column, entity and system."""
     record = tmp_path / "a.rrd"
     changed(world, "duration: 0.5 s", "duration: 3 s")
     far = changed(world, "body: {}", "body: {}, motion: {linear: [1e308, 0, 0]}")
@@ -258,5 +275,6 @@ def test_a_number_that_runs_away_stops_the_run_with_1_and_keeps_the_recording(
 
 
 def test_the_module_runs_as_the_console_script_does() -> None:
+    """Benches start it this way."""
     done = subprocess.run([*CAROM, "--version"], capture_output=True, text=True, check=True, env=os.environ.copy())
     assert done.stdout.startswith("carom 0.")

@@ -104,6 +104,7 @@ def record(simulation: Simulation, path: Path, frames: int, **options: Any) -> d
 
 
 def test_every_recorded_pose_is_the_simulations_in_float32(tmp_path: Path) -> None:
+    """Spheres, a capsule and a shape that sits off its body's origin."""
     seen = record(falling_world(), tmp_path / "run.rrd", 300)
     recording = Recording(tmp_path / "run.rrd")
     assert recording.frames == list(range(0, 301, 4))  # dt 1/240: every fourth step makes 60 frames a second
@@ -113,11 +114,13 @@ def test_every_recorded_pose_is_the_simulations_in_float32(tmp_path: Path) -> No
 
 
 def test_every_asks_for_other_frames(tmp_path: Path) -> None:
+    """Counted in steps."""
     record(falling_world(), tmp_path / "run.rrd", 30, every=10)
     assert Recording(tmp_path / "run.rrd").frames == [0, 10, 20, 30]
 
 
 def test_bodies_that_come_and_go_keep_their_identity(tmp_path: Path) -> None:
+    """Also those that change colour or hide, and one that takes the row of another."""
     simulation = falling_world()
     recorder = Recorder(tmp_path / "run.rrd", every=1)
     simulation.observers.append(recorder)
@@ -143,6 +146,7 @@ def test_bodies_that_come_and_go_keep_their_identity(tmp_path: Path) -> None:
 
 
 def test_contacts_are_recorded_with_both_colliders_and_exact_numbers(tmp_path: Path) -> None:
+    """Points are float32, as Rerun draws them; numbers stay float64."""
     simulation = falling_world()
     recorder = Recorder(tmp_path / "run.rrd", every=1)
     simulation.observers.append(recorder)
@@ -165,6 +169,7 @@ def test_contacts_are_recorded_with_both_colliders_and_exact_numbers(tmp_path: P
 
 
 def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) -> None:
+    """Not at the time of the next recorded frame."""
     simulation = Simulation(dt=1 / 240)
     simulation.add(name="floor", collider={"plane": {}})
     ball(simulation, "ball", (0.0, 0.3, 0.0))
@@ -184,6 +189,7 @@ def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) ->
 
 
 def test_plots_hold_energy_overlap_and_counts(tmp_path: Path) -> None:
+    """In full precision."""
     from carom.systems.energy import total_energy
 
     simulation = falling_world()
@@ -197,6 +203,7 @@ def test_plots_hold_energy_overlap_and_counts(tmp_path: Path) -> None:
 
 
 def test_a_snapshot_in_the_recording_restores_the_run_bit_by_bit(tmp_path: Path) -> None:
+    """Into a world built anew from the same words."""
     simulation = falling_world()
     record(simulation, tmp_path / "run.rrd", 300)
     states = Recording(tmp_path / "run.rrd").saved_states()
@@ -209,6 +216,7 @@ def test_a_snapshot_in_the_recording_restores_the_run_bit_by_bit(tmp_path: Path)
 
 
 def test_equal_states_make_equal_snapshot_bytes() -> None:
+    """And reading them back loses nothing."""
     from carom.ecs import take_snapshot
 
     data = [bytes_from_snapshot(take_snapshot(falling_world().world)) for _ in range(2)]
@@ -218,6 +226,7 @@ def test_equal_states_make_equal_snapshot_bytes() -> None:
 
 
 def test_settings_versions_and_the_world_file_travel_along(tmp_path: Path) -> None:
+    """As text to read and as values."""
     record(falling_world(), tmp_path / "run.rrd", 4, title="falling", source="carom: 1\nname: falling\n")
     values = Recording(tmp_path / "run.rrd").static["/about"]
     assert values["world_file"] == ["carom: 1\nname: falling\n"]
@@ -228,6 +237,7 @@ def test_settings_versions_and_the_world_file_travel_along(tmp_path: Path) -> No
 
 
 def test_a_run_that_breaks_off_leaves_a_readable_recording(tmp_path: Path) -> None:
+    """Up to the last frame before the NaN."""
     simulation = falling_world()
 
     def poison(world: Any, rows: Any) -> Any:
@@ -260,6 +270,7 @@ while True:
 
 
 def test_a_kill_loses_at_most_the_last_second(tmp_path: Path) -> None:
+    """Of simulated or of real time; what is left is exact and opens with a warning."""
     path = tmp_path / "killed.rrd"
     code = KILLED.format(folder=str(Path(__file__).parent), path=str(path))
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:

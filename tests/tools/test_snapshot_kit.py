@@ -69,11 +69,13 @@ def golden(kit: pytest.Pytester, name: str) -> Path:
 
 
 def test_the_same_world_passes_and_leaves_no_pictures_behind(kit: pytest.Pytester) -> None:
+    """Only the goldens are there."""
     kit.runpytest_inprocess().assert_outcomes(passed=1)
     assert sorted(path.name for path in golden(kit, "").iterdir()) == ["falling.json", "falling.png"]
 
 
 def test_a_missing_golden_fails_with_the_command_that_accepts(pytester: pytest.Pytester) -> None:
+    """Goldens are never written by the way."""
     pytester.makepyfile(test_balls=WORLD)
     result = pytester.runpytest_inprocess()
     result.assert_outcomes(failed=1)
@@ -88,6 +90,7 @@ def test_a_missing_golden_fails_with_the_command_that_accepts(pytester: pytest.P
 
 
 def test_a_body_moved_by_one_percent_fails_as_physics(kit: pytest.Pytester) -> None:
+    """The state tells which entity and column; the pictures are left to look at."""
     edit(kit, "MOVED, LEFT, RIGHT = 1.0", "MOVED, LEFT, RIGHT = 1.01")
     result = kit.runpytest_inprocess()
     result.assert_outcomes(failed=1)
@@ -104,6 +107,7 @@ def test_a_body_moved_by_one_percent_fails_as_physics(kit: pytest.Pytester) -> N
 
 
 def test_swapped_colours_fail_as_rendering(kit: pytest.Pytester) -> None:
+    """Colours are no physics."""
     edit(
         kit,
         '("left", -0.5 * MOVED, LEFT), ("right", 0.5, RIGHT)',
@@ -117,6 +121,7 @@ def test_swapped_colours_fail_as_rendering(kit: pytest.Pytester) -> None:
 
 
 def test_elsewhere_poses_need_agree_only_within_the_tolerance(kit: pytest.Pytester) -> None:
+    """Elsewhere: on another processor, with another numpy or numba."""
     path = golden(kit, "falling.json")
     values = json.loads(path.read_text())
     values["machine"]["processor"] = "another"
@@ -130,6 +135,7 @@ def test_elsewhere_poses_need_agree_only_within_the_tolerance(kit: pytest.Pytest
 
 
 def test_an_accepted_change_passes_again(kit: pytest.Pytester) -> None:
+    """And accepting takes the pictures of the failure away."""
     edit(kit, "MOVED, LEFT, RIGHT = 1.0", "MOVED, LEFT, RIGHT = 1.01")
     kit.runpytest_inprocess().assert_outcomes(failed=1)
     kit.runpytest_inprocess("--carom-update").assert_outcomes(passed=1)
@@ -138,6 +144,7 @@ def test_an_accepted_change_passes_again(kit: pytest.Pytester) -> None:
 
 
 def test_the_plugin_imports_nothing_of_weight() -> None:
+    """It is loaded in every pytest run of the environment."""
     heavy = "{'numpy', 'numba', 'pyrender', 'rerun', 'fcl', 'OpenGL', 'PIL'}"
     code = f"import sys, carom.tools.snapshot_kit; print(sorted({heavy} & set(sys.modules)))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"

@@ -72,6 +72,7 @@ def screenshot(viewer: Any, frame: int, path: Path) -> npt.NDArray[np.uint8]:
 
 
 def test_the_viewer_shows_the_balls_where_they_are_at_each_time(tmp_path: Path, viewer: Any) -> None:
+    """Three balls of pure hue move to the right and nowhere else."""
     simulation = Simulation(dt=1 / 60, gravity=(0.0, 0.0, 0.0))
     for k, (name, color) in enumerate(COLORS.items()):
         simulation.add(
@@ -130,6 +131,7 @@ def hued_pixels(picture: npt.NDArray[np.uint8], name: str) -> npt.NDArray[np.int
 
 
 def test_the_balls_of_a_break_are_seen_where_the_simulation_has_them(tmp_path: Path, viewer: Any) -> None:
+    """The demo's recording, its balls told apart by colour, through the world's own camera."""
     path = tmp_path / "billiards.rrd"
     assert main(["run", "billiards", "--record", str(path), "--frames", "480"]) == 0
     recording = Recording(path)
