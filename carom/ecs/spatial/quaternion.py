@@ -34,9 +34,12 @@ def conjugate(q: npt.ArrayLike) -> Floats:
 
 def rotate(q: npt.ArrayLike, v: npt.ArrayLike) -> Floats:
     """Return vectors (..., 3) turned by rotations (..., 4): v + 2 u x (u x v + w v) with q = (u, w)."""
-    q, v = np.asarray(q, np.float64), np.asarray(v, np.float64)
-    u, w = q[..., :3], q[..., 3:]
-    return v + 2.0 * np.cross(u, np.cross(u, v) + w * v)
+    qx, qy, qz, qw = np.moveaxis(np.asarray(q, np.float64), -1, 0)
+    x, y, z = np.moveaxis(np.asarray(v, np.float64), -1, 0)
+    tx, ty, tz = 2.0 * (qy * z - qz * y), 2.0 * (qz * x - qx * z), 2.0 * (qx * y - qy * x)
+    return np.stack(
+        [x + qw * tx + qy * tz - qz * ty, y + qw * ty + qz * tx - qx * tz, z + qw * tz + qx * ty - qy * tx], axis=-1
+    )
 
 
 def matrix(q: npt.ArrayLike) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.manifolds import merge_triangles, reduce_points, under_plane
+from carom.systems.kernels.spatial import turn
 from carom.systems.shapes import BY_NUMBER, Shape
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.cylinder import Cylinder
@@ -29,6 +31,7 @@ Points = list[tuple[Floats, Floats, float]]  # (point, unit normal from the firs
 MOST_CONTACTS = 32  # points FCL may return for a pair; a mesh gives one per triangle
 SHALLOW = 0.1  # part of the smaller size up to which FCL's signed distance is safe to call (it may hang beyond)
 NEAR = 0.01  # m, growth of two boxes together when their manifold is measured; more only to see a fast one coming
+UNIT_ERROR = 1e-6  # how far the square of a normal's length may be from 1; FCL's zero normals of concentric bodies fail
 LEAST_PART = 1e-9  # m, distance of FCL's two nearest points below which they give no direction
 BALLS = (Sphere, Point)
 # Pairs whose collide() is exact, so that no second opinion is needed.
@@ -85,6 +88,12 @@ class Side:
         placed = fcl.Transform(wxyz_from_xyzw(turned), self.position)
         return fcl.CollisionObject(self.objects.geometry(self.shape, margin), placed)
 
+    def local(self, point: Floats) -> tuple[float, float, float]:
+        """Return a point of the world in the frame of the shape."""
+        x, y, z, w = self.rotation.tolist()
+        found: tuple[float, float, float] = turn(-x, -y, -z, w, *(point - self.position).tolist())
+        return found
+
     def width(self) -> float:
         """Return the smallest edge of the shape's bounds (m)."""
         bounds = self.shape.bounds()
@@ -116,12 +125,14 @@ def measure_by_fcl(world: World, pairs: Integers, reaches: Floats) -> Found:
 
 def corner_features(points: list[Floats], objects: FclObjects, world: World, row: int) -> list[int]:
     """Return a number per point: the octant of the first shape it lies in, the same while the pair moves little."""
+    if len(points) < 2:
+        return [0] * len(points)  # a lone point is the pair itself, however the bodies roll
     taken: dict[int, int] = {}
     features = []
     side = Side(objects, world, row)
     for point in points:
-        local = quaternion.rotate(quaternion.conjugate(side.rotation), point - side.position)
-        octant = int((local > 0.0) @ (1, 2, 4))
+        x, y, z = side.local(point)
+        octant = (x > 0.0) + 2 * (y > 0.0) + 4 * (z > 0.0)
         features.append(octant + 8 * taken.get(octant, 0))
         taken[octant] = taken.get(octant, 0) + 1
     return features
@@ -181,9 +192,9 @@ def _boxes(a: Side, b: Side, reach: float) -> Points:
 
 def _within(side: Side, place: Floats) -> Floats:
     """Return the point of a box nearest to ``place``, for points that growing moved off its faces."""
-    half = np.array(side.shape.bounds().half)
-    local = quaternion.rotate(quaternion.conjugate(side.rotation), place - side.position)
-    return side.position + quaternion.rotate(side.rotation, np.clip(local, -half, half))
+    held = [min(max(x, -edge), edge) for x, edge in zip(side.local(place), side.shape.bounds().half, strict=True)]
+    moved: Floats = side.position + np.array(turn(*side.rotation.tolist(), *held))
+    return moved
 
 
 def _apart(a: Side, b: Side, reach: float) -> Points:
@@ -237,6 +248,5 @@ def _shrunk(point: tuple[Floats, Floats, float], margin: float, grown_first: boo
 def _valid(point: tuple[Floats, Floats, float], other: Side) -> bool:
     """Tell whether a contact is finite, with a unit normal and a depth within the size of the body."""
     place, normal, depth = point
-    if not (np.isfinite(place).all() and np.isfinite(normal).all() and np.isfinite(depth)):
-        return False
-    return bool(abs((normal * normal).sum() - 1.0) < 1e-6)
+    x, y, z = normal.tolist()
+    return math.isfinite(sum(place.tolist()) + depth) and abs(x * x + y * y + z * z - 1.0) < UNIT_ERROR

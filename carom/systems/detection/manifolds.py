@@ -15,12 +15,10 @@ SAME_PLACE = 1e-3  # m
 
 def under_plane(corners: Floats, radius: float, normal: Floats, origin: Floats, reach: float) -> Points:
     """Return a point per corner ball (n, 3) nearer than ``reach`` to the half space under ``origin``."""
-    points = []
-    for corner in corners:
-        gap = float(((corner - origin) * normal).sum()) - radius
-        if gap < reach:
-            points.append((corner - normal * (radius + gap / 2.0), normal, -gap))
-    return points
+    away = corners - origin
+    gaps = away[:, 0] * normal[0] + away[:, 1] * normal[1] + away[:, 2] * normal[2] - radius
+    near = np.nonzero(gaps < reach)[0]
+    return [(corners[k] - normal * (radius + gaps[k] / 2.0), normal, -float(gaps[k])) for k in near]
 
 
 def reduce_points(points: Points) -> Points:
