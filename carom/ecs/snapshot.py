@@ -44,7 +44,10 @@ def saved_kinds(world: World) -> list[type[Record]]:
 
 def take_snapshot(world: World) -> Snapshot:
     """Copy all state of a world."""
-    tables = {}
+    tables: dict[type[Record], tuple[npt.NDArray[np.int64], Arrays]] = {}
+    for kind in world.tables:  # who has a component is state, also where its columns are not
+        if issubclass(kind, Component):
+            tables[kind] = (rows_of(world, kind), {})
     for kind in saved_kinds(world):
         rows = rows_of(world, kind)
         arrays = world.table(kind).arrays

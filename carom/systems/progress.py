@@ -10,11 +10,12 @@ from carom.systems.settings import Settings
 
 
 class Progress(Resource):
-    """Simulated time at the start of the substep, and what the step has left after it (s)."""
+    """Simulated time at the start of the substep, what the step has left after it (s), and its resting contacts."""
 
     clock: float = 0.0
     left: float = 0.0
     substep: int = 0
+    resting: int = 0
 
 
 @system(reads=(Settings,), writes=(Progress, Impact, Enter))

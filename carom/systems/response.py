@@ -14,7 +14,7 @@ from carom.ecs.relations.impact import Impact
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_pairs import FclObjects
-from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, fly
+from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, TABLE_FULL, fly
 from carom.systems.kernels.resting import bend_arcs, hold_contacts
 from carom.systems.kernels.settling import finish_drift
 from carom.systems.kernels.sorting import sort_contacts
@@ -23,14 +23,14 @@ from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 
 
-@system(reads=(RigidBody, Transform, Motion, Settings), writes=(Contact, Flight))
+@system(reads=(RigidBody, Transform, Motion, Settings), writes=(Contact, Flight, Progress))
 def sort_out_contacts(world: World, dt: float) -> None:
     """Say which contacts rest in this substep; their bodies count as touching."""
     contact = world[Contact]
     if not contact.count:
         return
     flight, motion = world[Flight], world[Motion]
-    sort_contacts(
+    world[Progress].resting = sort_contacts(
         contact.count, dt, world[Settings].response == "full", flight.center, world[Transform].rotation,
         motion.linear, motion.angular, flight.felt,
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
@@ -44,11 +44,11 @@ def sort_out_contacts(world: World, dt: float) -> None:
 def hold(world: World, dt: float) -> None:
     """Solve the resting contacts: they do not close, stick or slide within the cone, and resist rolling."""
     contact = world[Contact]
-    if not contact.count or not contact.resting[: contact.count].any():
+    if not contact.count or not world[Progress].resting:
         return
     flight, motion, body = world[Flight], world[Motion], world[RigidBody]
     pull = sqrt(sum(g * g for g in world[Settings].gravity))
-    hold_contacts(
+    blows = hold_contacts(
         contact.count, dt, pull, contact.body_a, contact.body_b, contact.normal, contact.depth,
         contact.offset_a, contact.offset_b, contact.kind, contact.resting,
         contact.friction, contact.restitution, contact.rolling, contact.spinning,
@@ -56,7 +56,8 @@ def hold(world: World, dt: float) -> None:
         flight.start_linear, flight.start_angular, motion.linear, motion.angular, contact.blow,
         contact.impulse, contact.friction_impulse, contact.warm_normal, contact.warm_friction, contact.warm_rolling,
     )  # fmt: skip
-    log_blows(world, dt)
+    if blows:
+        log_blows(world)
     if world[Settings].integrator == "verlet":
         bend_arcs(
             contact.count, dt, contact.body_a, contact.body_b, contact.normal, contact.kind, contact.resting,
@@ -65,12 +66,10 @@ def hold(world: World, dt: float) -> None:
         )  # fmt: skip
 
 
-def log_blows(world: World, dt: float) -> None:
+def log_blows(world: World) -> None:
     """Log an impact per pair that the resting stage made bounce: one row for all points of its manifold."""
     contact = world[Contact]
-    rows = np.nonzero((contact.blow[: contact.count] > 0.0) & (contact.warm_normal[: contact.count] > 0.0))[0]
-    if not len(rows):
-        return
+    rows = np.nonzero(contact.blow[: contact.count] > 0.0)[0]
     pairs = np.stack([contact.a[rows], contact.b[rows]], axis=1)
     for a, b in sorted(set(map(tuple, pairs.tolist()))):
         of_pair = rows[(pairs == (a, b)).all(axis=1)]
@@ -117,12 +116,14 @@ def _fly(world: World, at: float, h: float) -> tuple[float, int]:
         impact.friction_impulse,
     )  # fmt: skip
     world[Answered].impacts_cut += cut
-    world.resize(Impact, count + (1 if count == len(impact.time) else 0))
-    world.resize(Impact, count)
-    impact = world[Impact]
-    new = slice(logged, count)
-    pair = impact.a[new].copy()  # the kernel logs contact rows, which the next detection renumbers
-    impact.a[new], impact.b[new] = contact.a[pair], contact.b[pair]
+    if count > logged:
+        new = slice(logged, count)
+        pair = impact.a[new].copy()  # the kernel logs contact rows, which the next detection renumbers
+        impact.a[new], impact.b[new] = contact.a[pair], contact.b[pair]
+        world.resize(Impact, count)
+    if reason == TABLE_FULL:
+        world.resize(Impact, count + 1)  # makes room
+        world.resize(Impact, count)
     return now, reason
 
 

@@ -67,7 +67,16 @@ def load() -> Any:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # pyrender's dependencies use what their own dependencies will drop one day
         import pyrender
+    _know_references()
     return pyrender
+
+
+def _know_references() -> None:
+    """Teach PyOpenGL 3.1.0 the type of ``ctypes.byref``, whose module has another name since Python 3.13."""
+    from OpenGL.arrays.arraydatatype import ArrayDatatype
+    from OpenGL.arrays.ctypesparameters import CtypesParameterHandler
+
+    ArrayDatatype.getRegistry()[type(ctypes.byref(ctypes.c_int()))] = CtypesParameterHandler()
 
 
 def context(width: int, height: int) -> Any:

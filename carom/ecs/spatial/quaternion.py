@@ -13,17 +13,15 @@ IDENTITY: Floats = np.array([0.0, 0.0, 0.0, 1.0])
 
 def multiply(a: npt.ArrayLike, b: npt.ArrayLike) -> Floats:
     """Return the rotation b followed by a, shapes (..., 4)."""
-    ax, ay, az, aw = np.moveaxis(np.asarray(a, np.float64), -1, 0)
-    bx, by, bz, bw = np.moveaxis(np.asarray(b, np.float64), -1, 0)
-    return np.stack(
-        [
-            aw * bx + ax * bw + ay * bz - az * by,
-            aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw,
-            aw * bw - ax * bx - ay * by - az * bz,
-        ],
-        axis=-1,
-    )
+    a, b = np.asarray(a, np.float64), np.asarray(b, np.float64)
+    ax, ay, az, aw = a[..., 0], a[..., 1], a[..., 2], a[..., 3]
+    bx, by, bz, bw = b[..., 0], b[..., 1], b[..., 2], b[..., 3]
+    found = np.zeros(np.broadcast_shapes(a.shape, b.shape))
+    found[..., 0] = aw * bx + ax * bw + ay * bz - az * by
+    found[..., 1] = aw * by - ax * bz + ay * bw + az * bx
+    found[..., 2] = aw * bz + ax * by - ay * bx + az * bw
+    found[..., 3] = aw * bw - ax * bx - ay * by - az * bz
+    return found
 
 
 def conjugate(q: npt.ArrayLike) -> Floats:
@@ -34,12 +32,15 @@ def conjugate(q: npt.ArrayLike) -> Floats:
 
 def rotate(q: npt.ArrayLike, v: npt.ArrayLike) -> Floats:
     """Return vectors (..., 3) turned by rotations (..., 4): v + 2 u x (u x v + w v) with q = (u, w)."""
-    qx, qy, qz, qw = np.moveaxis(np.asarray(q, np.float64), -1, 0)
-    x, y, z = np.moveaxis(np.asarray(v, np.float64), -1, 0)
+    q, v = np.asarray(q, np.float64), np.asarray(v, np.float64)
+    qx, qy, qz, qw = q[..., 0], q[..., 1], q[..., 2], q[..., 3]
+    x, y, z = v[..., 0], v[..., 1], v[..., 2]
     tx, ty, tz = 2.0 * (qy * z - qz * y), 2.0 * (qz * x - qx * z), 2.0 * (qx * y - qy * x)
-    return np.stack(
-        [x + qw * tx + qy * tz - qz * ty, y + qw * ty + qz * tx - qx * tz, z + qw * tz + qx * ty - qy * tx], axis=-1
-    )
+    found = np.zeros((*np.broadcast_shapes(q.shape[:-1], v.shape[:-1]), 3))
+    found[..., 0] = x + qw * tx + qy * tz - qz * ty
+    found[..., 1] = y + qw * ty + qz * tx - qx * tz
+    found[..., 2] = z + qw * tz + qx * ty - qy * tx
+    return found
 
 
 def matrix(q: npt.ArrayLike) -> Floats:

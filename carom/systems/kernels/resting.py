@@ -26,7 +26,7 @@ def hold_contacts(
 
     Projected Gauss-Seidel over accumulated impulses with warm starts (Catto, Iterative Dynamics with Temporal
     Coherence, 2005); friction is a disc, not a pyramid. Shapes without exact impacts bounce here: what closes faster
-    than the rest speed at the start of the substep is given back times the restitution.
+    than the rest speed at the start of the substep is given back times the restitution. Returns how many did.
     """
     members = np.nonzero(resting[:count])[0]
     n = len(members)
@@ -164,11 +164,17 @@ def hold_contacts(
                 turn_at(b, 1.0, jx, jy, jz, angular, inverse_inertia, principal, rotation)
         if change <= SOLVED:
             break
+    blows = 0
     for m in range(n):
         c = members[m]
         impulse[c] += warm_normal[c]
         for k in range(3):
             friction_impulse[c, k] += warm_friction[c, k]
+        if warm_normal[c] == 0.0:
+            blow[c] = 0.0
+        elif blow[c] > 0.0:
+            blows += 1
+    return blows
 
 
 @kernel("linear", "angular", "acceleration", "angular_acceleration", "touching")

@@ -18,11 +18,12 @@ def sort_contacts(
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
     normal, depth, point, offset_a, offset_b, resting, touching, warm_normal, warm_friction, warm_rolling,
 ):  # fmt: skip
-    """Say which contacts rest, from where their bodies are at the start of the substep, and mark those bodies.
+    """Say which contacts rest at the start of the substep, mark their bodies, and return how many they are.
 
     A ball's pair is measured anew. It rests when it touches, closes no faster than the rest speed and would not be
     clear of the other at the end of the substep. Any other shape's contact takes part once it would close by then.
     """
+    number = 0
     for c in range(count):
         if kind[c] >= 0:
             i, o = ball[c], other[c]
@@ -60,6 +61,7 @@ def sort_contacts(
             rests = (gap <= SLOP and after <= SLOP) or after <= 0.0
         resting[c] = rests and resting_stage
         if resting[c]:
+            number += 1
             if a >= 0:
                 touching[a] = True
             if b >= 0:
@@ -69,3 +71,4 @@ def sort_contacts(
             for k in range(3):
                 warm_friction[c, k] = 0.0
                 warm_rolling[c, k] = 0.0
+    return number

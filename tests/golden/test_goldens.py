@@ -1,0 +1,18 @@
+"""Goldens of chaotic library worlds: what the same file leads to, to the last bit, and how it looks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from carom.tools.filming import shot_of
+from carom.worlds import load_world
+
+
+@pytest.mark.parametrize(("world", "frames"), [("billiards", 240), ("mirror_room", 120), ("cannon", 240)])
+def test_a_world_leads_where_it_led_before(world: str, frames: int, carom_snapshot: Any) -> None:
+    """State and picture after some frames are those of the golden; an update needs a line in the changelog."""
+    loaded = load_world(world)
+    loaded.simulation.step(frames)
+    carom_snapshot.check(loaded.simulation, world, camera=shot_of(loaded).camera)
