@@ -35,7 +35,7 @@ class Schedule:
         return ((phase, system) for phase in self.phases for system in phase.systems)
 
     def run(self, world: World, dt: float, *, checked: bool = False, after: AfterSystem | None = None) -> None:
-        """Run one frame of ``dt`` seconds; ``checked`` enforces declared access, ``after`` hears of every system run."""
+        """Run one frame of ``dt`` seconds; ``checked`` enforces declared access, ``after`` hears of each system run."""
         with world.faces(None):
             for phase in self.phases:
                 repeats = phase.repeat(world) if phase.repeat else 1

@@ -12,7 +12,7 @@ from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Component, Record, Relation, Resource
 from carom.ecs.components.name import Name
 from carom.ecs.entity import INDEX_BITS, Entity, EntityView, generation_of, index_of, pack
-from carom.ecs.errors import AccessError, EntityError
+from carom.ecs.errors import AccessError, DeclarationError, EntityError
 from carom.ecs.query import Rows, find_rows
 from carom.ecs.table import Table
 
@@ -110,10 +110,14 @@ class World:
     def spawn_many(self, count: int, *bundles: Component, names: list[str] | None = None) -> Integers:
         """Make ``count`` entities; a bundle's arrays hold one value for all, or one per entity along the first axis."""
         rows = self._reserve(count)
-        for bundle in bundles:
-            self.table(type(bundle)).fill(rows, bundle)
-        if names is not None:
-            self.table(Name).fill(rows, Name(text=names))
+        try:
+            for bundle in bundles:
+                self.table(type(bundle)).fill(rows, bundle)
+            if names is not None:
+                self.table(Name).fill(rows, Name(text=names))
+        except DeclarationError:
+            self._release(rows)
+            raise
         self.alive[rows] = True
         self.structure += 1
         return self.entities(rows)
@@ -135,17 +139,22 @@ class World:
 
     def despawn(self, *entities: int) -> None:
         """Remove entities with all their components; their handles are stale from now on."""
-        for entity in entities:
-            row = self.row(entity)
-            for table in self.tables.values():
-                if issubclass(table.kind, Component) and table.present[row]:
-                    table.clear(row)
+        rows = {entity: self.row(entity) for entity in entities}
+        self._release(rows.values())
+        for entity, row in rows.items():
             self.alive[row] = False
             self.died_at[entity] = self.frame
             self.generations[row] += 1
-            self._free.append(row)
-        self._free.sort(reverse=True)
         self.structure += 1
+
+    def _release(self, rows: Iterable[int]) -> None:
+        """Clear rows of all components and keep them for the next entities, lowest first."""
+        for row in rows:
+            for table in self.tables.values():
+                if issubclass(table.kind, Component) and table.present[row]:
+                    table.clear(row)
+            self._free.append(int(row))
+        self._free.sort(reverse=True)
 
     def attach(self, entity: int, *bundles: Component) -> None:
         """Give a living entity further components."""

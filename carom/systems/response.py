@@ -15,7 +15,7 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, TABLE_FULL, fly
-from carom.systems.kernels.resting import bend_arcs, hold_contacts
+from carom.systems.kernels.resting import hold_contacts
 from carom.systems.kernels.settling import finish_drift
 from carom.systems.kernels.sorting import sort_contacts
 from carom.systems.progress import Progress
@@ -49,21 +49,16 @@ def hold(world: World, dt: float) -> None:
     flight, motion, body = world[Flight], world[Motion], world[RigidBody]
     pull = sqrt(sum(g * g for g in world[Settings].gravity))
     blows = hold_contacts(
-        contact.count, dt, pull, contact.body_a, contact.body_b, contact.normal, contact.depth,
+        contact.count, dt, pull, world[Settings].integrator == "verlet", contact.body_a, contact.body_b, contact.normal, contact.depth,
         contact.offset_a, contact.offset_b, contact.kind, contact.resting,
         contact.friction, contact.restitution, contact.rolling, contact.spinning,
         body.inverse_mass, body.inverse_inertia, body.principal_axes, world[Transform].rotation,
-        flight.start_linear, flight.start_angular, motion.linear, motion.angular, contact.blow,
+        flight.start_linear, flight.start_angular, motion.linear, motion.angular,
+        flight.acceleration, flight.angular_acceleration, flight.touching, contact.blow,
         contact.impulse, contact.friction_impulse, contact.warm_normal, contact.warm_friction, contact.warm_rolling,
     )  # fmt: skip
     if blows:
         log_blows(world)
-    if world[Settings].integrator == "verlet":
-        bend_arcs(
-            contact.count, dt, contact.body_a, contact.body_b, contact.normal, contact.kind, contact.resting,
-            flight.touching, flight.start_linear, flight.start_angular,
-            motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
-        )  # fmt: skip
 
 
 def log_blows(world: World) -> None:

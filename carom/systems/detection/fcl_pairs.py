@@ -11,8 +11,8 @@ from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.spatial import quaternion
+from carom.ecs.spatial.scalars import turn
 from carom.systems.detection.manifolds import merge_triangles, reduce_points, under_plane
-from carom.systems.kernels.spatial import turn
 from carom.systems.shapes import BY_NUMBER, Shape
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.cylinder import Cylinder

@@ -9,24 +9,27 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SOLVED, SWEEPS
 from carom.systems.kernels.bodies import push_at, surface_velocity, turn_at, yielding
-from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.spatial import cross
 
 
 @kernel(
-    "linear", "angular", "blow", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling",
+    "linear", "angular", "acceleration", "angular_acceleration", "touching",
+    "blow", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling",
 )  # fmt: skip
 def hold_contacts(
-    count, h, rest_pull, body_a, body_b, normal, depth, offset_a, offset_b, kind, resting,
+    count, h, rest_pull, bends, body_a, body_b, normal, depth, offset_a, offset_b, kind, resting,
     friction, restitution, rolling, spinning,
     inverse_mass, inverse_inertia, principal, rotation, start_linear, start_angular,
-    linear, angular, blow, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling,
+    linear, angular, acceleration, angular_acceleration, touching,
+    blow, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling,
 ):  # fmt: skip
     """Find impulses by which resting contacts do not close, stick or slide within the cone, and roll with resistance.
 
     Projected Gauss-Seidel over accumulated impulses with warm starts (Catto, Iterative Dynamics with Temporal
     Coherence, 2005); friction is a disc, not a pyramid. Shapes without exact impacts bounce here: what closes faster
-    than the rest speed at the start of the substep is given back times the restitution. Returns how many did.
+    than the rest speed at the start of the substep is given back times the restitution. Returns how many did. With
+    ``bends`` the arcs of balls follow (`bend_arcs`).
     """
     members = np.nonzero(resting[:count])[0]
     n = len(members)
@@ -174,10 +177,15 @@ def hold_contacts(
             blow[c] = 0.0
         elif blow[c] > 0.0:
             blows += 1
+    if bends:
+        bend_arcs(
+            count, h, body_a, body_b, normal, kind, resting, touching, start_linear, start_angular,
+            linear, angular, acceleration, angular_acceleration,
+        )  # fmt: skip
     return blows
 
 
-@kernel("linear", "angular", "acceleration", "angular_acceleration", "touching")
+@inlined
 def bend_arcs(
     count, h, body_a, body_b, normal, kind, resting, touching, start_linear, start_angular,
     linear, angular, acceleration, angular_acceleration,

@@ -4,40 +4,15 @@ from __future__ import annotations
 
 from math import sqrt
 
-from carom.ecs.spatial import trigonometry
+from carom.ecs.spatial import scalars, trigonometry
 from carom.systems.constants import SMALL_ANGLE
 from carom.systems.kernels.kernel import inlined
 
-# ruff: noqa: D103 - one-line formulas under their usual names
-
 sine_cosine = inlined(trigonometry.sine_cosine)
 exponential = inlined(trigonometry.exponential)
-
-
-@inlined
-def cross(ax, ay, az, bx, by, bz):  # type: ignore[no-untyped-def]
-    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
-
-
-@inlined
-def turn(qx, qy, qz, qw, x, y, z):  # type: ignore[no-untyped-def]
-    """Return the vector turned by the quaternion."""
-    tx, ty, tz = 2.0 * (qy * z - qz * y), 2.0 * (qz * x - qx * z), 2.0 * (qx * y - qy * x)
-    return (
-        x + qw * tx + qy * tz - qz * ty,
-        y + qw * ty + qz * tx - qx * tz,
-        z + qw * tz + qx * ty - qy * tx,
-    )
-
-
-@inlined
-def product(ax, ay, az, aw, bx, by, bz, bw):  # type: ignore[no-untyped-def]
-    return (
-        aw * bx + ax * bw + ay * bz - az * by,
-        aw * by - ax * bz + ay * bw + az * bx,
-        aw * bz + ax * by - ay * bx + az * bw,
-        aw * bw - ax * bx - ay * by - az * bz,
-    )
+cross = inlined(scalars.cross)
+turn = inlined(scalars.turn)
+product = inlined(scalars.product)
 
 
 @inlined

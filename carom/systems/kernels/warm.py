@@ -6,7 +6,7 @@ import multiprocessing
 from concurrent.futures import ProcessPoolExecutor
 
 #: Systems whose kernels take about half of the time to compile; the other process compiles all others.
-HEAVY = ("hold", "drift", "settle")
+HEAVY = ("hold", "drift")
 
 
 def warm() -> None:
@@ -18,6 +18,7 @@ def warm() -> None:
 def compile_systems(heavy: bool) -> None:
     """Run the heavy systems of the step, or all others, once on a world that makes each call its kernels."""
     from carom.ecs.relations.contact import Contact
+    from carom.systems.progress import Progress
     from carom.systems.simulation import Simulation
 
     simulation = Simulation(checked=False)
@@ -32,6 +33,7 @@ def compile_systems(heavy: bool) -> None:
         if heavy:  # a contact to hold, which detection would have found
             world.resize(Contact, 1)
             world[Contact].resting[0], world[Contact].body_b[0] = True, 1
+            world[Progress].resting = 1
         for _, system in simulation.schedule:
             if (system.name in HEAVY) is heavy:
                 system(world, simulation.settings.dt)
