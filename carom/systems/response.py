@@ -49,7 +49,8 @@ def hold(world: World, dt: float) -> None:
     flight, motion, body = world[Flight], world[Motion], world[RigidBody]
     pull = sqrt(sum(g * g for g in world[Settings].gravity))
     blows = hold_contacts(
-        contact.count, dt, pull, world[Settings].integrator == "verlet", contact.body_a, contact.body_b, contact.normal, contact.depth,
+        contact.count, dt, pull, world[Settings].integrator == "verlet",
+        contact.body_a, contact.body_b, contact.normal, contact.depth,
         contact.offset_a, contact.offset_b, contact.kind, contact.resting,
         contact.friction, contact.restitution, contact.rolling, contact.spinning,
         body.inverse_mass, body.inverse_inertia, body.principal_axes, world[Transform].rotation,

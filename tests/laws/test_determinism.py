@@ -1,0 +1,80 @@
+"""The same world leads to the same bits: in another process, on a processor with fewer instructions, without the JIT."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FRAMES = 240
+HASHES = """
+import sys
+from carom.ecs import state_hash
+from carom.systems.simulation import Simulation
+from carom.worlds import load_world
+
+def stack():
+    simulation = Simulation()
+    simulation.add(collider={"plane": {}})
+    for k in range(3):
+        box = {"box": {"size": (1.0, 1.0, 1.0)}}
+        simulation.add(collider=box, body={}, transform={"position": (0.1 * k, 0.55 + 1.1 * k, 0.0)})
+    return simulation
+
+frames, worlds = int(sys.argv[1]), sys.argv[2:]
+for name in worlds:
+    simulation = stack() if name == "stack" else load_world(name).simulation
+    for _ in range(frames):
+        simulation.step()
+        print(name, simulation.frame, state_hash(simulation.world))
+"""
+
+
+def hashes(frames: int, *worlds: str, **environment: str) -> list[str]:
+    """Return a line per frame with the state hash, from a process of its own."""
+    command = [sys.executable, "-c", HASHES, str(frames), *worlds]
+    run = subprocess.run(
+        command, env=os.environ | environment, capture_output=True, text=True, check=False, timeout=500
+    )
+    assert run.returncode == 0, run.stderr
+    return run.stdout.splitlines()
+
+
+def wide_features() -> str:
+    """Return the features of this processor, beyond numpy's baseline, that use 256 or 512 bits or fuse operations."""
+    from numpy._core._multiarray_umath import __cpu_baseline__, __cpu_features__
+
+    wide = [name for name, found in __cpu_features__.items() if found and ("AVX" in name or "FMA" in name)]
+    return " ".join(name for name in wide if name not in __cpu_baseline__)
+
+
+@pytest.fixture(scope="module")
+def here() -> list[str]:
+    """Return the hashes of a process with all that this machine has."""
+    return hashes(FRAMES, "billiards", "stack", "cannon")
+
+
+def test_another_process_gives_the_same_bits(here: list[str]) -> None:
+    """Two processes agree in every frame."""
+    assert hashes(FRAMES, "billiards", "stack", "cannon") == here
+
+
+def test_a_processor_without_wide_vectors_gives_the_same_bits(here: list[str], tmp_path: Path) -> None:
+    """AVX, AVX2, AVX-512 and fused operations turned off for NumPy and Numba change no bit of any frame."""
+    assert hashes(
+        FRAMES, "billiards", "stack", "cannon",
+        NPY_DISABLE_CPU_FEATURES=wide_features(),
+        NUMBA_CPU_NAME="generic",
+        NUMBA_CPU_FEATURES="",
+        NUMBA_CACHE_DIR=str(tmp_path),
+    ) == here  # fmt: skip
+
+
+def test_kernels_do_the_same_without_the_jit(here: list[str]) -> None:
+    """Every kernel runs as plain Python under NUMBA_DISABLE_JIT=1 and gives the same bits."""
+    frames = 3
+    plain = hashes(frames, "billiards", "stack", "cannon", NUMBA_DISABLE_JIT="1")
+    assert plain == [line for line in here if int(line.split()[1]) <= frames]
