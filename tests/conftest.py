@@ -1,0 +1,21 @@
+"""Every test runs in checked mode: systems that touch what they do not declare fail."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+CHECK = "CAROM_CHECK"
+# Long runs of systems that other tests check; guarding every call would double their time.
+UNCHECKED = ("test_mirror_room", "test_rolling")
+
+# Simulations read it when they are made, in this process and in those that tests start.
+os.environ.setdefault(CHECK, "1")
+
+
+@pytest.fixture(autouse=True)
+def checked_mode(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Guard what systems touch, but for the heavy laws."""
+    if request.path.stem in UNCHECKED:
+        monkeypatch.delenv(CHECK)
