@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from carom.ecs.errors import DeclarationError
 from carom.systems.shapes.convex import Convex
-from carom.systems.shapes.geometry import Geometry, hull_of, load_geometry
+from carom.systems.shapes.geometry import Geometry, hull_of, load_geometry, read_triangles
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.shape import Shape
 from carom.worlds.errors import WordError
@@ -66,12 +66,4 @@ class GeometryReader:
 
 def hull_of_file(path: Path, scale: float = 1.0) -> Geometry:
     """Return the hull of the vertices of a mesh file, which may be open; raise DeclarationError."""
-    import trimesh
-
-    if not path.is_file():
-        raise DeclarationError(f"mesh file {path} does not exist")
-    try:
-        mesh = trimesh.load_mesh(path)
-    except Exception as fault:
-        raise DeclarationError(f"mesh file {path} cannot be read: {fault}") from None
-    return hull_of(np.array(mesh.vertices) * scale, str(path))
+    return hull_of(np.array(read_triangles(path).vertices) * scale, str(path))

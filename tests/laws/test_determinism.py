@@ -1,4 +1,4 @@
-"""The same world leads to the same bits: in another process, on a processor with fewer instructions, without the JIT."""
+"""The same world leads to the same bits: in another process, on a simpler processor, and without the JIT."""
 
 from __future__ import annotations
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -65,19 +66,24 @@ def hull_of(points: Floats, source: str = "points") -> Geometry:
     return Geometry(np.array(hull.vertices, np.float64), np.array(hull.faces, np.int64), source)
 
 
-def load_geometry(path: Path, scale: float = 1.0) -> Geometry:
-    """Read a closed mesh from OBJ, STL, PLY or glTF; ``scale`` turns its unit into m.
-
-    Raises DeclarationError when the file is missing or unreadable, open, or inverted.
-    """
+def read_triangles(path: Path) -> Any:
+    """Return the trimesh of an OBJ, STL, PLY or glTF file; raise DeclarationError when it is missing or unreadable."""
     import trimesh
 
     if not path.is_file():
         raise DeclarationError(f"mesh file {path} does not exist")
     try:
-        mesh = trimesh.load_mesh(path)
+        return trimesh.load_mesh(path)
     except Exception as fault:
         raise DeclarationError(f"mesh file {path} cannot be read: {fault}") from None
+
+
+def load_geometry(path: Path, scale: float = 1.0) -> Geometry:
+    """Read a closed mesh from OBJ, STL, PLY or glTF; ``scale`` turns its unit into m.
+
+    Raises DeclarationError when the file is missing or unreadable, open, or inverted.
+    """
+    mesh = read_triangles(path)
     if not mesh.is_watertight:
         raise DeclarationError(
             f"mesh file {path} is open: {len(mesh.faces)} faces do not close a volume; close its holes, or use convex"

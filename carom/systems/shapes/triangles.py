@@ -1,0 +1,38 @@
+"""Shapes that are made of triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+from carom.ecs.column import Floats
+from carom.systems.shapes.geometry import Geometry, solid_properties
+from carom.systems.shapes.shape import Bounds, MassProperties, Shape, Surface
+
+
+@dataclass(frozen=True)
+class Triangles(Shape):
+    """A closed surface of triangles; its geometry holds everything."""
+
+    geometry: Geometry
+
+    def packed(self) -> tuple[float, ...]:
+        """Return zeros: there are no numbers beside the geometry."""
+        return (0.0,) * 4
+
+    @classmethod
+    def from_size(cls, size: Floats, geometry: Any = None) -> Self:
+        """Return the shape of ``geometry``."""
+        return cls(geometry)
+
+    def mass_properties(self) -> MassProperties:
+        """Return the integrals over the enclosed solid, by trimesh."""
+        return solid_properties(self.geometry)
+
+    def bounds(self) -> Bounds:
+        """Return the box around the vertices."""
+        return self.geometry.bounds()
+
+    def surface(self) -> Surface:
+        """Return the triangles."""
+        return Surface(self.geometry.vertices, self.geometry.faces, False)
