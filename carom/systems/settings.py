@@ -55,12 +55,15 @@ class Random(Resource):
         self.generator = np.random.Generator(np.random.PCG64(seed))
 
     def state(self) -> bytes:
-        """Return the generator's position."""
-        inner: dict[str, int] = self.generator.bit_generator.state["state"]
-        return inner["state"].to_bytes(16, "big") + inner["inc"].to_bytes(16, "big")
+        """Return the generator's position, and the half of a draw that a 32-bit number left over, if any."""
+        whole = self.generator.bit_generator.state
+        position: dict[str, int] = whole["state"]
+        left = whole["uinteger"].to_bytes(4, "big") if whole["has_uint32"] else b""
+        return position["state"].to_bytes(16, "big") + position["inc"].to_bytes(16, "big") + left
 
     def restore(self, state: bytes) -> None:
         """Set the generator to a saved position."""
         whole = dict(self.generator.bit_generator.state)
-        whole["state"] = {"state": int.from_bytes(state[:16], "big"), "inc": int.from_bytes(state[16:], "big")}
+        whole["state"] = {"state": int.from_bytes(state[:16], "big"), "inc": int.from_bytes(state[16:32], "big")}
+        whole["has_uint32"], whole["uinteger"] = int(len(state) > 32), int.from_bytes(state[32:], "big")
         self.generator.bit_generator.state = whole
