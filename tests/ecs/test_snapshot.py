@@ -1,0 +1,181 @@
+"""A snapshot holds all state: what follows from it is the same to the last bit, and its hash tells states apart."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+from carom.ecs import (
+    EntityError,
+    Material,
+    Motion,
+    SnapshotError,
+    Transform,
+    World,
+    restore_snapshot,
+    state_hash,
+    take_snapshot,
+)
+from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.enter import Inside
+from carom.ecs.snapshot import SAVED, saved_kinds
+from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.settings import Random
+from carom.systems.simulation import Simulation
+
+
+def bouncing_and_resting(**settings: Any) -> Simulation:
+    """Return balls that bounce among boxes that come to rest, with a sensor and drag: much touches at any time."""
+    simulation = Simulation(dt=1 / 120, seed=3, **settings)
+    simulation.add(collider={"plane": {}}, name="floor")
+    for k in range(3):
+        place = {"position": (0.1 * k, 0.5 + 1.01 * k, 0.0)}
+        simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={}, transform=place, name=f"box{k}")
+    for k in range(8):
+        simulation.add(
+            collider={"sphere": {"radius": 0.2}},
+            body={"mass": 1.0},
+            material={"restitution": 0.7, "rolling_friction": 0.01},
+            transform={"position": (0.9 + 0.41 * (k % 4), 0.3 + 0.5 * (k // 4), 0.05 * k)},
+            motion={"linear": (-2.0, 0.0, 0.1 * k)},
+            name=f"ball{k}",
+        )
+    trap = {"box": {"size": (1.0, 1.0, 1.0)}, "sensor": True}
+    simulation.add(collider=trap, transform={"position": (1.5, 0.5, 0.0)}, name="trap")
+    simulation.force("linear_drag", coefficient=0.01)
+    return simulation
+
+
+def hashes(simulation: Simulation, frames: int) -> list[str]:
+    """Return the state hash after each of the next frames."""
+    found = []
+    for _ in range(frames):
+        simulation.step()
+        found.append(state_hash(simulation.world))
+    return found
+
+
+@pytest.mark.parametrize("collision", ["auto", "fcl"])
+@pytest.mark.parametrize("frame", [1, 20, 60])
+def test_a_restored_snapshot_has_the_same_future(frame: int, collision: str) -> None:
+    """Balls bounce, boxes rest: warm starts and manifolds are in the snapshot, so not a bit differs afterwards."""
+    simulation = bouncing_and_resting(collision=collision)
+    simulation.step(frame)
+    assert simulation.world.count(Contact) >= 8
+    snapshot, then = take_snapshot(simulation.world), state_hash(simulation.world)
+    expected = hashes(simulation, 30)
+    restore_snapshot(simulation.world, snapshot)
+    assert simulation.frame == frame
+    assert state_hash(simulation.world) == then
+    assert hashes(simulation, 30) == expected
+    elsewhere = bouncing_and_resting(collision=collision)
+    elsewhere.step(5)
+    restore_snapshot(elsewhere.world, snapshot)
+    assert hashes(elsewhere, 30) == expected
+
+
+def test_caches_can_be_dropped_at_any_time() -> None:
+    """FCL's objects, queries and derived columns leave no trace in what follows, nor in the hash."""
+    kept, dropping = bouncing_and_resting(), bouncing_and_resting()
+    for _ in range(30):
+        before = state_hash(dropping.world)
+        dropping.world.add(FclObjects())
+        dropping.world._queries.clear()
+        for kind, table in dropping.world.tables.items():
+            for name, column in kind.columns.items():
+                if column.role not in SAVED:
+                    table.arrays[name][:] = -77 if column.dtype.kind in "if" else 0
+        assert state_hash(dropping.world) == before
+        dropping.step()
+        kept.step()
+        assert state_hash(dropping.world) == state_hash(kept.world)
+
+
+def test_who_came_and_went_is_undone() -> None:
+    """Restoring brings back the despawned, removes the new, and gives rows out in the same order as before."""
+    simulation = bouncing_and_resting()
+    world = simulation.world
+    simulation.step(10)
+    world.despawn(world.find("ball3"), world.find("ball1"))
+    snapshot = take_snapshot(world)
+    ball, gone = world.find("ball0"), world.find("ball5")
+    words = {"collider": {"sphere": {"radius": 0.1}}, "body": {}, "transform": {"position": (5.0, 1.0, 0.0)}}
+    first = [simulation.add(**words), simulation.add(**words), simulation.add(**words)]
+    expected = hashes(simulation, 5)
+    world.spawn_many(100, Transform())
+    world.despawn(gone)
+    simulation.step(5)
+    restore_snapshot(world, snapshot)
+    assert world.row(gone) == world.row(world.find("ball5"))
+    assert world.find("ball0") == ball
+    assert world.count(Transform) == 11
+    for entity in first:
+        with pytest.raises(EntityError):
+            world.row(entity)
+    assert [simulation.add(**words), simulation.add(**words), simulation.add(**words)] == first
+    assert hashes(simulation, 5) == expected
+
+
+def test_the_random_generator_goes_on_where_it_was() -> None:
+    """Its position is state, to the half of a draw that 32-bit numbers leave over."""
+    simulation = Simulation(seed=5)
+    generator = simulation.world[Random].generator
+    generator.normal(size=3)
+    generator.integers(0, 100, dtype=np.uint32)
+    snapshot = take_snapshot(simulation.world)
+    expected = [*generator.integers(0, 10**9, 3, dtype=np.uint32).tolist(), *generator.normal(size=3).tolist()]
+    other = Simulation(seed=6)
+    for world in (simulation.world, other.world):
+        restore_snapshot(world, snapshot)
+        drawn = world[Random].generator
+        assert [*drawn.integers(0, 10**9, 3, dtype=np.uint32).tolist(), *drawn.normal(size=3).tolist()] == expected
+
+
+def test_a_snapshot_of_another_kind_of_world_is_refused() -> None:
+    """A resource that saved state must be there to take it back."""
+    snapshot = take_snapshot(Simulation().world)
+    message = "the snapshot holds Random, which this world does not have"
+    with pytest.raises(SnapshotError, match=f"^{re.escape(message)}$"):
+        restore_snapshot(World(), snapshot)
+
+
+def columns_of(simulation: Simulation) -> list[tuple[Any, str]]:
+    """Return every saved column of a world that has rows."""
+    world = simulation.world
+    kinds = [kind for kind in saved_kinds(world) if world.count(kind)]
+    return [(k, name) for k in kinds for name, column in k.columns.items() if column.role in SAVED]
+
+
+def test_the_hash_changes_with_every_state_column() -> None:
+    """One bit of one row of any saved column makes another hash, and undoing it the old one."""
+    simulation = bouncing_and_resting()
+    simulation.step(60)
+    columns = columns_of(simulation)
+    assert {kind for kind, _ in columns} >= {Transform, Motion, Material, Contact, Inside}
+    before = state_hash(simulation.world)
+    for kind, name in columns:
+        array = simulation.world.table(kind).arrays[name]
+        row = 0 if kind in (Contact, Inside) else int(simulation.world.row_numbers(kind)[0])
+        raw = array[row : row + 1].view(np.uint8)
+        raw.flat[0] ^= 1
+        assert state_hash(simulation.world) != before, f"{kind.__name__}.{name}"
+        raw.flat[0] ^= 1
+        assert state_hash(simulation.world) == before
+
+
+def test_the_hash_changes_with_who_has_what() -> None:
+    """A component more, an entity more or the draw of a number make another hash."""
+    found = {state_hash(bouncing_and_resting().world)}
+    for change in (
+        lambda s: s.world.attach(s.world.find("floor"), Motion()),
+        lambda s: s.world.spawn(Transform()),
+        lambda s: s.world.despawn(s.world.find("ball7")),
+        lambda s: s.world[Random].generator.normal(),
+    ):
+        simulation = bouncing_and_resting()
+        change(simulation)
+        found.add(state_hash(simulation.world))
+    assert len(found) == 5
