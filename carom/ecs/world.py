@@ -258,6 +258,8 @@ class World:
 
     def resize(self, kind: type[Relation], count: int) -> None:
         """Set the row count of a relation; only systems that write it may."""
+        if kind in self.tables and self.count(kind) == count:
+            return
         if self._current is not self._live and self._current.get(kind) is not self.table(kind).live:
             raise AccessError(f"only a system that writes {kind.__name__} may resize it")
         self.table(kind).resize(count)

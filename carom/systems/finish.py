@@ -6,14 +6,14 @@ import numpy as np
 
 from carom.ecs import ExternalForce, Motion, NonFiniteError, RigidBody, Transform, World, system
 from carom.systems.kernels.flight import first_not_finite
+from carom.systems.kernels.forces import clear_external
 
 
 @system(writes=(ExternalForce,))
 def clear_inputs(world: World, dt: float) -> None:
     """Clear external forces, which hold for one step."""
-    rows = world.rows(ExternalForce)
-    world[ExternalForce].force[rows] = 0.0
-    world[ExternalForce].torque[rows] = 0.0
+    external = world[ExternalForce]
+    clear_external(world.row_numbers(ExternalForce), external.force, external.torque)
 
 
 @system(reads=(Transform, Motion))

@@ -8,7 +8,6 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field, model_validator
 
-from carom.ecs.errors import DeclarationError
 from carom.systems.shapes.convex import Convex
 from carom.systems.shapes.geometry import Geometry, hull_of, load_geometry, read_triangles
 from carom.systems.shapes.mesh import Mesh

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import MISSING, dataclass, field
 from typing import Any, ClassVar, TypeVar
 
@@ -49,11 +49,13 @@ class Forces(Resource):
         """Let a law act from now on."""
         self.entries.setdefault(type(law), []).append((law, entities))
 
-    def acting(self, kind: type[L], world: World) -> Iterator[tuple[L, Integers]]:
-        """Yield each law of a kind with the rows of the living bodies it acts on."""
-        for law, entities in self.entries.get(kind, ()):
-            bodies = world.row_numbers(RigidBody, Motion)
-            yield law, bodies if entities is None else _rows(world, entities)
+    def acting(self, kind: type[L], world: World) -> Sequence[tuple[L, Integers]]:
+        """Return each law of a kind with the rows of the living bodies it acts on."""
+        entries = self.entries.get(kind)
+        if entries is None:  # most laws of most worlds, in every substep
+            return ()
+        bodies = world.row_numbers(RigidBody, Motion)
+        return [(law, bodies if entities is None else _rows(world, entities)) for law, entities in entries]
 
 
 def _rows(world: World, entities: tuple[int, ...]) -> Integers:

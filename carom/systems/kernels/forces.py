@@ -17,6 +17,14 @@ def clear_sums(rows, force, torque, drag, drag_flow, angular_drag, medium):
             force[i, k], torque[i, k], drag_flow[i, k], medium[i, k] = 0.0, 0.0, 0.0, 0.0
 
 
+@kernel("force", "torque")
+def clear_external(rows, force, torque):
+    """Set the forces from outside back to zero."""
+    for i in rows:
+        for k in range(3):
+            force[i, k], torque[i, k] = 0.0, 0.0
+
+
 @kernel("force")
 def add_weight(rows, mass, gx, gy, gz, force):
     """Add m g."""
