@@ -17,7 +17,7 @@ from carom.ecs.spatial.trigonometry import exponential, sine_cosine
 EPSILON = 1e-14  # a few roundings of numbers near 1
 
 components = st.floats(-1.0, 1.0)
-vectors = st.tuples(*[st.floats(-1e3, 1e3)] * 3).map(np.array)
+vectors = st.tuples(*[st.integers(-(10**9), 10**9)] * 3).map(lambda v: np.array(v) * 1e-6)
 directions = vectors.filter(lambda v: float(v @ v) > 1e-4)
 angles = st.floats(-10.0, 10.0)
 

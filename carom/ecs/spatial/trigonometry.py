@@ -13,7 +13,7 @@ LARGEST_EXPONENT = 700.0  # e^700 is near the largest float64
 
 
 def sine_cosine(angle: float) -> tuple[float, float]:
-    """Return sin and cos of ``angle`` (rad) for |angle| < 1e6, within 2 units in the last place (next to zeros, of 1e-3).
+    """Return sin and cos of ``angle`` (rad) for |angle| < 1e6 within 2 units in the last place, next to zeros of 1e-3.
 
     Cody and Waite's reduction to [-pi/4, pi/4], then Taylor's series to the term below 1e-19 (Cody and Waite, Software
     Manual for the Elementary Functions, 1980, chapter 8).
