@@ -13,6 +13,8 @@ from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
 from carom.systems.shapes.shape import Bounds, MassProperties
 
+FLATTEST = 1e-9  # part of their width that points must leave a plane by to have a volume
+
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
@@ -57,12 +59,20 @@ def hull_of(points: Floats, source: str = "points") -> Geometry:
     from scipy.spatial import QhullError
     from trimesh.convex import convex_hull
 
+    points = np.asarray(points, np.float64)
     if len(points) < 4:
         raise DeclarationError(f"{source}: a convex hull needs at least 4 points, received {len(points)}")
+    if not np.isfinite(points).all():
+        bad = int(np.nonzero(~np.isfinite(points).all(axis=1))[0][0])
+        raise DeclarationError(f"{source}: points must be finite, received {points[bad].tolist()} as point {bad}")
+    flat = DeclarationError(f"{source}: the points lie in one plane, so their hull has no volume")
+    spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    if spread[2] <= FLATTEST * spread[0]:  # qhull would joggle them into a hull
+        raise flat
     try:
         hull = convex_hull(points)
     except (QhullError, ValueError):
-        raise DeclarationError(f"{source}: the points lie in one plane, so their hull has no volume") from None
+        raise flat from None
     return Geometry(np.array(hull.vertices, np.float64), np.array(hull.faces, np.int64), source)
 
 
@@ -81,9 +91,11 @@ def read_triangles(path: Path) -> Any:
 def load_geometry(path: Path, scale: float = 1.0) -> Geometry:
     """Read a closed mesh from OBJ, STL, PLY or glTF; ``scale`` turns its unit into m.
 
-    Raises DeclarationError when the file is missing or unreadable, open, or inverted.
+    Raises DeclarationError when the file is missing or unreadable, holds no triangles, or is open or inverted.
     """
     mesh = read_triangles(path)
+    if not len(getattr(mesh, "faces", ())):
+        raise DeclarationError(f"mesh file {path} holds no triangles")
     if not mesh.is_watertight:
         raise DeclarationError(
             f"mesh file {path} is open: {len(mesh.faces)} faces do not close a volume; close its holes, or use convex"
