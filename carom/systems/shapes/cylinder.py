@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.ecs.spatial.trigonometry import sine_cosine
 from carom.systems.shapes.orientation import along_y
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
@@ -50,6 +51,6 @@ class Cylinder(Shape):
 
     def corners(self) -> tuple[Floats, float]:
         """Return points on both rims."""
-        angles = [2.0 * math.pi * k / RIM_POINTS for k in range(RIM_POINTS)]
-        rim = [(self.radius * math.cos(a), self.radius * math.sin(a)) for a in angles]
+        turns = [sine_cosine(2.0 * math.pi * k / RIM_POINTS) for k in range(RIM_POINTS)]
+        rim = [(self.radius * cosine, self.radius * sine) for sine, cosine in turns]
         return np.array([[x, y, z] for y in (-self.length / 2.0, self.length / 2.0) for x, z in rim]), 0.0

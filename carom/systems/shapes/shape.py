@@ -76,12 +76,13 @@ class Shape(ABC):
         """Return (parameter, what is wrong) for every parameter out of bounds."""
         found = []
         for field in dataclasses.fields(self):
-            above = field.metadata.get("above")
-            for value in np.atleast_1d(np.asarray(getattr(self, field.name))) if above is not None else ():
-                if not (math.isfinite(value) and value > above):
-                    found.append(
-                        (field.name, f"must be finite and above {above:g} {field.metadata['unit']}, received {value:g}")
-                    )
+            unit, above = field.metadata.get("unit"), field.metadata.get("above")
+            if unit is None:
+                continue  # a geometry
+            for value in np.atleast_1d(np.asarray(getattr(self, field.name))):
+                if not (math.isfinite(value) and (above is None or value > above)):
+                    wanted = "finite" if above is None else f"finite and above {above:g} {unit}"
+                    found.append((field.name, f"must be {wanted}, received {value:g}"))
                     break
         return found
 
