@@ -13,6 +13,7 @@ from carom.tools.doctor import FaultError, Finding, doctor, examine
 
 
 def test_all_works_on_a_machine_that_runs_the_tests(capsys: pytest.CaptureFixture[str]) -> None:
+    """The doctor reports its seven parts in order, each working, and exits with code 0."""
     assert doctor(json=True) == 0
     found = {finding["name"]: finding for finding in json.loads(capsys.readouterr().out)}
     assert list(found) == ["python", "processor", "kernels", "collision", "graphics", "recording", "film"]
@@ -22,6 +23,8 @@ def test_all_works_on_a_machine_that_runs_the_tests(capsys: pytest.CaptureFixtur
 
 
 def test_a_fault_is_printed_with_its_cure(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """One failed check makes the exit code 1, and the checks after it still run."""
+
     def fuse() -> str:
         raise FaultError("the fuse has blown", "put in a new one")
 
@@ -36,6 +39,8 @@ def test_a_fault_is_printed_with_its_cure(monkeypatch: pytest.MonkeyPatch, capsy
 
 
 def test_a_cache_that_cannot_be_written_names_the_variable(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Without a writable cache folder the kernels do not work, and NUMBA_CACHE_DIR mends that."""
+
     def refuse(*arguments: object, **options: object) -> None:
         raise PermissionError("read-only")
 
@@ -49,6 +54,8 @@ def test_a_cache_that_cannot_be_written_names_the_variable(monkeypatch: pytest.M
 
 
 def test_missing_graphics_say_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The message of a graphics error becomes the cure of the finding, word for word."""
+
     def missing() -> str:
         raise offscreen.GraphicsError("no OpenGL; run: sudo apt-get install -y libosmesa6")
 
@@ -58,6 +65,8 @@ def test_missing_graphics_say_what_to_install(monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_an_unforeseen_error_is_a_finding_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Any exception in a check is caught, shown with its type, and answered with a reinstall."""
+
     def broken() -> str:
         raise ImportError("no module")
 

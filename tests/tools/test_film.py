@@ -30,6 +30,7 @@ def read(path: Path) -> tuple[str, np.ndarray]:
 
 
 def test_a_film_holds_its_pictures_in_order(tmp_path: Path) -> None:
+    """The file is H.264 at the size and rate asked for, with each picture once and its brightness kept."""
     path = tmp_path / "new" / "film.mp4"
     levels = np.linspace(20, 230, 45).astype(int)
     with Film(path, WIDTH, HEIGHT, fps=15) as film:
@@ -45,6 +46,7 @@ def test_a_film_holds_its_pictures_in_order(tmp_path: Path) -> None:
 
 
 def test_an_aborted_film_stays_and_plays(tmp_path: Path) -> None:
+    """An interrupt closes the film with every picture added before it."""
     path = tmp_path / "film.mp4"
     with pytest.raises(KeyboardInterrupt), Film(path, WIDTH, HEIGHT) as film:
         for level in range(10):
@@ -54,6 +56,7 @@ def test_an_aborted_film_stays_and_plays(tmp_path: Path) -> None:
 
 
 def test_a_film_whose_program_was_killed_plays(tmp_path: Path) -> None:
+    """When the program is killed outright, at most the last picture is lost."""
     path = tmp_path / "film.mp4"
     program = (
         "import os, sys, numpy; from carom.tools.film import Film\n"
@@ -78,6 +81,7 @@ def wait_for(process: int) -> None:
 
 
 def test_a_film_without_pictures_leaves_no_file(tmp_path: Path) -> None:
+    """The file comes into being with the first picture, not with the film."""
     with Film(tmp_path / "film.mp4", WIDTH, HEIGHT):
         pass
     assert list(tmp_path.iterdir()) == []
@@ -92,12 +96,14 @@ def test_a_film_without_pictures_leaves_no_file(tmp_path: Path) -> None:
     ],
 )
 def test_a_film_that_cannot_be_is_refused(size: tuple[int, int], fps: float, message: str) -> None:
+    """Odd or empty sizes and a rate of zero raise an error that names the rule and the value received."""
     with pytest.raises(CaromError) as caught:
         Film("a.mp4", *size, fps=fps)
     assert str(caught.value) == message
 
 
 def test_a_picture_of_another_size_is_refused(tmp_path: Path) -> None:
+    """Only uint8 pictures of the film's own shape are accepted, and the error states both shapes."""
     path = tmp_path / "film.mp4"
     with pytest.raises(CaromError) as caught, Film(path, WIDTH, HEIGHT) as film:
         film.add(picture(0)[:-2])
@@ -107,6 +113,7 @@ def test_a_picture_of_another_size_is_refused(tmp_path: Path) -> None:
 
 
 def test_an_encoder_that_cannot_write_says_why(tmp_path: Path) -> None:
+    """The error names the path and the exit code, and ends with the encoder's own reason."""
     folder = tmp_path / "film.mp4"
     folder.mkdir()
     with pytest.raises(CaromError) as caught, Film(folder, WIDTH, HEIGHT) as film:
@@ -116,6 +123,7 @@ def test_an_encoder_that_cannot_write_says_why(tmp_path: Path) -> None:
 
 
 def test_a_png_holds_every_bit(tmp_path: Path) -> None:
+    """A saved picture reads back equal in every pixel, and missing folders are made."""
     drawn = np.random.default_rng(0).integers(0, 256, (HEIGHT, WIDTH, 3), np.uint8)
     save_png(tmp_path / "new" / "picture.png", drawn[::-1])
     assert np.array_equal(np.asarray(Image.open(tmp_path / "new" / "picture.png")), drawn[::-1])

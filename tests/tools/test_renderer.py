@@ -28,6 +28,7 @@ WHITE = (1.0, 1.0, 1.0, 1.0)
 
 @pytest.fixture(scope="module")
 def renderer() -> Iterator[Renderer]:
+    """Yield one renderer that the tests of this module share."""
     with Renderer(WIDTH, HEIGHT) as made:
         yield made
 
@@ -66,6 +67,7 @@ def resolution(depth: np.ndarray, camera: Camera) -> np.ndarray:
 
 
 def test_a_ball_covers_the_area_of_its_silhouette(renderer: Renderer) -> None:
+    """The pixels of a ball's id are as many as the pinhole projection of its outline encloses."""
     camera = Camera((0.0, 0.0, 4.0), fov=math.radians(50.0))
     covered = (renderer.ids([batch(BALL, (0.0, 0.0, 0.0), first=7)], camera) == 7).sum()
     inner = np.einsum("ij,ij->i", BALL.face_normals, BALL.triangles[:, 0]).min()  # facets lie inside of the sphere
@@ -78,6 +80,7 @@ def test_a_ball_covers_the_area_of_its_silhouette(renderer: Renderer) -> None:
 
 
 def test_a_box_has_the_depth_and_the_width_of_its_near_face(renderer: Renderer) -> None:
+    """Depth is measured along the line of view to the face, and is infinite where nothing is drawn."""
     camera = Camera((0.0, 0.0, 3.0))
     drawn = [batch(CUBE, (0.0, 0.0, 0.0))]
     depth, seen = renderer.depth(drawn, camera), renderer.ids(drawn, camera) == 0
@@ -88,6 +91,7 @@ def test_a_box_has_the_depth_and_the_width_of_its_near_face(renderer: Renderer) 
 
 
 def test_the_depth_of_a_plane_follows_from_the_line_of_sight(renderer: Renderer) -> None:
+    """Over slanted ground, each pixel's depth agrees with the ray through its centre."""
     camera = Camera((0.0, 2.0, 3.0), (0.0, 0.0, 0.0))
     ground = Batch(SQUARE * 100.0, SQUARE_FACES, poses((0.0, 0.0, 0.0)), np.ones((1, 4)), np.zeros(1, np.int64))
     ground.poses[0, :3, :3] = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
@@ -101,6 +105,7 @@ def test_the_depth_of_a_plane_follows_from_the_line_of_sight(renderer: Renderer)
 
 
 def test_the_ids_of_2500_instances_are_exact(renderer: Renderer) -> None:
+    """Each pixel holds the id of the instance its ray meets, and every instance is seen."""
     side, camera = 50, Camera((0.0, 0.0, 60.0), fov=math.radians(45.0))
     column, row = np.meshgrid(np.arange(side), np.arange(side))
     places = [(x - side / 2 + 0.5, y - side / 2 + 0.5, 0.0) for x, y in zip(column.ravel(), row.ravel(), strict=True)]
@@ -123,11 +128,13 @@ def test_the_ids_of_2500_instances_are_exact(renderer: Renderer) -> None:
 
 
 def test_the_largest_id_comes_through(renderer: Renderer) -> None:
+    """The id image holds the highest id allowed unchanged, and -1 for the background."""
     ids = renderer.ids([batch(CUBE, (0.0, 0.0, 0.0), first=LARGEST_ID)], Camera((0.0, 0.0, 3.0)))
     assert sorted(np.unique(ids).tolist()) == [-1, LARGEST_ID]
 
 
 def test_frames_are_bit_identical_in_another_renderer_with_another_past(renderer: Renderer) -> None:
+    """A picture depends on its batches and camera alone, not on what was drawn before."""
     camera = Camera((1.0, 2.0, 5.0))
     ball, cube = batch(BALL, (0.0, 0.0, 0.0), (1.5, 0.0, 0.0), smooth=True), batch(CUBE, (-1.5, 0.0, 0.0), first=2)
     fresh = renderer.picture([ball, cube], camera)
@@ -144,6 +151,7 @@ def test_frames_are_bit_identical_in_another_renderer_with_another_past(renderer
 
 
 def test_colours_are_those_given_and_not_dark(renderer: Renderer) -> None:
+    """Light and shade keep a body's hue, and the whole picture stays of medium brightness."""
     camera = Camera((0.0, 3.0, 3.0))
     red = renderer.picture([batch(CUBE, (0.0, 0.0, 0.0), color=(0.8, 0.1, 0.1, 1.0))], camera)
     top = red[HEIGHT // 2 - 20 : HEIGHT // 2, WIDTH // 2 - 20 : WIDTH // 2 + 20].reshape(-1, 3).mean(axis=0)
@@ -152,6 +160,7 @@ def test_colours_are_those_given_and_not_dark(renderer: Renderer) -> None:
 
 
 def test_a_translucent_body_lets_through_what_is_behind(renderer: Renderer) -> None:
+    """Blue glass before a red cube shows both colours, though it is given first."""
     camera, middle = Camera((0.0, 0.0, 5.0)), (HEIGHT // 2, WIDTH // 2)
     behind = batch(CUBE, (0.0, 0.0, -1.0), color=(1.0, 0.0, 0.0, 1.0))
     glass = batch(CUBE, (0.0, 0.0, 1.0), color=(0.0, 0.0, 1.0, 0.5), first=1)
@@ -160,6 +169,7 @@ def test_a_translucent_body_lets_through_what_is_behind(renderer: Renderer) -> N
 
 
 def test_a_body_casts_a_shadow(renderer: Renderer) -> None:
+    """A floating body darkens a bounded patch of the ground that the camera sees."""
     camera = Camera((0.0, 6.0, 6.0))
     ground = batch(box(extents=(20.0, 0.1, 20.0)), (0.0, -1.0, 0.0), color=(0.8, 0.8, 0.8, 1.0))
     floating = batch(CUBE, (0.0, 1.0, 0.0), first=1)
@@ -170,6 +180,7 @@ def test_a_body_casts_a_shadow(renderer: Renderer) -> None:
 
 
 def test_a_world_with_z_up_looks_like_one_with_y_up(renderer: Renderer) -> None:
+    """Turning the bodies, the camera and its up together leaves the picture the same."""
     turn = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # y becomes z
     upright = batch(CUBE, (0.0, 0.0, 0.0), (1.0, 0.5, -1.0))
     turned = Batch(upright.vertices, upright.faces, upright.poses.copy(), upright.colors, upright.ids)
@@ -180,6 +191,7 @@ def test_a_world_with_z_up_looks_like_one_with_y_up(renderer: Renderer) -> None:
 
 
 def test_an_empty_scene_is_sky_alone(renderer: Renderer) -> None:
+    """Without bodies no pixel has an id, every depth is infinite, and the picture is bright and bluish."""
     camera = Camera((0.0, 0.0, 5.0))
     nothing = batch(CUBE)
     assert (renderer.ids([nothing], camera) == -1).all()
@@ -189,6 +201,7 @@ def test_an_empty_scene_is_sky_alone(renderer: Renderer) -> None:
 
 
 def test_normals_blend_over_blunt_edges_and_split_along_sharp_ones() -> None:
+    """A cube keeps one normal per face and corner, while a smooth ball's normals follow its radius."""
     cube = shading(CUBE.vertices, CUBE.faces)
     assert len(cube.positions) == 24
     assert np.allclose(np.sort(np.abs(cube.normals), axis=1), [0.0, 0.0, 1.0])
@@ -200,6 +213,7 @@ def test_normals_blend_over_blunt_edges_and_split_along_sharp_ones() -> None:
 
 @pytest.mark.parametrize("up", [(0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.3, -0.5, 0.9)])
 def test_a_camera_looks_along_its_own_minus_z_with_up_upward(up: tuple[float, float, float]) -> None:
+    """The pose is a proper rotation for any up, with the target straight ahead at its distance."""
     camera = Camera((1.0, 2.0, 3.0), (-1.0, 0.5, 2.0), up)
     pose = camera.pose()
     assert np.allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3), atol=1e-15)
@@ -209,6 +223,7 @@ def test_a_camera_looks_along_its_own_minus_z_with_up_upward(up: tuple[float, fl
 
 
 def test_a_camera_that_looks_along_up_still_sees(renderer: Renderer) -> None:
+    """A view straight down, where up gives no direction, still shows the target in the middle."""
     ids = renderer.ids([batch(CUBE, (0.0, 0.0, 0.0))], Camera((0.0, 5.0, 0.0)))
     assert ids[HEIGHT // 2, WIDTH // 2] == 0
 
@@ -239,30 +254,35 @@ def test_a_camera_that_looks_along_up_still_sees(renderer: Renderer) -> None:
     ],
 )
 def test_a_camera_that_sees_nothing_is_refused(arguments: dict[str, object], message: str) -> None:
+    """A camera without a direction, an angle or a range raises an error that names the values received."""
     with pytest.raises(CaromError) as caught:
         Camera(**arguments)  # type: ignore[arg-type]
     assert str(caught.value) == message
 
 
 def test_ids_that_do_not_fit_are_refused() -> None:
+    """A batch with an id above the largest one raises an error that gives the range allowed."""
     with pytest.raises(CaromError) as caught:
         batch(CUBE, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0), first=LARGEST_ID)
     assert str(caught.value) == "batch: ids must lie from 0 to 16777214, received 16777214 to 16777215"
 
 
 def test_columns_of_different_lengths_are_refused() -> None:
+    """A batch has one pose, one colour and one id per instance, or raises an error with the three counts."""
     with pytest.raises(CaromError) as caught:
         Batch(CUBE.vertices, CUBE.faces, poses((0.0, 0.0, 0.0)), np.ones((2, 4)), np.zeros(1, np.int64))
     assert str(caught.value) == "batch: poses, colors and ids must be as many, received 1, 2 and 1"
 
 
 def test_a_picture_without_area_is_refused() -> None:
+    """A renderer needs at least one pixel each way, and the error states the size received."""
     with pytest.raises(CaromError) as caught:
         Renderer(0, 10)
     assert str(caught.value) == "renderer: width and height must be at least 1 px, received 0 x 10"
 
 
 def test_a_closed_renderer_says_so() -> None:
+    """Closing twice is harmless, and drawing afterwards raises an error that says what to do."""
     closed = Renderer(8, 8)
     closed.close()
     closed.close()
@@ -272,6 +292,7 @@ def test_a_closed_renderer_says_so() -> None:
 
 
 def test_without_any_opengl_the_message_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error names the libraries looked for, the command to run, and what works without them."""
     monkeypatch.delenv(offscreen.PLATFORM_VARIABLE, raising=False)
     monkeypatch.setattr(offscreen, "loads", lambda libraries: False)
     with pytest.raises(offscreen.GraphicsError) as caught:
@@ -284,6 +305,7 @@ def test_without_any_opengl_the_message_says_what_to_install(monkeypatch: pytest
 
 
 def test_opengl_imported_for_a_screen_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """If OpenGL was imported first, loading raises an error that gives two ways out."""
     monkeypatch.delenv(offscreen.PLATFORM_VARIABLE, raising=False)
     monkeypatch.setitem(sys.modules, "OpenGL", sys)
     monkeypatch.setattr(offscreen, "loads", lambda libraries: True)
@@ -296,6 +318,7 @@ def test_opengl_imported_for_a_screen_is_found_out(monkeypatch: pytest.MonkeyPat
 
 
 def test_where_there_is_no_osmesa_egl_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The backend falls back to EGL when only its libraries load."""
     monkeypatch.delenv(offscreen.PLATFORM_VARIABLE, raising=False)
     monkeypatch.setattr(offscreen, "loads", lambda libraries: "EGL" in libraries[0])
     assert offscreen.backend() == "egl"
@@ -318,6 +341,7 @@ with Renderer(64, 48) as renderer:
 
 @pytest.mark.skipif(not offscreen.loads(("libEGL.so.1", "libEGL_mesa.so.0")), reason="no libEGL on this machine")
 def test_egl_draws_the_same_scene() -> None:
+    """Each backend covers the pixels that geometry demands, and all give the same mean brightness."""
     drawn = {}
     for name in ("egl", "osmesa"):
         if name == "osmesa" and not any(map(offscreen.loads, offscreen.LIBRARIES[name])):

@@ -27,6 +27,7 @@ def look(shape: Sphere | Box | Plane, **values: object) -> Visual:
 
 
 def test_rows_of_one_shape_and_size_are_one_batch() -> None:
+    """Batches keep each row's id, place and colour, and reuse their meshes from one call to the next."""
     world = World()
     for at, shape in enumerate((BALL, BOX, BALL, Sphere(0.25))):
         world.spawn(Transform(position=(at, 0.0, 0.0)), look(shape, color=(0.1 * at, 0.0, 0.0, 1.0)))
@@ -41,6 +42,7 @@ def test_rows_of_one_shape_and_size_are_one_batch() -> None:
 
 
 def test_what_is_hidden_or_nowhere_is_not_drawn() -> None:
+    """Only rows that have both a transform and a visible visual make a batch."""
     world = World()
     world.spawn(Transform(), look(BALL, visible=False))
     world.spawn(Transform())
@@ -49,6 +51,7 @@ def test_what_is_hidden_or_nowhere_is_not_drawn() -> None:
 
 
 def test_a_visual_turns_with_its_entity() -> None:
+    """The visual's own offset and rotation apply within the frame of its entity."""
     world = World()
     world.spawn(
         Transform(position=(1.0, 2.0, 3.0), rotation=QUARTER), look(BOX, position=(1.0, 0.0, 0.0), rotation=QUARTER)
@@ -60,6 +63,7 @@ def test_a_visual_turns_with_its_entity() -> None:
 
 
 def test_a_plane_is_a_wide_floor_with_coordinates_in_metres() -> None:
+    """Its corners lie on the plane, and its floor coordinates keep their distances in metres."""
     world, plane = World(), Plane((1.0, 2.0, -2.0), 5.0)
     world.spawn(Transform(), look(plane))
     (batch,) = Scene(world).batches()
@@ -71,6 +75,7 @@ def test_a_plane_is_a_wide_floor_with_coordinates_in_metres() -> None:
 
 
 def test_a_mesh_is_drawn_from_the_table_of_geometries() -> None:
+    """A visual that names a geometry by number gets the vertices stored under it."""
     world, box = World(), BOX.surface()
     geometries = Geometries()
     world.add(geometries)
@@ -81,6 +86,7 @@ def test_a_mesh_is_drawn_from_the_table_of_geometries() -> None:
 
 
 def test_entities_are_found_in_the_picture_by_their_row() -> None:
+    """Ids in the picture are rows of the world, each where its entity stands, and -1 for the sky."""
     world = World()
     world.spawn(Transform(), look(Plane((0.0, 1.0, 0.0), 0.0)))
     left = world.spawn(Transform(position=(-1.0, 0.5, 0.0)), look(BALL))
