@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, RigidBody, Transform, World, system
 from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.commands import Commands
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Enter, Inside
@@ -40,7 +41,7 @@ class Found(NamedTuple):
 
 @system(
     reads=(Transform, Motion, RigidBody, Collider, Material, Settings, Geometries),
-    writes=(ColliderPose, Contact, Enter, Inside, Answered, Flight, FclObjects),
+    writes=(ColliderPose, Contact, Enter, Inside, Answered, Flight, FclObjects, Commands),
 )
 def find_contacts(world: World, dt: float) -> None:
     """Fill the contact table with every pair that touches or may touch within the step; tell who entered sensors."""
