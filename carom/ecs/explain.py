@@ -12,7 +12,7 @@ CELL = 40  # characters after which a list of components goes on in the next lin
 
 
 def explain(schedule: Schedule) -> str:
-    """Return the frame as text: its systems under their phases, in order of execution."""
+    """Return the frame as text: its systems under their phases in order of execution, then what each does."""
     rows: list[tuple[str, ...]] = [("phase", "system", "reads", "writes", "adds")]
     shown = ""
     for phase, system in schedule:
@@ -23,6 +23,7 @@ def explain(schedule: Schedule) -> str:
     widths = [max(len(row[i]) for row in rows) for i in range(5)]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
     lines.insert(1, "  ".join("-" * width for width in widths))
+    lines += ["", *(f"{system.name.ljust(widths[1])}  {system.purpose}" for _, system in schedule)]
     return "\n".join(lines) + "\n"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
@@ -41,11 +41,6 @@ class Settings(Resource):
                 faults.append(f"{name} must be one of {', '.join(get_args(choices))}, received {getattr(self, name)!r}")
         if faults:
             raise DeclarationError("; ".join(faults))
-
-
-def defaults() -> dict[str, object]:
-    """Return every setting with its default, as docs and schema print them."""
-    return {field.name: field.default for field in fields(Settings)}
 
 
 class Random(Resource):

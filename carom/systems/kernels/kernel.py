@@ -11,8 +11,6 @@ import numpy as np
 from carom.ecs.errors import AccessError
 from carom.ecs.system import GUARDED
 
-KERNELS: list[Kernel] = []
-
 #: A function that only kernels call, so that it needs no entry from Python: half of its time to compile.
 inlined = numba.njit(cache=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
@@ -34,7 +32,6 @@ class Kernel:
         self._outputs = [names.index(name) for name in outputs]
         self._names = names
         self._settled = False
-        KERNELS.append(self)
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the compiled function, compiling it on the first call."""
@@ -62,11 +59,6 @@ class Kernel:
             owner = argument if argument.base is None else argument.base
             passed[position] = owner if owner.shape == argument.shape and owner.flags.writeable else argument.copy()
         return passed
-
-    @property
-    def compiled(self) -> bool:
-        """Tell whether this process has the machine code."""
-        return self._settled
 
 
 def kernel(*outputs: str) -> Callable[[Callable[..., Any]], Kernel]:
