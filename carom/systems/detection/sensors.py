@@ -27,7 +27,7 @@ def sense(world: World, found: Found) -> Found:
     overlapping = sensing & (found.depth >= 0.0)
     sensors = world.entities(np.where(sensing_a, found.row_a, found.row_b)[overlapping])
     entities = world.entities(np.where(sensing_a, found.row_b, found.row_a)[overlapping])
-    now = sorted(zip(sensors.tolist(), entities.tolist(), strict=True))
+    now = sorted(set(zip(sensors.tolist(), entities.tolist(), strict=True)))  # each pair once, whatever its points
     inside = world[Inside]
     before = set(zip(inside.sensor[: inside.count].tolist(), inside.entity[: inside.count].tolist(), strict=True))
     for one, other in now:
