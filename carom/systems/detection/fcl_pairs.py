@@ -15,6 +15,7 @@ from carom.ecs.spatial.scalars import turn
 from carom.systems.detection.manifolds import merge_triangles, reduce_points, under_plane
 from carom.systems.shapes import BY_NUMBER, Shape
 from carom.systems.shapes.box import Box
+from carom.systems.shapes.capsule import Capsule
 from carom.systems.shapes.cylinder import Cylinder
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.mesh import Mesh
@@ -35,10 +36,8 @@ UNIT_ERROR = 1e-6  # how far the square of a normal's length may be from 1; FCL'
 LEAST_PART = 1e-9  # m, distance of FCL's two nearest points below which they give no direction
 BALLS = (Sphere, Point)
 # Pairs whose collide() is exact, so that no second opinion is needed.
-EXACT = {
-    frozenset(pair)
-    for pair in ((Box,), (Sphere,), (Point,), (Box, Sphere), (Box, Point), (Sphere, Point), (Sphere, Cylinder))
-}
+EXACT = {frozenset((ball, other)) for ball in BALLS for other in (Sphere, Point, Box, Capsule, Cylinder)}
+EXACT.add(frozenset((Box,)))
 
 
 class FclObjects(Resource):
@@ -157,7 +156,7 @@ def measure(a: Side, b: Side, reach: float) -> Points:
     points = collide(a.fcl(), b.fcl())
     if not points:
         return _apart(a, b, reach)
-    smaller = min(a.width(), b.width())
+    smaller = min(side.width() for side in (a, b) if not isinstance(side.shape, Point))
     if frozenset((type(a.shape), type(b.shape))) not in EXACT and len(points) == 1 and points[0][2] < SHALLOW * smaller:
         points = _refined(a, b, points, smaller)
     return reduce_points([p for p in points if _valid(p, b)])
@@ -220,8 +219,9 @@ def _on_plane(plane: Side, other: Side, reach: float) -> Points:
     points = collide(plane.fcl(reach), other.fcl())
     if not points:
         return []
-    corners, radius = other.shape.corners()
     normal = points[0][1]
+    x, y, z, w = other.rotation.tolist()
+    corners, radius = other.shape.corners(turn(-x, -y, -z, w, *(-normal).tolist()))
     if len(corners) < 2:
         return [(p - normal * reach / 2.0, n, d - reach) for p, n, d in points]
     placed = other.position + quaternion.rotate(other.rotation, corners)

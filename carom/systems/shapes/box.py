@@ -46,6 +46,6 @@ class Box(Shape):
         mesh = box(extents=self.size)
         return Surface(np.asarray(mesh.vertices), np.asarray(mesh.faces), False)
 
-    def corners(self) -> tuple[Floats, float]:
+    def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return the eight corners."""
         return np.array(list(product(*((-edge / 2.0, edge / 2.0) for edge in self.size)))), 0.0

@@ -49,7 +49,7 @@ class Capsule(Shape):
         mesh = capsule(height=self.length, radius=self.radius)
         return Surface(along_y(np.asarray(mesh.vertices)), np.asarray(mesh.faces), True)
 
-    def corners(self) -> tuple[Floats, float]:
+    def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return the ends of the segment with the radius."""
         half = self.length / 2.0
         return np.array([[0.0, -half, 0.0], [0.0, half, 0.0]]), self.radius

@@ -26,6 +26,6 @@ class Convex(Triangles):
         flat = np.concatenate([np.full((len(faces), 1), 3), faces], axis=1).ravel()
         return fcl.Convex(np.asarray(self.geometry.vertices), len(faces), flat)
 
-    def corners(self) -> tuple[Floats, float]:
+    def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return the vertices."""
         return self.geometry.vertices, 0.0

@@ -13,7 +13,8 @@ from carom.ecs.spatial.trigonometry import sine_cosine
 from carom.systems.shapes.orientation import along_y
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
-RIM_POINTS = 16  # corners that stand for each rim: a half space misses the true rim by at most 2 % of the radius
+RIM_POINTS = 16  # corners that stand for each rim; the one that a half space touches first is always among them
+UPRIGHT = 1e-3  # sine of the tilt up to which an upright cylinder stands on points that stay; it misses 2e-5 radii
 
 
 @dataclass(frozen=True)
@@ -49,8 +50,14 @@ class Cylinder(Shape):
         mesh = cylinder(radius=self.radius, height=self.length, sections=48)
         return Surface(along_y(np.asarray(mesh.vertices)), np.asarray(mesh.faces), False)
 
-    def corners(self) -> tuple[Floats, float]:
-        """Return points on both rims."""
+    def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
+        """Return points on both rims, the first of each being its farthest ``towards``."""
+        x, _, z = towards
+        across = math.sqrt(x * x + z * z)
+        first, second = (x / across, z / across) if across > UPRIGHT else (1.0, 0.0)
         turns = [sine_cosine(2.0 * math.pi * k / RIM_POINTS) for k in range(RIM_POINTS)]
-        rim = [(self.radius * cosine, self.radius * sine) for sine, cosine in turns]
+        rim = [
+            (self.radius * (cosine * first - sine * second), self.radius * (cosine * second + sine * first))
+            for sine, cosine in turns
+        ]
         return np.array([[x, y, z] for y in (-self.length / 2.0, self.length / 2.0) for x, z in rim]), 0.0

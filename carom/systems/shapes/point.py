@@ -43,6 +43,6 @@ class Point(Shape):
         mesh = icosphere(subdivisions=1, radius=DRAWN_RADIUS)
         return Surface(np.asarray(mesh.vertices), np.asarray(mesh.faces), True)
 
-    def corners(self) -> tuple[Floats, float]:
+    def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return the point itself."""
         return np.zeros((1, 3)), 0.0

@@ -118,6 +118,9 @@ class Shape(ABC):
     def surface(self) -> Surface:
         """Return the triangles to draw."""
 
-    def corners(self) -> tuple[Floats, float]:
-        """Return points (n, 3) and a radius such that a half space touches the shape first in one of those balls."""
+    def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
+        """Return points (n, 3) and a radius such that a half space touches the shape first in one of those balls.
+
+        ``towards`` (shape frame) is where the half space lies; only round edges need to know.
+        """
         return np.zeros((0, 3)), 0.0

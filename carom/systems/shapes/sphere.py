@@ -42,6 +42,6 @@ class Sphere(Shape):
         mesh = icosphere(subdivisions=3, radius=self.radius)
         return Surface(np.asarray(mesh.vertices), np.asarray(mesh.faces), True)
 
-    def corners(self) -> tuple[Floats, float]:
+    def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return the centre with the radius."""
         return np.zeros((1, 3)), self.radius
