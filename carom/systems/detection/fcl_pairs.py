@@ -183,10 +183,24 @@ def signed_distance(one: Any, two: Any) -> tuple[float, Floats, Floats]:
 
 
 def _boxes(a: Side, b: Side, reach: float) -> Points:
-    """Measure two boxes grown by half of ``reach`` each, so that corners about to touch are points of the manifold."""
+    """Measure two boxes grown by half of ``reach`` each, so that corners about to touch are points of the manifold.
+
+    A corner moves out by more than a face: the growth of each box along the normal is taken out of the depth.
+    """
     half = 0.5 * reach
-    points = [p for p in collide(a.fcl(half), b.fcl(half)) if _valid(p, b)]
-    return reduce_points([(_within(b, _within(a, place)), normal, depth - reach) for place, normal, depth in points])
+    return reduce_points(
+        [
+            (_within(b, _within(a, place)), normal, depth - half * (_edges_along(a, normal) + _edges_along(b, normal)))
+            for place, normal, depth in collide(a.fcl(half), b.fcl(half))
+            if _valid((place, normal, depth), b)
+        ]
+    )
+
+
+def _edges_along(side: Side, normal: Floats) -> float:
+    """Return how far a box reaches out along a normal for every m that its faces do: 1 for a face, sqrt 3 at most."""
+    x, y, z, w = side.rotation.tolist()
+    return sum(abs(c) for c in turn(-x, -y, -z, w, *normal.tolist()))
 
 
 def _within(side: Side, place: Floats) -> Floats:
