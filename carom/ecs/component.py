@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from carom.ecs.column import Column
-from carom.ecs.errors import DeclarationError
+from carom.ecs.errors import DeclarationError, SnapshotError
 
 
 class Record:
@@ -77,4 +77,4 @@ class Resource:
 
     def restore(self, state: bytes) -> None:
         """Take back what `state` returned."""
-        raise NotImplementedError(f"{type(self).__name__} saves state but does not restore it")
+        raise SnapshotError(f"{type(self).__name__} saves state but does not restore it")

@@ -17,7 +17,8 @@ from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.fcl_pairs import FclObjects, measure_by_fcl
 from carom.systems.detection.sensors import sense
 from carom.systems.kernels.broad import sweep_bounds
-from carom.systems.kernels.contacts import complete_contacts, measure_balls, reach_of_pairs, renew_contacts
+from carom.systems.kernels.contacts import complete_contacts, renew_contacts
+from carom.systems.kernels.narrow import measure_balls, reach_of_pairs
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.plane import Plane
