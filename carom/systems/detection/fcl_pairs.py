@@ -34,6 +34,8 @@ SHALLOW = 0.1  # part of the smaller size up to which FCL's signed distance is s
 NEAR = 0.01  # m, growth of two boxes together when their manifold is measured; more only to see a fast one coming
 UNIT_ERROR = 1e-6  # how far the square of a normal's length may be from 1; FCL's zero normals of concentric bodies fail
 LEAST_PART = 1e-9  # m, distance of FCL's two nearest points below which they give no direction
+TOUCHING = 1e-7  # m, overlap below which FCL's signed distance may abort the process: measured after moving apart
+APART = 1e-4  # m, how far a touching pair is moved apart; FCL's nearest points are good to 1 % of it
 BALLS = (Sphere, Point)
 # Pairs whose collide() is exact, so that no second opinion is needed.
 EXACT = {frozenset((ball, other)) for ball in BALLS for other in (Sphere, Point, Box, Capsule, Cylinder)}
@@ -142,24 +144,26 @@ def measure(a: Side, b: Side, reach: float) -> Points:
     if isinstance(b.shape, Plane) or (isinstance(b.shape, Mesh) and not isinstance(a.shape, Plane)):
         return [(point, -normal, depth) for point, normal, depth in measure(b, a, reach)]
     if isinstance(a.shape, Mesh):
-        return [p for p in _on_mesh(a, b, reach) if _valid(p, b)]
+        return [p for p in _on_mesh(a, b, reach) if _valid(p)]
     if isinstance(a.shape, Plane):
-        return [p for p in _on_plane(a, b, reach) if _valid(p, b)]
+        return [p for p in _on_plane(a, b, reach) if _valid(p)]
     if isinstance(a.shape, BALLS) or isinstance(b.shape, BALLS):
         ball = a if isinstance(a.shape, BALLS) else b
         exact = frozenset((type(a.shape), type(b.shape))) in EXACT
         if exact:  # growing a ball is exact, so that FCL also measures the gap
             points = collide(a.fcl(reach if ball is a else 0.0), b.fcl(reach if ball is b else 0.0))
-            return [_shrunk(p, reach, ball is a) for p in points if _valid(p, b)]
+            return [_on_ball(ball, p[1], p[2] - reach, ball is a) for p in points if _valid(p)]
     if isinstance(a.shape, Box) and isinstance(b.shape, Box):
         return _boxes(a, b, min(reach, NEAR)) or _boxes(a, b, reach)
     points = collide(a.fcl(), b.fcl())
     if not points:
         return _apart(a, b, reach)
     smaller = min(side.width() for side in (a, b) if not isinstance(side.shape, Point))
-    if frozenset((type(a.shape), type(b.shape))) not in EXACT and len(points) == 1 and points[0][2] < SHALLOW * smaller:
+    if len(points) == 1 and points[0][2] < TOUCHING:
+        points = _touching(a, b) or points
+    elif len(points) == 1 and points[0][2] < SHALLOW * smaller:
         points = _refined(a, b, points, smaller)
-    return reduce_points([p for p in points if _valid(p, b)])
+    return reduce_points([p for p in points if _valid(p)])
 
 
 def collide(one: Any, two: Any) -> Points:
@@ -172,11 +176,14 @@ def collide(one: Any, two: Any) -> Points:
     return [(np.array(c.pos), np.array(c.normal), abs(c.penetration_depth)) for c in result.contacts]
 
 
-def signed_distance(one: Any, two: Any) -> tuple[float, Floats, Floats]:
-    """Return FCL's signed distance and nearest points; never with a half space or a mesh, where it crashes."""
+def distance_of(one: Any, two: Any, *, signed: bool) -> tuple[float, Floats, Floats]:
+    """Return FCL's distance and nearest points; never with a half space or a mesh, where it crashes.
+
+    Unless ``signed``, a pair that overlaps has distance -1; the signed one may abort where a pair barely touches.
+    """
     import fcl
 
-    request = fcl.DistanceRequest(enable_nearest_points=True, enable_signed_distance=True)
+    request = fcl.DistanceRequest(enable_nearest_points=True, enable_signed_distance=signed)
     result = fcl.DistanceResult()
     distance = fcl.distance(one, two, request, result)
     return distance, np.array(result.nearest_points[0]), np.array(result.nearest_points[1])
@@ -192,7 +199,7 @@ def _boxes(a: Side, b: Side, reach: float) -> Points:
         [
             (_within(b, _within(a, place)), normal, depth - half * (_edges_along(a, normal) + _edges_along(b, normal)))
             for place, normal, depth in collide(a.fcl(half), b.fcl(half))
-            if _valid((place, normal, depth), b)
+            if _valid((place, normal, depth))
         ]
     )
 
@@ -212,16 +219,33 @@ def _within(side: Side, place: Floats) -> Floats:
 
 def _apart(a: Side, b: Side, reach: float) -> Points:
     """Measure a pair that does not overlap by its nearest points."""
-    distance, p, q = signed_distance(a.fcl(), b.fcl())
+    distance, p, q = distance_of(a.fcl(), b.fcl(), signed=False)
     length = float(np.sqrt(((q - p) ** 2).sum()))
     if not LEAST_PART < distance <= reach or length <= LEAST_PART:
         return []
     return [((p + q) / 2.0, (q - p) / length, -distance)]
 
 
+def _touching(a: Side, b: Side) -> Points:
+    """Measure a pair that barely overlaps by its nearest points once moved apart along the line of its centres."""
+    push = b.position - a.position
+    length = float(np.sqrt((push**2).sum()))
+    if length <= LEAST_PART:
+        return []
+    push *= APART / length
+    moved = b.fcl()
+    moved.setTranslation(b.position + push)
+    distance, p, q = distance_of(a.fcl(), moved, signed=False)
+    length = float(np.sqrt(((q - p) ** 2).sum()))
+    if distance <= LEAST_PART or length <= LEAST_PART:
+        return []
+    normal = (q - p) / length
+    return [((p + q - push) / 2.0, normal, float((push * normal).sum()) - distance)]
+
+
 def _refined(a: Side, b: Side, points: Points, smaller: float) -> Points:
     """Replace a portal-refinement answer, whose normal may be 30 degrees off, by that of the signed distance."""
-    distance, p, q = signed_distance(a.fcl(), b.fcl())
+    distance, p, q = distance_of(a.fcl(), b.fcl(), signed=True)
     length = float(np.sqrt(((p - q) ** 2).sum()))
     if -SHALLOW * smaller < distance < 0.0 and length > LEAST_PART:
         return [((p + q) / 2.0, (p - q) / length, -distance)]
@@ -249,18 +273,23 @@ def _on_mesh(mesh: Side, other: Side, reach: float) -> Points:
     """Measure against a triangle mesh; balls are grown so that they are seen before they touch."""
     grown = reach if isinstance(other.shape, BALLS) else 0.0
     points = collide(mesh.fcl(), other.fcl(grown))
-    return reduce_points([_shrunk(p, grown, False) for p in merge_triangles(points)])
+    return reduce_points([_shrunk(p, grown) for p in merge_triangles(points)])
 
 
-def _shrunk(point: tuple[Floats, Floats, float], margin: float, grown_first: bool) -> tuple[Floats, Floats, float]:
-    """Take the growth of one side out of a contact: its surface moves back by the margin."""
+def _on_ball(ball: Side, normal: Floats, depth: float, first: bool) -> tuple[Floats, Floats, float]:
+    """Place a contact midway between the surfaces as seen from a ball; FCL divides by the radii instead."""
+    lever = ball.shape.bounds().radius - depth / 2.0
+    return ball.position + normal * (lever if first else -lever), normal, depth
+
+
+def _shrunk(point: tuple[Floats, Floats, float], margin: float) -> tuple[Floats, Floats, float]:
+    """Take the growth of the second side out of a contact: its surface moves back by the margin."""
     place, normal, depth = point
-    sense = -1.0 if grown_first else 1.0
-    return place + normal * (sense * margin / 2.0), normal, depth - margin
+    return place + normal * (margin / 2.0), normal, depth - margin
 
 
-def _valid(point: tuple[Floats, Floats, float], other: Side) -> bool:
-    """Tell whether a contact is finite, with a unit normal and a depth within the size of the body."""
+def _valid(point: tuple[Floats, Floats, float]) -> bool:
+    """Tell whether a contact is finite and has a unit normal, which concentric bodies do not get from FCL."""
     place, normal, depth = point
     x, y, z = normal.tolist()
     return math.isfinite(sum(place.tolist()) + depth) and abs(x * x + y * y + z * z - 1.0) < UNIT_ERROR
