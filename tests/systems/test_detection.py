@@ -1,0 +1,247 @@
+"""Detection: no pair is missed, kernels agree with FCL, layers and materials combine as they should."""
+
+from __future__ import annotations
+
+import re
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pairs import SHAPES, Pair, Poses, turns
+
+from carom.ecs import Collider, ColliderPose, DeclarationError, World
+from carom.ecs.relations.contact import Contact
+from carom.systems.detection.bounds import reach_within
+from carom.systems.detection.contacts import measure_closed, overlapping
+from carom.systems.layers import Layers
+from carom.systems.simulation import Simulation
+
+BALLS = ("sphere", "point")
+CLOSED = [(a, b) for a in BALLS for b in ("sphere", "point", "box", "plane")]
+CLOSED += [(b, a) for a, b in CLOSED if b not in BALLS]
+
+
+@pytest.mark.parametrize(("a", "b"), CLOSED)
+def test_kernels_agree_with_fcl(a: str, b: str) -> None:
+    """In 2,000 random poses, near and deep: the same normal and depth to 1e-9, 2e-9 m with FCL's points.
+
+    FCL's points have a radius of 1 nm, which also tilts what is nearer than that; no pose here is.
+    """
+    pair = Pair(SHAPES[a], SHAPES[b])
+    generator = np.random.default_rng(11)
+    pairs, reaches = np.array([[0, 1]]), np.array([0.3])
+    within = 2.5e-9 if "point" in (a, b) else 1e-9
+    seen = 0
+    for _ in range(2000):
+        shift = generator.uniform(-1.2, 1.2, 3)
+        poses = Poses(generator.normal(size=3), turns(generator), np.zeros(3), turns(generator))
+        poses = poses._replace(position_b=poses.position_a + shift)
+        points = pair.measure(poses, 0.3)
+        by_kernel, found = measure_closed(pair.world, pairs, reaches)
+        assert by_kernel.all()
+        assert len(found.depth) == len(points)
+        for place, normal, depth in points:
+            seen += 1
+            assert found.depth[0] == pytest.approx(depth, abs=within)
+            if not ambiguous(a, b, poses):
+                assert found.normal[0] == pytest.approx(normal, abs=2e-8 if "point" in (a, b) else 1e-9)
+                assert found.point[0] == pytest.approx(place, abs=1e-8)
+    assert seen > 10
+
+
+def ambiguous(a: str, b: str, poses: Poses) -> bool:
+    """Tell whether a ball's centre is so deep in a box that two faces are equally near."""
+    from carom.ecs.spatial import quaternion
+
+    if "box" not in (a, b):
+        return False
+    box: Any = SHAPES["box"]
+    ball, place, turn = (0, 2, 3) if b == "box" else (2, 0, 1)
+    local = quaternion.rotate(quaternion.conjugate(poses[turn]), poses[ball] - poses[place])
+    out = np.sort(np.array(box.size) / 2.0 - np.abs(local))
+    return bool(out[0] > 0.0 and out[1] - out[0] < 1e-6)
+
+
+@st.composite
+def crowds(draw: st.DrawFn) -> Simulation:
+    """Draw a crowd of shapes, moving, kinematic and static, on several layers."""
+    simulation = Simulation(dt=1 / 60)
+    simulation.layers({"left": ["left", "default"], "right": ["right", "left"], "ghost": []})
+    generator = np.random.default_rng(draw(st.integers(0, 2**32)))
+    for _ in range(draw(st.integers(2, 25))):
+        key = draw(st.sampled_from(["sphere", "box", "capsule", "plane", "point"]))
+        shape = SHAPES[key]
+        moves = not shape.static and draw(st.booleans())
+        layer = draw(st.sampled_from(["default", "left", "right", "ghost", "none"]))
+        simulation.add(
+            collider={"shape": shape, "layer": layer, "sensor": draw(st.integers(0, 9)) == 0},
+            body={"mass": 1.0} if moves else None,
+            motion={"linear": generator.normal(size=3) * 20.0, "angular": generator.normal(size=3)} if moves else None,
+            transform={"position": generator.uniform(-2.0, 2.0, 3), "rotation": turns(generator)},
+            visual=False,
+        )
+    return simulation
+
+
+@given(crowds())
+@settings(deadline=None, max_examples=60)
+def test_the_broad_phase_finds_the_pairs_of_brute_force(simulation: Simulation) -> None:
+    """Every pair that has a body, overlapping bounds and layers that accept is there once, lower row first."""
+    world = simulation.world
+    with world.faces(None):
+        reach_within(world, 1 / 60)
+        found = [tuple(pair) for pair in overlapping(world).tolist()]
+    assert found == sorted(pair for pair in combinations(range(world.used()), 2) if meets(world, *pair))
+
+
+def meets(world: World, i: int, j: int) -> bool:
+    """Say what must be a pair, in so many words."""
+    collider, pose = world[Collider], world[ColliderPose]
+    if pose.body_row[i] < 0 and pose.body_row[j] < 0:
+        return False
+    if not (collider.mask[i] & collider.layer[j] and collider.mask[j] & collider.layer[i]):
+        return False
+    if collider.sensor[i] and collider.sensor[j]:
+        return False
+    for one, other in ((i, j), (j, i)):
+        if not np.isfinite(collider.bound_half[one]).all():
+            from carom.ecs.spatial import quaternion
+
+            normal = quaternion.rotate(pose.rotation[one], collider.size[one, :3])
+            corners = np.where(normal > 0.0, pose.lower[other], pose.upper[other]) - pose.position[one]
+            return bool(normal @ corners <= collider.size[one, 3])
+    return bool((pose.lower[i] <= pose.upper[j]).all() and (pose.lower[j] <= pose.upper[i]).all())
+
+
+def test_bounds_hold_what_a_body_may_do_in_a_step() -> None:
+    """A turning, falling box stays within the bounds it had at the start of the step."""
+    simulation = Simulation(dt=1 / 30)
+    box = simulation.add(
+        collider={"box": {"size": (0.2, 1.0, 0.4)}},
+        body={"mass": 1.0},
+        motion={"linear": (3.0, -4.0, 5.0), "angular": (9.0, 5.0, -7.0)},
+    )
+    from carom.ecs.spatial import quaternion
+
+    corners = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.5, 0.5) for z in (-0.2, 0.2)])
+    for _ in range(20):
+        simulation.step()
+        placed = simulation[box].transform.position + quaternion.rotate(simulation[box].transform.rotation, corners)
+        assert (placed >= simulation[box].collider_pose.lower).all()
+        assert (placed <= simulation[box].collider_pose.upper).all()
+
+
+def touching(first: dict[str, Any], second: dict[str, Any], collision: str = "auto") -> Simulation:
+    """Return two balls that overlap by 1 cm, after one step, as these colliders or materials."""
+    simulation = Simulation(gravity=(0.0, 0.0, 0.0), collision=collision, response="reflect")
+    simulation.layers({"red": ["red", "blue"], "blue": ["red"], "green": ["red", "green"], "deaf": []})
+    for k, words in enumerate((first, second)):
+        collider = {"sphere": {"radius": 0.5}, **words.get("collider", {})}
+        place = {"position": (0.99 * k, 0.0, 0.0)}
+        simulation.add(collider=collider, material=words.get("material"), body={"mass": 1.0}, transform=place)
+    simulation.step()
+    return simulation
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "meet"),
+    [
+        ("red", "red", True),
+        ("red", "blue", True),
+        ("blue", "red", True),
+        ("blue", "blue", False),
+        ("green", "red", False),
+        ("green", "green", True),
+        ("deaf", "red", False),
+        ("none", "default", False),
+        ("none", "none", False),
+        ("default", "default", True),
+        ("red", "default", False),
+    ],
+)
+def test_both_sides_must_accept(one: str, other: str, meet: bool) -> None:
+    """Green accepts red, but red does not accept green; none meets nobody, not even itself."""
+    simulation = touching({"collider": {"layer": one}}, {"collider": {"layer": other}})
+    assert simulation.world.count(Contact) == int(meet)
+
+
+def test_a_collider_may_state_whom_it_meets() -> None:
+    """``collides_with`` stands in for what its layer accepts."""
+    picky = {"collider": {"layer": "red", "collides_with": ["green"]}}
+    assert touching(picky, {"collider": {"layer": "red"}}).world.count(Contact) == 0
+    assert touching(picky, {"collider": {"layer": "green"}}).world.count(Contact) == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("grean", "unknown layer 'grean'; did you mean 'green'?"),
+        ("x", "unknown layer 'x'; the layers are none, default, red, blue, green, deaf"),
+    ],
+)
+def test_an_unknown_layer(name: str, message: str) -> None:
+    """A near name is proposed, else all are listed."""
+    with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+        touching({"collider": {"layer": name}}, {})
+    with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+        touching({"collider": {"collides_with": ["red", name]}}, {})
+
+
+def test_there_is_an_end_to_layers() -> None:
+    """All 62 bits are layers of their own; one more is refused."""
+    layers = Layers()
+    layers.define({f"layer{k}": None for k in range(61)})
+    bits = [layers.bit(f"layer{k}") for k in range(61)]
+    assert len({*bits, layers.bit("default")}) == 62
+    assert all(0 < bit < 2**62 for bit in bits)
+    with pytest.raises(DeclarationError, match=r"^at most 62 layers fit, 'more' is one too many$"):
+        layers.define({"more": None})
+
+
+X, Y = 0.2, 0.8
+RULES = {"average": 0.5, "sqrt": 0.4, "min": 0.2, "multiply": 0.16, "max": 0.8}
+
+
+@pytest.mark.parametrize("quantity", ["friction", "restitution"])
+@pytest.mark.parametrize("first", [*RULES, None])
+@pytest.mark.parametrize("second", [*RULES, None])
+def test_the_stronger_rule_combines(quantity: str, first: str | None, second: str | None) -> None:
+    """Max > multiply > min > sqrt > average > the default, which is sqrt for friction and max for restitution."""
+    stated = [
+        {"material": {quantity: value if rule is None else {"value": value, "combine": rule}}}
+        for value, rule in ((X, first), (Y, second))
+    ]
+    order = ["average", "sqrt", "min", "multiply", "max"]
+    chosen = [rule for rule in (first, second) if rule is not None]
+    rule = max(chosen, key=order.index) if chosen else {"friction": "sqrt", "restitution": "max"}[quantity]
+    contact = touching(*stated).world[Contact]
+    assert getattr(contact, quantity)[0] == pytest.approx(RULES[rule], rel=1e-15)
+
+
+@pytest.mark.parametrize("collision", ["auto", "fcl"])
+def test_contacts_say_who_measured_them(collision: str) -> None:
+    """Contacts carry ``by_fcl``, the lower entity is a, and the counts of the run add up."""
+    from carom.systems.detection.answered import Answered
+
+    simulation = touching({}, {}, collision)
+    contact, answered = simulation.world[Contact], simulation.world[Answered]
+    assert contact.by_fcl[0] == (collision == "fcl")
+    assert (int(contact.a[0]), int(contact.b[0])) == (0, 1)
+    assert contact.normal[0] == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
+    assert contact.depth[0] == pytest.approx(0.01, abs=1e-12)
+    assert contact.point[0] == pytest.approx([0.495, 0.0, 0.0], abs=1e-12)
+    assert (answered.fcl, answered.kernels) == ((1, 0) if collision == "fcl" else (0, 1))
+
+
+def test_shapes_without_a_kernel_are_left_to_fcl() -> None:
+    """In the same world balls are measured by kernels and boxes by FCL."""
+    simulation = Simulation()
+    simulation.add(collider={"plane": {}})
+    simulation.add(collider={"sphere": {"radius": 0.5}}, body={}, transform={"position": (0.0, 0.5, 0.0)})
+    simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={}, transform={"position": (3.0, 0.5, 0.0)})
+    simulation.step()
+    contact = simulation.world[Contact]
+    assert contact.by_fcl[: contact.count].tolist() == [False, True, True, True, True]
