@@ -148,3 +148,27 @@ def test_no_pose_crashes_or_hangs(a: str) -> None:
         process.join()
         assert not alive, f"{a} and {b} hang"
         assert process.exitcode == 0, f"{a} and {b} end with exit code {process.exitcode}"
+
+
+def survive_touching(key: str, offset: float, gap: float) -> None:
+    """Measure two equal shapes standing one on the other, level; to be run in a process that may die."""
+    shape = SHAPES[key]
+    at = np.array([offset, 2.0 * (shape.bounds().half[1] + shape.bounds().radius) + gap, 0.0])
+    poses = Poses(np.zeros(3), np.array(quaternion.IDENTITY), at, np.array(quaternion.IDENTITY))
+    ((_, normal, depth),) = Pair(shape, shape).measure(poses, 1e-3)
+    assert depth == pytest.approx(-gap, abs=1e-6)
+    assert degrees_between(normal, (0.0, 1.0, 0.0)) < 1.0
+
+
+@pytest.mark.parametrize("gap", [0.0, -1e-12, -1e-9, -1e-8, 1e-6])
+@pytest.mark.parametrize(("key", "offset"), [("cylinder", 0.0), ("cylinder", 0.1), ("cylinder", 0.6), ("capsule", 0.0)])
+def test_barely_touching_shapes_are_a_contact(key: str, offset: float, gap: float) -> None:
+    """Cans stacked to the last bit, where FCL's signed distance aborts: depth within 1e-6 m, normal within a degree."""
+    process = multiprocessing.get_context("fork").Process(target=survive_touching, args=(key, offset, gap))
+    process.start()
+    process.join(30.0)
+    alive = process.is_alive()
+    process.kill()
+    process.join()
+    assert not alive
+    assert process.exitcode == 0
