@@ -97,12 +97,16 @@ def kick_bodies(
         before = 1.0
         decay[i], angular_decay[i] = 1.0, 1.0
         rate = drag[i] * inverse_mass[i]
+        for k in range(3):
+            last_acceleration[i, k] = 0.0 if scheme == SEMI_IMPLICIT else felt[i, k]
         if rate > 0.0:
             for k in range(3):
                 flow[i, k] = drag_flow[i, k] / drag[i]
             if scheme == VERLET:
                 before = exponential(-0.5 * rate * h)
                 decay[i] = before
+                for k in range(3):  # the middle of the next substep is predicted with drag too
+                    last_acceleration[i, k] += (flow[i, k] - linear[i, k]) * (1.0 - before) / (0.5 * h)
             elif scheme == SEMI_IMPLICIT:
                 before = exponential(-rate * h)
             else:
@@ -119,7 +123,6 @@ def kick_bodies(
                 angular_acceleration[i, k] = 0.0
             else:
                 acceleration[i, k] = felt[i, k]
-            last_acceleration[i, k] = acceleration[i, k]
             last_angular_acceleration[i, k] = angular_acceleration[i, k]
 
 
