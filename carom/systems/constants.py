@@ -15,9 +15,14 @@ TOUCH = 1e-4
 # within about two substeps is a contact. Below 1, gravity alone would make a resting body bounce.
 REST_SPEED_FACTOR = 2.0
 
-# A blow that makes a resting pair close faster than this many times (pressing acceleration x substep) is an impact of
+# A blow that makes a resting pair close faster than this many times (acceleration by forces x substep) is an impact of
 # its own. Smaller: blows run through piles as endless rows of impacts. Larger: bodies sink in until the next substep.
 BLOW_SPEED_FACTOR = 0.1
+
+# Impacts of one pair within a substep after which the rest speed counts all that forces do to its bodies, not only what
+# presses the two together, and plastic ones after which the pair is left to the resting stage. They end the endless
+# rows of ever smaller impacts inside piles; larger numbers only make piles slower.
+PATIENCE = 8
 
 # m/s. Closing slower than this is not closing. It ends the infinite row of ever smaller impacts between bodies that
 # nothing presses together; at this speed a pair moves 0.3 mm in a year.

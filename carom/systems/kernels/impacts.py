@@ -7,7 +7,7 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import IMPACTS_AT_LEAST, IMPACTS_PER_PAIR
+from carom.systems.constants import IMPACTS_AT_LEAST, IMPACTS_PER_PAIR, PATIENCE
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.bodies import advance_body
 from carom.systems.kernels.kernel import inlined, kernel
@@ -63,6 +63,7 @@ def fly(
     seek_count = len(pairs)
     for m in range(seek_count):
         seek[m] = m
+    strikes, plastic = np.zeros(len(pairs), np.int64), np.zeros(len(pairs), np.int64)
     now, events, cut = start, 0, 0
     reason = DONE
     first = True
@@ -72,7 +73,7 @@ def fly(
             m = seek[index]
             p = pairs[m]
             foreseen = foresee(
-                p, ball[p], other[p], now, h, not first or start > 0.0, bend,
+                p, ball[p], other[p], now, h, (not first or start > 0.0) and plastic[m] < PATIENCE, bend,
                 center, rotation, linear, angular, time, acceleration, felt,
                 kind, radius, extent, other_position, other_rotation, resting,
             )  # fmt: skip
@@ -106,14 +107,17 @@ def fly(
                     body, now, bend, center, rotation, linear, angular, time, acceleration, angular_acceleration,
                     inertia, principal_axes,
                 )  # fmt: skip
-        speed, normal, nx, ny, nz, px, py, pz, jx, jy, jz = strike(
-            p, i, o, h, center, rotation, linear, angular, acceleration, felt,
+        speed, normal, nx, ny, nz, px, py, pz, jx, jy, jz, together = strike(
+            p, i, o, h, strikes[m], center, rotation, linear, angular, acceleration, felt,
             inverse_mass, inverse_inertia, principal_axes,
             kind, radius, extent, other_position, other_rotation, friction, restitution,
         )  # fmt: skip
         enter_time(soonest, leaves + m, NEVER)
+        resting[p] = together  # from now on only a blow makes it an impact, else plastic pairs would never end
+        plastic[m] += together
+        strikes[m] += 1
+        events += 1
         if speed > 0.0:
-            events += 1
             impulse[p] += normal
             log_time[log_count] = clock + now
             log_pair[log_count] = p
@@ -133,7 +137,7 @@ def fly(
             if body < 0:
                 continue
             for slot in range(begin[body], begin[body + 1]):
-                if of_body[slot] != m or (body == i and speed > 0.0):
+                if of_body[slot] != m or (body == i and not together):
                     seek[seek_count] = of_body[slot]
                     seek_count += 1
             away, quick, push = 0.0, 0.0, 0.0

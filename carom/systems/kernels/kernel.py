@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numba
@@ -11,8 +13,30 @@ import numpy as np
 from carom.ecs.errors import AccessError
 from carom.ecs.system import GUARDED
 
-#: A function that only kernels call, so that it needs no entry from Python: half of its time to compile.
-inlined = numba.njit(cache=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
+ROOM = Path(__file__).parents[1]
+SOURCES = hashlib.blake2b(
+    b"".join(
+        path.read_bytes()
+        for path in sorted([*ROOM.glob("kernels/*.py"), *ROOM.parent.glob("ecs/spatial/*.py"), ROOM / "constants.py"])
+    )
+).hexdigest()
+
+
+def compiled(function: Callable[..., Any], **options: Any) -> Any:
+    """Return Numba's dispatcher of a function, cached on disk until any source of kernels changes.
+
+    Numba itself looks at a function's own file only, and would go on using what it calls as it was.
+    """
+    dispatcher = numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, **options)(function)
+    files = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)
+    if files is not None:
+        files._source_stamp = SOURCES
+    return dispatcher
+
+
+def inlined(function: Callable[..., Any]) -> Any:
+    """Compile a function that only kernels call; it gets no entry from Python, which is half of the time it takes."""
+    return compiled(function, no_cpython_wrapper=True)
 
 
 class Kernel:
@@ -28,7 +52,7 @@ class Kernel:
         assert not unknown, f"{function.__name__} has no arguments {unknown}"
         self.name = function.__name__
         self.__doc__ = function.__doc__
-        self._run = numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True)(function)
+        self._run = compiled(function)
         self._outputs = [names.index(name) for name in outputs]
         self._names = names
         self._settled = False

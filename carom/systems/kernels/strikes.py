@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, REST_SPEED_FACTOR, TOUCH
+from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, PATIENCE, REST_SPEED_FACTOR, TOUCH
 from carom.systems.kernels.balls import BALL, NEVER, first_touch, gap_of_ball
 from carom.systems.kernels.bodies import pressing_of, push_at, stop_pressing, surface_velocity, turned_by
 from carom.systems.kernels.kernel import inlined
@@ -48,7 +48,7 @@ def foresee(
     if resting[p]:
         gap, nx, ny, nz = gap_of_ball(kind[p], x, y, z, radius[p], ox, oy, oz, qx, qy, qz, qw, ex, ey, ez)
         closing = -(nx * (vx - ux) + ny * (vy - uy) + nz * (vz - uz))
-        if gap > TOUCH or closing <= max(APPROACH, BLOW_SPEED_FACTOR * h * pressing_of(i, o, nx, ny, nz, felt)):
+        if gap > TOUCH or closing <= APPROACH + BLOW_SPEED_FACTOR * h * pushed(i, o, felt):
             return NEVER
         resting[p] = False
     return now + first_touch(
@@ -59,15 +59,15 @@ def foresee(
 
 @inlined
 def strike(
-    p, i, o, h, center, rotation, linear, angular, acceleration, felt,
+    p, i, o, h, struck_before, center, rotation, linear, angular, acceleration, felt,
     inverse_mass, inverse_inertia, principal_axes,
     kind, radius, extent, other_position, other_rotation, friction, restitution,
 ):  # fmt: skip
-    """Let the bodies of pair p strike each other where they are.
+    """Let the bodies of pair p strike each other where they are, having done so ``struck_before`` times in the substep.
 
-    Returns (closing speed, normal impulse, normal from the other to the ball, point, impulse on the ball). A speed of 0
-    means that they are pressed together without closing: no impulse, but then, as after a plastic impact, what presses
-    them is taken out of their arcs.
+    Returns (closing speed, normal impulse, normal from the other to the ball, point, impulse on the ball, whether they
+    stay together). A speed of 0 means that they are pressed together without closing: no impulse, but then, as after a
+    plastic impact, what presses them is taken out of their arcs.
     """
     ox, oy, oz = other_position[p, 0], other_position[p, 1], other_position[p, 2]
     qx, qy, qz, qw = other_rotation[p, 0], other_rotation[p, 1], other_rotation[p, 2], other_rotation[p, 3]
@@ -88,7 +88,7 @@ def strike(
     vn = nx * sx + ny * sy + nz * sz
     if vn >= -APPROACH:
         stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration)
-        return 0.0, 0.0, nx, ny, nz, px, py, pz, 0.0, 0.0, 0.0
+        return 0.0, 0.0, nx, ny, nz, px, py, pz, 0.0, 0.0, 0.0, True
     kxx, kxy, kxz, kyy, kyz, kzz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for body, x, y, z in ((i, rx, ry, rz), (o, gx, gy, gz)):
         if body >= 0:
@@ -105,13 +105,24 @@ def strike(
             kzz = kzz + m + cz
     # Forces press the bodies together, or what contacts with others do to their arcs.
     pressing = max(pressing_of(i, o, nx, ny, nz, felt), pressing_of(i, o, nx, ny, nz, acceleration))
+    if struck_before >= PATIENCE:
+        pressing = max(pressing, pushed(i, o, felt))
     bounce = restitution[p] if -vn > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
     jx, jy, jz, normal = struck(vn, sx, sy, sz, nx, ny, nz, (kxx, kxy, kxz, kyy, kyz, kzz), bounce, friction[p])
     push_at(i, 1.0, jx, jy, jz, rx, ry, rz, linear, angular, inverse_mass, inverse_inertia, principal_axes, rotation)
     push_at(o, -1.0, jx, jy, jz, gx, gy, gz, linear, angular, inverse_mass, inverse_inertia, principal_axes, rotation)
     if bounce == 0.0:
         stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration)
-    return -vn, normal, nx, ny, nz, px, py, pz, jx, jy, jz
+    return -vn, normal, nx, ny, nz, px, py, pz, jx, jy, jz, bounce == 0.0
+
+
+@inlined
+def pushed(i, o, felt):
+    """Return the greater of what forces do to two bodies (m/s2)."""
+    squared = felt[i, 0] ** 2 + felt[i, 1] ** 2 + felt[i, 2] ** 2
+    if o >= 0:
+        squared = max(squared, felt[o, 0] ** 2 + felt[o, 1] ** 2 + felt[o, 2] ** 2)
+    return sqrt(squared)
 
 
 @inlined
