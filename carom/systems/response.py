@@ -86,9 +86,9 @@ def log_blows(world: World) -> None:
 )
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""
-    at = 0.0
+    at, first = 0.0, world.count(Impact)
     while True:
-        at, reason = _fly(world, at, dt)
+        at, reason = _fly(world, at, dt, first)
         if reason == DONE:
             return
         if reason == OUT_OF_REACH:
@@ -96,8 +96,8 @@ def drift(world: World, dt: float) -> None:
             detect_again(world, world[Progress].left + dt - at)
 
 
-def _fly(world: World, at: float, h: float) -> tuple[float, int]:
-    """Fly to the end of the substep or to what stops the flight; log the impacts on the way."""
+def _fly(world: World, at: float, h: float, first: int) -> tuple[float, int]:
+    """Fly to the end of the substep or to what stops the flight; log the impacts on the way, the first in this row."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     contact, impact, progress, settings = world[Contact], world[Impact], world[Progress], world[Settings]
     n, logged = slice(0, contact.count), impact.count
@@ -109,7 +109,7 @@ def _fly(world: World, at: float, h: float) -> tuple[float, int]:
         contact.kind[n], contact.ball, contact.other, contact.extent, contact.radius,
         contact.other_position, contact.other_rotation, contact.sign, contact.friction, contact.restitution,
         contact.resting, contact.impulse, contact.friction_impulse,
-        logged, impact.time, impact.a, impact.point, impact.normal, impact.speed, impact.impulse,
+        logged, logged - first, impact.time, impact.a, impact.point, impact.normal, impact.speed, impact.impulse,
         impact.friction_impulse,
     )  # fmt: skip
     world[Answered].impacts_cut += cut

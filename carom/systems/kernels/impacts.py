@@ -26,14 +26,14 @@ def fly(
     inverse_mass, inertia, inverse_inertia, principal_axes,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
     friction, restitution, resting, impulse, friction_impulse,
-    log_count, log_time, log_pair, log_point, log_normal, log_speed, log_impulse, log_friction,
+    log_count, events, log_time, log_pair, log_point, log_normal, log_speed, log_impulse, log_friction,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep; return (time reached, impacts logged, reason, cut).
 
     ``left`` is the time from the substep's end to the step's. Pairs are rows of the contact table with ``kind`` >= 0;
     their first body is the ball. Where a body comes to move faster than its detection foresaw, or the log is full,
     everything is brought to that instant and the reason returned; the caller detects anew, or grows the log, and calls
-    again. ``cut`` counts impacts beyond the cap, which are let pass.
+    again, with the ``events`` of this substep so far. ``cut`` counts impacts beyond the cap, which are let pass.
     """
     pairs = np.nonzero(kind >= 0)[0]
     most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * len(pairs)
@@ -64,7 +64,7 @@ def fly(
     for m in range(seek_count):
         seek[m] = m
     strikes, plastic = np.zeros(len(pairs), np.int64), np.zeros(len(pairs), np.int64)
-    now, events, cut = start, 0, 0
+    now, cut = start, 0
     reason = DONE
     first = True
     while True:
