@@ -14,6 +14,10 @@ from pairs import SHAPES, Pair, Poses, turns
 
 from carom.ecs import Collider, ColliderPose, DeclarationError, World
 from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.impact import Impact
+from carom.ecs.spatial import quaternion
+from carom.systems.constants import IMPACTS_AT_LEAST, IMPACTS_PER_PAIR
+from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.contacts import measure_closed, overlapping
 from carom.systems.layers import Layers
@@ -54,8 +58,6 @@ def test_kernels_agree_with_fcl(a: str, b: str) -> None:
 
 def ambiguous(a: str, b: str, poses: Poses) -> bool:
     """Tell whether a ball's centre is so deep in a box that two faces are equally near."""
-    from carom.ecs.spatial import quaternion
-
     if "box" not in (a, b):
         return False
     box: Any = SHAPES["box"]
@@ -108,8 +110,6 @@ def meets(world: World, i: int, j: int) -> bool:
         return False
     for one, other in ((i, j), (j, i)):
         if not np.isfinite(collider.bound_half[one]).all():
-            from carom.ecs.spatial import quaternion
-
             normal = quaternion.rotate(pose.rotation[one], collider.size[one, :3])
             corners = np.where(normal > 0.0, pose.lower[other], pose.upper[other]) - pose.position[one]
             return bool(normal @ corners <= collider.size[one, 3])
@@ -124,8 +124,6 @@ def test_bounds_hold_what_a_body_may_do_in_a_step() -> None:
         body={"mass": 1.0},
         motion={"linear": (3.0, -4.0, 5.0), "angular": (9.0, 5.0, -7.0)},
     )
-    from carom.ecs.spatial import quaternion
-
     corners = np.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.5, 0.5) for z in (-0.2, 0.2)])
     for _ in range(20):
         simulation.step()
@@ -224,8 +222,6 @@ def test_the_stronger_rule_combines(quantity: str, first: str | None, second: st
 @pytest.mark.parametrize("collision", ["auto", "fcl"])
 def test_contacts_say_who_measured_them(collision: str) -> None:
     """Contacts carry ``by_fcl``, the lower entity is a, and the counts of the run add up."""
-    from carom.systems.detection.answered import Answered
-
     simulation = touching({}, {}, collision)
     contact, answered = simulation.world[Contact], simulation.world[Answered]
     assert contact.by_fcl[0] == (collision == "fcl")
@@ -245,3 +241,53 @@ def test_shapes_without_a_kernel_are_left_to_fcl() -> None:
     simulation.step()
     contact = simulation.world[Contact]
     assert contact.by_fcl[: contact.count].tolist() == [False, True, True, True, True]
+
+
+@pytest.mark.parametrize("slow", [True, False])
+def test_impacts_beyond_the_cap_are_counted(slow: bool) -> None:
+    """A ball that rattles in a slit of a micrometre strikes 10 million times a second: cut, and counted.
+
+    Within the cap nothing is cut, and every impact is in the table.
+    """
+    simulation = Simulation(dt=1 / 60, gravity=(0.0, 0.0, 0.0), substeps=1)
+    hard = {"restitution": 1.0, "friction": 0.0}
+    for normal in ((1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)):
+        simulation.add(collider={"plane": {"normal": normal, "offset": -0.5 - 5e-7}}, material=hard)
+    speed = 1e-3 if slow else 10.0
+    simulation.add(
+        collider={"sphere": {"radius": 0.5}}, body={"mass": 1.0}, material=hard, motion={"linear": (speed, 0.0, 0.0)}
+    )
+    simulation.step()
+    answered, impacts = simulation.world[Answered], simulation.world.count(Impact)
+    if slow:
+        assert answered.impacts_cut == 0
+        assert impacts == pytest.approx(1e-3 / 60 / 1e-6, abs=1)
+    else:
+        assert answered.impacts_cut == 1
+        assert impacts == IMPACTS_AT_LEAST + 2 * IMPACTS_PER_PAIR
+
+
+@pytest.mark.parametrize("collision", ["auto", "fcl"])
+def test_four_boxes_stand_for_five_seconds(collision: str) -> None:
+    """A tower stays where it was built to 0.1 mm, and comes to rest."""
+    simulation = Simulation(dt=1 / 60, collision=collision)
+    simulation.add(collider={"plane": {}})
+    box = {"box": {"size": (1.0, 1.0, 1.0)}}
+    tower = [simulation.add(collider=box, body={}, transform={"position": (0.0, 0.5 + k, 0.0)}) for k in range(4)]
+    simulation.step(300)
+    for k, entity in enumerate(tower):
+        body = simulation[entity]
+        assert body.transform.position == pytest.approx([0.0, 0.5 + k, 0.0], abs=1e-4)
+        assert body.transform.rotation == pytest.approx([0.0, 0.0, 0.0, 1.0], abs=1e-5)
+        assert np.abs(body.motion.linear).max() < 1e-9
+
+
+def test_a_box_on_its_edge_lands_where_it_touches() -> None:
+    """Balanced on an edge it comes to rest on the floor box, neither above it nor in it, to 0.1 mm."""
+    simulation = Simulation(dt=1 / 60)
+    simulation.add(collider={"box": {"size": (5.0, 1.0, 5.0)}}, transform={"position": (0.0, -0.5, 0.0)})
+    turned = quaternion.from_axis_angle((0.0, 0.0, 1.0), np.pi / 4)
+    place = {"position": (0.0, np.sqrt(0.5) + 0.05, 0.0), "rotation": turned}
+    box = simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={}, transform=place)
+    simulation.step(30)
+    assert simulation[box].transform.position[1] == pytest.approx(np.sqrt(0.5), abs=1e-4)
