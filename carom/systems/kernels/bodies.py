@@ -65,6 +65,20 @@ def yielding(i, dx, dy, dz, ex, ey, ez, rx, ry, rz, inverse_mass, inverse_inerti
 
 
 @inlined
+def pressed_by_forces(a, b, nx, ny, nz, felt):
+    """Return how hard forces press one of two bodies against the other along the normal n from a to b (m/s2).
+
+    The greater of both, not their difference: the balls of a heap all feel the same gravity and yet lie on each other.
+    """
+    pressing = 0.0
+    if a >= 0:
+        pressing = max(pressing, nx * felt[a, 0] + ny * felt[a, 1] + nz * felt[a, 2])
+    if b >= 0:
+        pressing = max(pressing, -(nx * felt[b, 0] + ny * felt[b, 1] + nz * felt[b, 2]))
+    return pressing
+
+
+@inlined
 def pressing_of(i, o, nx, ny, nz, acceleration):
     """Return how fast two bodies accelerate towards each other along the normal n from o to i."""
     pressing = -(nx * acceleration[i, 0] + ny * acceleration[i, 1] + nz * acceleration[i, 2])

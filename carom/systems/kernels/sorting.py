@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
 from carom.systems.kernels.balls import gap_of_ball
-from carom.systems.kernels.bodies import surface_velocity
+from carom.systems.kernels.bodies import pressed_by_forces, surface_velocity
 from carom.systems.kernels.kernel import kernel
 
 
@@ -50,13 +50,11 @@ def sort_contacts(
         ax, ay, az = surface_velocity(a, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2], linear, angular)
         bx, by, bz = surface_velocity(b, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2], linear, angular)
         parting = nx * (bx - ax) + ny * (by - ay) + nz * (bz - az)
-        pulling = 0.0
-        for k, n in enumerate((nx, ny, nz)):
-            pulling += n * ((felt[b, k] if b >= 0 else 0.0) - (felt[a, k] if a >= 0 else 0.0))
+        pressing = pressed_by_forces(a, b, nx, ny, nz, felt)
         gap = -depth[c]
-        after = gap + parting * h + 0.5 * pulling * h * h
+        after = gap + parting * h - 0.5 * pressing * h * h
         if kind[c] >= 0:
-            rests = gap <= TOUCH and -parting <= max(APPROACH, REST_SPEED_FACTOR * -pulling * h) and after <= 0.0
+            rests = gap <= TOUCH and -parting <= max(APPROACH, REST_SPEED_FACTOR * pressing * h) and after <= 0.0
         else:
             rests = (gap <= SLOP and after <= SLOP) or after <= 0.0
         resting[c] = rests and resting_stage

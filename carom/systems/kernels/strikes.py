@@ -7,7 +7,14 @@ from math import sqrt
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, PATIENCE, REST_SPEED_FACTOR, TOUCH
 from carom.systems.kernels.balls import BALL, NEVER, first_touch, gap_of_ball
-from carom.systems.kernels.bodies import pressing_of, push_at, stop_pressing, surface_velocity, turned_by
+from carom.systems.kernels.bodies import (
+    pressed_by_forces,
+    pressing_of,
+    push_at,
+    stop_pressing,
+    surface_velocity,
+    turned_by,
+)
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.spatial import cross, spun
 
@@ -104,7 +111,7 @@ def strike(
             cx, cy, cz = cross(tx, ty, tz, x, y, z)
             kzz = kzz + m + cz
     # Forces press the bodies together, or what contacts with others do to their arcs.
-    pressing = max(pressing_of(i, o, nx, ny, nz, felt), pressing_of(i, o, nx, ny, nz, acceleration))
+    pressing = max(pressed_by_forces(o, i, nx, ny, nz, felt), pressing_of(i, o, nx, ny, nz, acceleration))
     if struck_before >= PATIENCE:
         pressing = max(pressing, pushed(i, o, felt))
     bounce = restitution[p] if -vn > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
