@@ -277,4 +277,8 @@ def test_explain_shows_phases_systems_and_access() -> None:
         "first              write_scratch           Scratch\n"
         "                   add_scratch                      Scratch\n"
         "second (repeated)  read_scratch   Scratch  Motion\n"
+        "\n"
+        "write_scratch  Write the scratch.\n"
+        "add_scratch    Add to the scratch.\n"
+        "read_scratch   Read the scratch.\n"
     )

@@ -31,7 +31,12 @@ class Contact(Relation):
     rolling: Floats = column(unit="m", doc="rolling friction times radius", role="derived")
     spinning: Floats = column(unit="m", doc="spinning friction times radius", role="derived")
     by_fcl: Booleans = column(unit="1", doc="answered by FCL, not by a kernel", dtype="bool", role="derived")
-    resting: Booleans = column(unit="1", doc="in the resting stage of the last substep", dtype="bool", role="derived")
+    resting: Booleans = column(
+        unit="1",
+        doc="held together in the last substep, at rest or after a plastic impact",
+        dtype="bool",
+        role="derived",
+    )
     blow: Floats = column(unit="m/s", doc="closing speed the resting stage answered as an impact", role="derived")
     row_a: Integers = column(unit="1", doc="row of a", dtype="int64", role="derived")
     row_b: Integers = column(unit="1", doc="row of b", dtype="int64", role="derived")
