@@ -4,7 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import ExternalForce, Motion, NonFiniteError, RigidBody, Transform, World, system
+from carom.ecs import (
+    Component,
+    ExternalForce,
+    Force,
+    Motion,
+    NonFiniteError,
+    RigidBody,
+    Transform,
+    World,
+    system,
+)
+from carom.ecs.column import Integers
 from carom.systems.kernels.flight import first_not_finite
 from carom.systems.kernels.forces import clear_external
 
@@ -23,15 +34,25 @@ def check_finite(world: World, dt: float) -> None:
 
 
 def find_not_finite(world: World, system: str | None = None) -> None:
-    """Raise NonFiniteError for the first body whose pose or velocity is not finite."""
+    """Raise NonFiniteError for the first body whose pose or velocity is not finite.
+
+    Right after a ``system``, the sums of forces are looked at first: there a NaN is one system from where it began.
+    """
     transform, motion = world[Transform], world[Motion]
     rows = world.row_numbers(RigidBody)
-    row = first_not_finite(rows, transform.position, transform.rotation, motion.linear, motion.angular)
-    if row < 0:
-        return
-    for kind, names in ((Motion, ("linear", "angular")), (Transform, ("position", "rotation"))):
+    if system is not None:
+        _name_not_finite(world, rows, ((Force, ("force", "torque", "drag", "drag_flow")),), system)
+    if first_not_finite(rows, transform.position, transform.rotation, motion.linear, motion.angular) >= 0:
+        _name_not_finite(world, rows, ((Motion, ("linear", "angular")), (Transform, ("position", "rotation"))), system)
+
+
+def _name_not_finite(
+    world: World, rows: Integers, kinds: tuple[tuple[type[Component], tuple[str, ...]], ...], system: str | None
+) -> None:
+    for kind, names in kinds:
         for name in names:
-            values = getattr(world[kind], name)[row]
-            if not np.isfinite(values).all():
-                column = f"{kind.__name__}.{name}"
-                raise NonFiniteError(world.frame, column, world.name(world.entity(row)), str(values.tolist()), system)
+            values = getattr(world[kind], name)[rows]
+            bad = np.nonzero(~np.isfinite(values.reshape(len(rows), -1)).all(axis=1))[0]
+            if len(bad):
+                entity, column = world.name(world.entity(rows[bad[0]])), f"{kind.__name__}.{name}"
+                raise NonFiniteError(world.frame, column, entity, str(values[bad[0]].tolist()), system)

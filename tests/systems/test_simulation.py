@@ -74,9 +74,13 @@ def test_a_slow_machine_falls_behind() -> None:
 
 
 @pytest.mark.parametrize(
-    ("watched", "by"), [(False, "found at the end of the step"), (True, "written by system 'drift'")]
+    ("watched", "column", "by"),
+    [
+        (False, "Motion.linear", "found at the end of the step"),
+        (True, "Force.force", "written by system 'broken'"),
+    ],
 )
-def test_a_nan_names_where_it_came_from(watched: bool, by: str) -> None:
+def test_a_nan_names_where_it_came_from(watched: bool, column: str, by: str) -> None:
     """A force of NaN in frame 4 is told with frame, column and entity; a watched simulation also names the system."""
     simulation = thrown()
     simulation.watched = watched
@@ -84,7 +88,7 @@ def test_a_nan_names_where_it_came_from(watched: bool, by: str) -> None:
         lambda world, rows: np.full((len(rows), 3), math.nan if world.frame == 4 else 0.0), name="broken"
     )
     simulation.step(3)
-    message = f"frame 4: Motion.linear of entity 'ball' is [nan, nan, nan], {by}"
+    message = f"frame 4: {column} of entity 'ball' is [nan, nan, nan], {by}"
     with pytest.raises(NonFiniteError, match=f"^{re.escape(message)}$"):
         simulation.step()
 

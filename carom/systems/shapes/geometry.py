@@ -11,7 +11,7 @@ import numpy as np
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
-from carom.systems.shapes.shape import Bounds, MassProperties
+from carom.systems.shapes.shape import Bounds
 
 FLATTEST = 1e-9  # part of their width that points must leave a plane by to have a volume
 
@@ -105,18 +105,3 @@ def load_geometry(path: Path, scale: float = 1.0) -> Geometry:
             f"mesh file {path} is inverted: its volume is {mesh.volume * scale**3:.6g} m3; turn its faces outward"
         )
     return Geometry(np.array(mesh.vertices * scale, np.float64), np.array(mesh.faces, np.int64), str(path))
-
-
-def solid_properties(geometry: Geometry) -> MassProperties:
-    """Return volume, centre of mass and principal moments of the enclosed solid at density 1, by trimesh."""
-    import trimesh
-
-    mesh = trimesh.Trimesh(geometry.vertices, geometry.faces, process=False)
-    moments, axes = np.linalg.eigh(np.asarray(mesh.moment_inertia))
-    if np.linalg.det(axes) < 0.0:
-        axes[:, 2] = -axes[:, 2]
-    wxyz = trimesh.transformations.quaternion_from_matrix(axes)
-    volume = float(mesh.volume)
-    inertia = tuple(float(m) / volume for m in moments)
-    center = tuple(float(c) for c in mesh.center_mass)
-    return MassProperties(volume, center, inertia, tuple(float(wxyz[i]) for i in (1, 2, 3, 0)))  # type: ignore[arg-type]

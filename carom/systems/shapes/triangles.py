@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from carom.ecs.column import Floats
-from carom.systems.shapes.geometry import Geometry, solid_properties
+from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.shape import Bounds, MassProperties, Shape, Surface
+from carom.systems.shapes.solid import solid_properties
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class Triangles(Shape):
         return cls(geometry)
 
     def mass_properties(self) -> MassProperties:
-        """Return the integrals over the enclosed solid, by trimesh."""
+        """Return the integrals over the enclosed solid."""
         return solid_properties(self.geometry)
 
     def bounds(self) -> Bounds:
