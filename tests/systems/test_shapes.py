@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import os
 import re
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -125,6 +128,26 @@ def test_a_tetrahedron_in_closed_form() -> None:
     assert solid.volume == pytest.approx(np.linalg.det(edges) / 6.0, rel=1e-12)
     assert np.array(solid.center) == pytest.approx(TETRAHEDRON.mean(axis=0), rel=1e-12)
     assert inertia_matrix(shape) == pytest.approx(np.trace(second) * np.eye(3) - second, abs=1e-13)
+
+
+MASS = """
+import numpy as np
+from carom.systems.shapes.convex import Convex
+from carom.systems.shapes.geometry import hull_of
+print([Convex(hull_of(np.random.default_rng(k).normal(size=(20, 3)))).mass_properties() for k in range(9)])
+"""
+
+
+def test_the_mass_of_a_hull_is_the_same_on_every_processor() -> None:
+    """Mass is state: with the linear algebra of an old processor not a bit differs."""
+    printed = [
+        subprocess.run(
+            [sys.executable, "-c", MASS], env=os.environ | environment, capture_output=True, text=True, check=True
+        ).stdout
+        for environment in ({}, {"OPENBLAS_CORETYPE": "Prescott"})
+    ]
+    assert len(printed[0]) > 1000
+    assert printed[0] == printed[1]
 
 
 @pytest.mark.parametrize("key", SOLID)

@@ -104,7 +104,7 @@ class Shape(ABC):
 
     @abstractmethod
     def mass_properties(self) -> MassProperties:
-        """Return volume, centre and moments in closed form, or by trimesh for meshes."""
+        """Return volume, centre and moments in closed form, or summed over triangles."""
 
     @abstractmethod
     def bounds(self) -> Bounds:

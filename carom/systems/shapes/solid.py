@@ -43,7 +43,7 @@ def solid_properties(geometry: Geometry) -> MassProperties:
 
 
 def principal(matrix: list[list[float]]) -> tuple[tuple[float, float, float], Floats]:
-    """Return the eigenvalues of a symmetric matrix, rising, and a rotation with their axes as columns (Jacobi, 1846)."""
+    """Return a symmetric matrix's eigenvalues, rising, and a rotation with their axes as columns (Jacobi, 1846)."""
     m = [row[:] for row in matrix]
     axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]  # rows
     for _ in range(SWEEPS):
