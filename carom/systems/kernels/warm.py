@@ -17,6 +17,11 @@ def warm() -> None:
 
 def compile_systems(heavy: bool) -> None:
     """Run the heavy systems of the step, or all others, once on a world that makes each call its kernels."""
+    import numba
+
+    # The kernels are scalar code: looking for vectors in it finds none and takes a tenth of the time.
+    numba.config.LOOP_VECTORIZE = numba.config.SLP_VECTORIZE = 0
+
     from carom.ecs.relations.contact import Contact
     from carom.systems.progress import Progress
     from carom.systems.simulation import Simulation
