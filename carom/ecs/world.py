@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import Any, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from carom.ecs.entity import INDEX_BITS, Entity, EntityView, generation_of, inde
 from carom.ecs.errors import AccessError, DeclarationError, EntityError
 from carom.ecs.query import Rows, find_rows
 from carom.ecs.table import Table
+
+if TYPE_CHECKING:
+    from carom.ecs.system import System
 
 R = TypeVar("R", bound=Record | Resource)
 
@@ -37,6 +40,7 @@ class World:
         self.structure = 0
         self.frame = 0
         self.guards: dict[Any, dict[Any, Any]] = {}
+        self.running: System | None = None
         self._used = 0
         self._free: list[int] = []
         self._queries: dict[Any, tuple[int, Rows, Integers]] = {}
