@@ -29,12 +29,14 @@ from carom.ecs.components.rigid_body import BodyType
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial import quaternion
 from carom.systems.layers import EVERYTHING, Layers
+from carom.systems.own_components import own_component
 from carom.systems.shapes import SHAPES, Shape
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import Bounds, MassProperties
 
 Words = Mapping[str, Any]
 COMBINE_QUANTITIES = ("friction", "restitution")
+ENTITY_WORDS = ("name", "transform", "motion", "body", "collider", "material", "visual")
 
 
 class Materials(Resource):
@@ -54,11 +56,13 @@ def add_entity(
     collider: Words | None = None,
     material: str | Words | None = None,
     visual: Words | bool | None = None,
+    **own: Words,
 ) -> Entity:
     """Add one entity described in the words of a world file, all numbers SI.
 
     ``body`` makes it move (an empty mapping takes its mass from the shape's volume and the material's density); without
-    one it is static. ``visual`` False hides it. Raises DeclarationError for anything a file would be refused for.
+    one it is static. ``visual`` False hides it. Further words are the keys of a user's own components, each with its
+    columns: ``health={"points": 3}``. Raises DeclarationError for anything a file would be refused for.
     """
     surface = material_of(world, material)
     bundles: list[Component] = [_transform(transform or {}), surface]
@@ -80,6 +84,7 @@ def add_entity(
     seen = _visual(world, visual, collider, shape, surface)
     if seen is not None:
         bundles.append(seen)
+    bundles += [own_component(key, words, ENTITY_WORDS) for key, words in own.items()]
     return world.spawn(*bundles, name=name)
 
 

@@ -34,6 +34,7 @@ from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
 from carom.systems.layers import Layers
 from carom.systems.observer import Observer
+from carom.systems.places import extended
 from carom.systems.progress import Progress
 from carom.systems.settings import Random, Settings
 from carom.systems.shapes.geometry import Geometries
@@ -53,7 +54,7 @@ class Simulation:
     def __init__(self, *, checked: bool | None = None, **settings: Any) -> None:
         self.settings = Settings(**settings)
         self.world = World()
-        self.schedule: Schedule = STEP
+        self.schedule: Schedule = extended(STEP)
         self.checked = bool(os.environ.get(CHECK_VARIABLE)) if checked is None else checked
         self.watched = False
         self.observers: list[Observer] = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterable
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -11,14 +12,19 @@ from pydantic import Field, create_model
 from carom.ecs import Combine, Material
 from carom.ecs.column import Column
 from carom.ecs.component import Component
+from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import COMBINE_QUANTITIES
+from carom.systems.extensions import origin
 from carom.systems.forces import LAWS
+from carom.systems.own_components import components_of_extensions, is_own
 from carom.systems.settings import Settings
 from carom.systems.shapes import SHAPES
 from carom.worlds.color import ColorWord
+from carom.worlds.errors import WordError
 from carom.worlds.geometry import GEOMETRY_WORDS
 from carom.worlds.rotation import RotationWord
-from carom.worlds.values import Flag, In, Whole, Words, either, word_of
+from carom.worlds.units import parse_unit
+from carom.worlds.values import Flag, In, Text, Whole, Words, either, word_of
 
 SPECIAL = {"rotation": RotationWord, "color": ColorWord}
 SETTING_UNITS = {"dt": "s", "gravity": "m/s2"}
@@ -44,15 +50,30 @@ def numbers(width: int, mark: In) -> Any:
 
 def column_fields(kind: type[Component], *names: str) -> Fields:
     """Return model fields for columns of a component: unit, meaning and default are the column's."""
-    return {name: (_column_type(name, kind.columns[name]), _column_field(kind.columns[name])) for name in names}
+    bounds = {} if is_own(kind) else COLUMN_BOUNDS
+    fields: Fields = {}
+    for name in names:
+        column = kind.columns[name]
+        fields[name] = (_column_type(name, column, **bounds.get(name, {})), _column_field(column))
+    return fields
 
 
-def _column_type(name: str, column: Column) -> Any:
-    if name in SPECIAL:
+def _column_type(name: str, column: Column, **bounds: float) -> Any:
+    if name in SPECIAL and column.shape == (4,):
         return SPECIAL[name]
+    shape = column.shape
     if column.dtype == np.bool_:
-        return Flag
-    return numbers(int(np.prod(column.shape)), In(column.unit, **COLUMN_BOUNDS.get(name, {})))
+        kind: Any = Flag
+    elif column.dtype.kind == "U":
+        kind = Annotated[str, Text(column.dtype.itemsize // 4)]
+    elif column.dtype.kind in "iu":
+        held = np.iinfo(column.dtype)
+        kind = Annotated[int, Whole(int(held.min), int(held.max))]
+    else:
+        kind, shape = numbers(shape[-1] if shape else 1, In(column.unit, **bounds)), shape[:-1]
+    for width in reversed(shape):
+        kind = tuple.__class_getitem__((kind,) * width)
+    return kind
 
 
 def _column_field(column: Column) -> Any:
@@ -62,6 +83,25 @@ def _column_field(column: Column) -> Any:
 
 def _description(doc: str, unit: str) -> str:
     return doc if unit == "1" else f"{doc} ({unit})"
+
+
+def own_fields(taken: Iterable[str]) -> Fields:
+    """Return one optional field per component of extensions, none of them called like a word that is ``taken``."""
+    fields: Fields = {}
+    for key, kind in components_of_extensions().items():
+        where = f"component {kind.__name__} of {origin(kind.__module__)}"
+        if key in taken:
+            raise DeclarationError(f"{where} has the key {key!r}, which is a word of every entity; rename it")
+        state = [name for name, column in kind.columns.items() if column.role == "state"]
+        for name in state:
+            try:
+                parse_unit(kind.columns[name].unit)
+            except WordError as fault:
+                mend = "use SI units, '1' for counts"
+                raise DeclarationError(f"{where}: column '{name}': {fault.what}; {mend}") from None
+        model = create_model(kind.__name__, __base__=Words, __doc__=kind.__doc__, **column_fields(kind, *state))
+        fields[key] = (model, Field(None, description=_first_line(kind)))
+    return fields
 
 
 def parameter_model(kind: type[Any]) -> type[Words]:

@@ -10,7 +10,15 @@ from pydantic import Field, create_model
 
 from carom.ecs import Collider, Motion, RigidBody, Transform, Visual
 from carom.ecs.components.rigid_body import BodyType
-from carom.worlds.generated import column_fields, law_fields, material_model, setting_fields, shape_fields
+from carom.systems.extensions import load_extensions
+from carom.worlds.generated import (
+    column_fields,
+    law_fields,
+    material_model,
+    own_fields,
+    setting_fields,
+    shape_fields,
+)
 from carom.worlds.sections import Camera, Expect, Grid, LayersMet, Length, Lengths, OnEnter, Render, Run
 from carom.worlds.values import Flag, Name, Words, either, word_of
 
@@ -25,6 +33,7 @@ def _model(title: str, doc: str, /, **fields: Any) -> type[Words]:
 @cache
 def document() -> type[Words]:
     """Return the model of a whole file, made from the registries as they are at the first call."""
+    load_extensions()
     material = material_model()
     transform = _model(
         "Transform",
@@ -62,9 +71,10 @@ def document() -> type[Words]:
         "material": (either(str, material), Field(None, description="name of a material, or its words")),
         "visual": (either(Flag, visual), Field(None, description="what is seen; false hides it")),
     }  # fmt: skip
-    prefab = _model("Prefab", "Words shared by entities.", **words)
     grid = (Grid, Field(None, description="copies on a grid"))
     named = (Name, Field(None, description="unique name"))
+    words |= own_fields((*words, "name", "grid"))
+    prefab = _model("Prefab", "Words shared by entities.", **words)
     entity = _model("Entity", "One entity, or a grid of them.", name=named, **words, grid=grid)
     force = _model(
         "Force", "One force law and whom it acts on.", **law_fields(),

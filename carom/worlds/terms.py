@@ -11,6 +11,7 @@ import numpy as np
 from carom.ecs import Component, Entity, Material, Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats
 from carom.systems.energy import kinetic_energies
+from carom.systems.own_components import is_own
 from carom.worlds.errors import WordError, did_you_mean
 from carom.worlds.names import matching
 
@@ -97,6 +98,8 @@ def _column(text: str, names: list[str], steps: list[str], world: World) -> Term
     for entity in entities[1:]:
         _kinds(world, entity, *steps)
     column = kind.columns[steps[-1]]
+    if column.dtype.kind not in "fiub":
+        raise WordError("is no number", received=repr(text), accepted="columns of numbers")
     size = int(np.prod(column.shape))
     if axis is not None and axis >= size:
         raise WordError(f"{steps[-1]} has no {AXES[axis]}", received=repr(text), accepted=", ".join(AXES[:size]))
@@ -118,7 +121,7 @@ def _kinds(world: World, entity: Entity, *steps: str) -> type[Component]:
     for kind in held:
         if steps[-1] in kind.columns and steps[:-1] in ((), (kind.key,)):
             return kind
-    columns = [name for kind in held for name in kind.columns if kind in FIRST_KINDS]
+    columns = [name for kind in held for name in kind.columns if kind in FIRST_KINDS or is_own(kind)]
     wanted, hint = ".".join(steps), did_you_mean(steps[-1], columns)
     accepted = ", ".join(columns)
     raise WordError(f"{world.name(entity)} has no such column", received=repr(wanted), accepted=accepted, hint=hint)

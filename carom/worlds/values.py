@@ -100,23 +100,48 @@ Flag = Annotated[bool, BeforeValidator(_read_flag)]
 
 @dataclass(frozen=True)
 class Whole:
-    """Marks an integer of at least ``least``."""
+    """Marks an integer of at least ``least`` and at most ``most``."""
 
     least: int
+    most: int | None = None
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Refuse everything but integers in bounds."""
 
         def read(value: Any) -> int:
-            if isinstance(value, bool) or not isinstance(value, int) or value < self.least:
-                raise WordError("must be a whole number", received=shown(value), accepted=f"{self.least} or more")
-            return value
+            fits = isinstance(value, int) and value >= self.least and (self.most is None or value <= self.most)
+            if isinstance(value, bool) or not fits:
+                accepted = f"{self.least} or more" if self.most is None else f"{self.least} to {self.most}"
+                raise WordError("must be a whole number", received=shown(value), accepted=accepted)
+            return int(value)
 
         return core_schema.no_info_plain_validator_function(read)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         """Return an integer with its bound."""
-        return {"type": "integer", "minimum": self.least}
+        bounds = {"minimum": self.least} | ({} if self.most is None else {"maximum": self.most})
+        return {"type": "integer", **bounds}
+
+
+@dataclass(frozen=True)
+class Text:
+    """Marks a text of at most ``longest`` characters."""
+
+    longest: int
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Refuse what is no text or longer, which would be cut off."""
+
+        def read(value: Any) -> str:
+            if not isinstance(value, str) or len(value) > self.longest:
+                raise WordError("must be text", received=shown(value), accepted=f"at most {self.longest} characters")
+            return value
+
+        return core_schema.no_info_plain_validator_function(read)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Return a text with its length."""
+        return {"type": "string", "maxLength": self.longest}
 
 
 def word_of(*choices: str) -> Any:

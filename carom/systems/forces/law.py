@@ -14,6 +14,7 @@ from carom.ecs.components.motion import Motion
 from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.errors import EntityError
 from carom.ecs.world import World
+from carom.systems.registry import enter
 from carom.systems.shapes.shape import parameter
 
 LAWS: dict[str, type[Law]] = {}
@@ -35,8 +36,8 @@ class Law:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        if cls.key:
-            LAWS[cls.key] = cls
+        if "key" in vars(cls):
+            enter(LAWS, cls.key, cls, clash="force laws have the key", mend="give one of them another key")
 
 
 @dataclass

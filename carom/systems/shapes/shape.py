@@ -7,12 +7,14 @@ import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
+from zlib import crc32
 
 import numpy as np
 
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.errors import DeclarationError
+from carom.systems.registry import enter
 
 
 class Bounds(NamedTuple):
@@ -47,12 +49,16 @@ def parameter(*, unit: str, doc: str, default: Any = dataclasses.MISSING, above:
 
 SHAPES: dict[str, type[Shape]] = {}
 BY_NUMBER: dict[int, type[Shape]] = {}
+FIRST_OWN_NUMBER = 1000  # carom numbers its shapes from 0; those of others come from here on
 NO_AXES = (0.0, 0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True)
 class Shape(ABC):
-    """A geometry, centred, with its axis along local y; parameters are fields declared by `parameter`."""
+    """A geometry, centred, with its axis along local y; parameters are fields declared by `parameter`.
+
+    ``key`` is its word in files. States hold its ``number``; a shape outside carom has one made from its key.
+    """
 
     key: ClassVar[str] = ""
     number: ClassVar[int] = -1
@@ -62,9 +68,12 @@ class Shape(ABC):
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        if cls.key:
-            SHAPES[cls.key] = cls
-            BY_NUMBER[cls.number] = cls
+        if "key" not in vars(cls):
+            return
+        if "number" not in vars(cls):  # by its key alone, so that states mean the same wherever it is installed
+            cls.number = FIRST_OWN_NUMBER + crc32(cls.key.encode())
+        enter(SHAPES, cls.key, cls, clash="shapes have the key", mend="give one of them another key")
+        enter(BY_NUMBER, cls.number, cls, clash="shapes have the number", mend="let one of them state none")
 
     def __post_init__(self) -> None:
         """Refuse parameters outside their bounds; raise DeclarationError naming all of them."""

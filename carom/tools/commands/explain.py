@@ -14,10 +14,12 @@ def declare(parser: argparse.ArgumentParser) -> None:
 def execute(arguments: argparse.Namespace) -> int:
     """Print the schedule."""
     from carom.ecs.explain import explain
+    from carom.systems.places import extended
     from carom.systems.step import STEP
 
+    frame = extended(STEP)
     if not arguments.json:
-        print(explain(STEP), end="")
+        print(explain(frame), end="")
         return 0
     print_json(
         [
@@ -27,7 +29,7 @@ def execute(arguments: argparse.Namespace) -> int:
                 "system": system.name,
                 **{use: [kind.__name__ for kind in getattr(system, use)] for use in ("reads", "writes", "adds")},
             }
-            for phase, system in STEP
+            for phase, system in frame
         ]
     )
     return 0

@@ -8,6 +8,7 @@ from importlib.metadata import version
 from typing import Any
 
 import carom
+from carom.systems.extensions import load_extensions
 from carom.systems.settings import Settings
 
 PATH = "about"
@@ -17,7 +18,8 @@ PACKAGES = ("numpy", "numba", "python-fcl", "rerun-sdk")
 def versions() -> dict[str, str]:
     """Return the versions a result may depend on."""
     own = {"carom": carom.__version__, "python": platform.python_version()}
-    return own | {name: version(name) for name in PACKAGES}
+    others = {extension.distribution: extension.version for extension in load_extensions()}
+    return own | {name: version(name) for name in PACKAGES} | others
 
 
 def about(title: str, settings: Settings, source: str | None) -> list[Any]:

@@ -1,0 +1,43 @@
+"""Own components: those a user declares, stated on an entity under their key, in Python and in files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from carom.ecs.component import Component, Record
+from carom.ecs.errors import DeclarationError
+from carom.systems.extensions import load_extensions
+
+
+def is_own(kind: type[Record]) -> bool:
+    """Tell whether a kind is declared outside carom."""
+    return kind.__module__.partition(".")[0] != "carom"
+
+
+def components_of_extensions() -> dict[str, type[Component]]:
+    """Return by key what world files may state: components of extensions that have state, or no columns at all.
+
+    Those a script declares are not among them, so that a file means the same to every command.
+    """
+    packages = {extension.package for extension in load_extensions()}
+    return {
+        key: kind
+        for key, kind in sorted(Record.registry.items())
+        if issubclass(kind, Component) and kind.__module__.partition(".")[0] in packages
+        if not kind.columns or any(column.role == "state" for column in kind.columns.values())
+    }
+
+
+def own_component(key: str, words: Any, others: Iterable[str]) -> Component:
+    """Return the bundle of a user's component from a mapping of its columns; ``others`` are an entity's further words.
+
+    Raises DeclarationError for a key that no component outside carom has.
+    """
+    own = {key: kind for key, kind in Record.registry.items() if issubclass(kind, Component) and is_own(kind)}
+    if key not in own:
+        raise DeclarationError(f"an entity has no word '{key}'; its words are {', '.join([*others, *sorted(own)])}")
+    if not isinstance(words, Mapping):
+        columns = ", ".join(own[key].columns) or "nothing"
+        raise DeclarationError(f"{key}: must be a mapping of {columns}; received {words!r}")
+    return own[key](**words)
