@@ -255,6 +255,15 @@ def test_an_extension_that_cannot_be_used_ends_with_2_and_says_whose_it_is(
     assert (done.returncode, done.stdout, done.stderr) == (2, "", message + "\n")
 
 
+def test_the_doctor_lists_extensions(site: Path, tmp_path: Path) -> None:
+    """Or says which of them cannot be used."""
+    code = "from carom.tools.doctor import examine, extensions; print(examine(extensions))"
+    done = run(["-c", code], site)
+    assert done.stdout == "Finding(name='extensions', works=True, seen='carom-example 0.1.0', mend='')\n", done.stderr
+    done = run(["-c", code], extension(tmp_path, "rival", "import nowhere"))
+    assert "works=False, seen=\"extension 'rival' of carom-rival 1.0 cannot be used: ModuleNotFound" in done.stdout
+
+
 def test_neither_an_import_nor_help_imports_extensions(tmp_path: Path) -> None:
     """So that carom starts as fast as without them, and a broken one does not take the help away."""
     broken = extension(tmp_path, "broken", "import nowhere")

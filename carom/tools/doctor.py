@@ -117,7 +117,18 @@ def film() -> str:
     return f"{imageio_ffmpeg.get_ffmpeg_exe()} {imageio_ffmpeg.get_ffmpeg_version()}"
 
 
-CHECKS: tuple[Callable[[], str], ...] = (python, processor, kernels, collision, graphics, recording, film)
+def extensions() -> str:
+    """Return the extensions of carom that are installed; raise FaultError for one that cannot be used."""
+    from carom.systems.extensions import load_extensions
+
+    try:
+        loaded = load_extensions()
+    except CaromError as fault:
+        raise FaultError(str(fault), "") from fault  # which says how to mend it
+    return ", ".join(f"{extension.distribution} {extension.version}" for extension in loaded) or "none installed"
+
+
+CHECKS: tuple[Callable[[], str], ...] = (python, processor, kernels, collision, graphics, recording, film, extensions)
 
 
 def examine(check: Callable[[], str]) -> Finding:

@@ -16,7 +16,7 @@ def test_all_works_on_a_machine_that_runs_the_tests(capsys: pytest.CaptureFixtur
     """The doctor reports its seven parts in order, each working, and exits with code 0."""
     assert doctor(json=True) == 0
     found = {finding["name"]: finding for finding in json.loads(capsys.readouterr().out)}
-    assert list(found) == ["python", "processor", "kernels", "collision", "graphics", "recording", "film"]
+    assert list(found) == ["python", "processor", "kernels", "collision", "graphics", "recording", "film", "extensions"]
     assert all(finding["works"] and finding["mend"] == "" for finding in found.values())
     assert found["collision"]["seen"].endswith("two unit spheres 1.5 m apart overlap by 0.5 m")
     assert "llvmpipe" in found["graphics"]["seen"]
