@@ -8,10 +8,11 @@ from carom.ecs.components.force import Force
 from carom.ecs.components.material import Combine, Material
 from carom.ecs.components.motion import Motion
 from carom.ecs.components.name import Name
+from carom.ecs.components.parent import Parent
 from carom.ecs.components.rigid_body import BodyType, RigidBody
 from carom.ecs.components.transform import Transform
 from carom.ecs.components.visual import Visual
-from carom.ecs.entity import Entity
+from carom.ecs.entity import Entity, EntityView
 from carom.ecs.errors import (
     AccessError,
     CaromError,
@@ -20,9 +21,12 @@ from carom.ecs.errors import (
     NonFiniteError,
     SnapshotError,
 )
+from carom.ecs.prefab import Prefab
+from carom.ecs.query import Query
 from carom.ecs.schedule import Phase, Schedule
 from carom.ecs.snapshot import Snapshot, restore_snapshot, state_hash, take_snapshot
 from carom.ecs.system import System, system
+from carom.ecs.tags import Tag, tag
 from carom.ecs.world import World
 
 __all__ = [
@@ -36,13 +40,17 @@ __all__ = [
     "DeclarationError",
     "Entity",
     "EntityError",
+    "EntityView",
     "ExternalForce",
     "Force",
     "Material",
     "Motion",
     "Name",
     "NonFiniteError",
+    "Parent",
     "Phase",
+    "Prefab",
+    "Query",
     "Relation",
     "Resource",
     "RigidBody",
@@ -50,6 +58,7 @@ __all__ = [
     "Snapshot",
     "SnapshotError",
     "System",
+    "Tag",
     "Transform",
     "Visual",
     "World",
@@ -57,5 +66,6 @@ __all__ = [
     "restore_snapshot",
     "state_hash",
     "system",
+    "tag",
     "take_snapshot",
 ]

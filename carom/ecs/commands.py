@@ -3,22 +3,50 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from carom.ecs.component import Resource
+import numpy as np
+
+from carom.ecs.component import Component, Resource
+from carom.ecs.prefab import Prefab
 
 if TYPE_CHECKING:
     from carom.ecs.world import World
 
 
 class Commands(Resource):
-    """The queue of a world; systems append, the schedule applies after each phase in the order asked."""
+    """The queue of a world; systems ask, the schedule carries out after each phase in the order asked.
+
+    To ask for what another command of the same phase has made pointless, like a second `despawn`, is no fault.
+    """
 
     def __init__(self) -> None:
         self.queue: list[Callable[[World], object]] = []
 
+    def spawn(self, *bundles: Component | Prefab, name: str | None = None) -> None:
+        """Ask for one entity, as `World.spawn` makes it."""
+        self.ask(lambda world: world.spawn(*bundles, name=name))
+
+    def spawn_many(self, count: int, *bundles: Component | Prefab, names: list[str] | None = None) -> None:
+        """Ask for many entities, as `World.spawn_many` makes them."""
+        self.ask(lambda world: world.spawn_many(count, *bundles, names=names))
+
+    def despawn(self, *entities: Any) -> None:
+        """Ask for entities, one by one or as arrays of handles, to be removed with those they carry."""
+        self.ask(
+            lambda world: world.despawn(*(group[world.slots.live(group)] for group in map(np.atleast_1d, entities)))
+        )
+
+    def attach(self, entity: int, *bundles: Component | Prefab) -> None:
+        """Ask for components to be given to an entity."""
+        self.ask(lambda world: world.attach(entity, *bundles) if entity in world else None)
+
+    def detach(self, entity: int, *kinds: type[Component]) -> None:
+        """Ask for components to be taken from an entity."""
+        self.ask(lambda world: world.detach(entity, *kinds) if entity in world else None)
+
     def ask(self, change: Callable[[World], object]) -> None:
-        """Queue a change such as ``lambda world: world.despawn(entity)``."""
+        """Ask for any change: a function of the world."""
         self.queue.append(change)
 
 

@@ -1,24 +1,108 @@
-"""Queries: which rows have these components."""
+"""Queries: the entities that have these components, as rows, as handles and one by one."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from carom.ecs.column import Booleans, Integers
+from carom.ecs.component import Component
+from carom.ecs.entity import Entity, EntityView
+from carom.ecs.errors import AccessError
+from carom.ecs.slots import Rows, as_rows
 
-Rows = slice | Integers
+if TYPE_CHECKING:
+    from carom.ecs.world import World
+
+Kinds = type[Component] | Iterable[type[Component]]
+Key = tuple[tuple[type[Component], ...], tuple[type[Component], ...], tuple[type[Component], ...]]
 
 
-def find_rows(alive: Booleans, present: list[Booleans], absent: list[Booleans]) -> tuple[Rows, Integers]:
-    """Return the matching rows as a slice where contiguous (60 times cheaper to index by), and always as an array."""
-    match = alive.copy()
-    for mask in present:
-        match &= mask
-    for mask in absent:
-        match &= ~mask
-    numbers = np.nonzero(match)[0].astype(np.int64)
-    if not len(numbers):
-        return slice(0, 0), numbers
-    first, last = int(numbers[0]), int(numbers[-1])
-    contiguous = last - first + 1 == len(numbers)
-    return (slice(first, last + 1) if contiguous else numbers), numbers
+def as_kinds(kinds: Kinds) -> tuple[type[Component], ...]:
+    """Return one or several components as a tuple."""
+    return (kinds,) if isinstance(kinds, type) else tuple(kinds)
+
+
+class Query:
+    """The entities that have all ``kinds``, none of ``without`` and, if given, at least one of ``any_of``.
+
+    It stays right as entities come and go: rows are found anew when the structure has changed since they were asked
+    for. ``optional`` components select nothing; they are shown where an entity has them.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        kinds: tuple[type[Component], ...],
+        without: tuple[type[Component], ...],
+        any_of: tuple[type[Component], ...],
+        optional: tuple[type[Component], ...] = (),
+    ) -> None:
+        self.world, self.kinds, self.without = world, kinds, without
+        self.any_of, self.optional = any_of, optional
+        self.structure = -1
+        self._rows: Rows
+        self._numbers: Integers
+
+    @property
+    def rows(self) -> Rows:
+        """The rows: a slice where they are contiguous, else sorted."""
+        if self.structure != self.world.structure:
+            self._find()
+        return self._rows
+
+    @property
+    def numbers(self) -> Integers:
+        """The rows always as an array (n,), as kernels take them."""
+        if self.structure != self.world.structure:
+            self._find()
+        return self._numbers
+
+    @property
+    def spans(self) -> Integers:
+        """The rows as runs (n, 2) from first to one past last, for kernels that loop over long stretches."""
+        rows = self.numbers
+        if not len(rows):
+            return np.zeros((0, 2), np.int64)
+        breaks = np.nonzero(np.diff(rows) != 1)[0]
+        first, last = np.concatenate([[0], breaks + 1]), np.concatenate([breaks, [len(rows) - 1]])
+        return np.stack([rows[first], rows[last] + 1], axis=1)
+
+    @property
+    def entities(self) -> Integers:
+        """The handles (n,), in order of rows."""
+        return self.world.entities(self.numbers)
+
+    def has(self, kind: type[Component]) -> Booleans:
+        """Return for each row whether the entity has ``kind``: a mask (n,)."""
+        return np.asarray(self.world.table(kind).present[self.numbers])
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __iter__(self) -> Iterator[EntityView]:
+        """Yield each entity like an object; the structure must stay as it is until the end."""
+        structure = self.world.structure
+        for entity in self.entities.tolist():
+            if self.world.structure != structure:
+                raise AccessError(
+                    "entities came, went or changed their components while a query was iterated over; "
+                    "iterate over list(query), or ask for the change: world[Commands].spawn(...)"
+                )
+            yield EntityView(self.world, Entity(entity))
+
+    def _find(self) -> None:
+        world = self.world
+        used = world.used()
+        match = world.slots.alive[:used].copy()
+        for kind in self.kinds:
+            match &= world.table(kind).present[:used]
+        for kind in self.without:
+            match &= ~world.table(kind).present[:used]
+        if self.any_of:
+            match &= np.logical_or.reduce([world.table(kind).present[:used] for kind in self.any_of])
+        self._numbers = np.nonzero(match)[0].astype(np.int64, copy=False)
+        self._rows = as_rows(self._numbers)
+        self.structure = world.structure

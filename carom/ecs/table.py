@@ -7,16 +7,16 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from carom.ecs.column import Booleans
+from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Record, Relation
-from carom.ecs.errors import DeclarationError
+from carom.ecs.slots import Rows
 
 
 class Table:
     """Structure of arrays for one kind: ``arrays[name]`` has shape (capacity, *column shape), C-contiguous.
 
     ``live`` is the instance systems write to, ``view`` the same memory read-only. A component's table marks its rows in
-    ``present``; a relation's rows are the first ``count``.
+    ``present``, and rows that are not present hold zeros; a relation's rows are the first ``count``.
     """
 
     def __init__(self, kind: type[Record], capacity: int) -> None:
@@ -26,50 +26,74 @@ class Table:
         self.present: Booleans = np.zeros(0, np.bool_)
         self.live = kind.blank()
         self.view = kind.blank()
-        self.grow(capacity)
+        self.grow(capacity, 0)
 
-    def grow(self, capacity: int) -> None:
-        """Enlarge every array to ``capacity`` rows, keeping what they hold."""
+    def grow(self, capacity: int, used: int) -> None:
+        """Enlarge every array to ``capacity`` rows, keeping the first ``used``."""
         for name, column in self.kind.columns.items():
             array = column.allocate(capacity)
-            if self.capacity:
-                array[: self.capacity] = self.arrays[name]
+            if used:
+                array[:used] = self.arrays[name][:used]
             self.arrays[name] = array
             face = array.view()
             face.flags.writeable = False
             setattr(self.live, name, array)
             setattr(self.view, name, face)
-        present = np.zeros(capacity, np.bool_)
-        present[: self.capacity] = self.present
-        self.present, self.capacity = present, capacity
+        if not issubclass(self.kind, Relation):
+            present = np.zeros(capacity, np.bool_)
+            present[:used] = self.present[:used]
+            self.present = present
+        self.capacity = capacity
 
     def resize(self, count: int) -> None:
         """Set a relation's row count, growing where needed; rows beyond the old count hold what they last held."""
         if count > self.capacity:
-            self.grow(max(count, 2 * self.capacity))
+            self.grow(max(count, 2 * self.capacity), self.capacity)
         for face in (self.live, self.view):
             assert isinstance(face, Relation)
             face.count = count
 
-    def fill(self, rows: Any, bundle: Record | None) -> None:
+    def fill(self, rows: Rows, bundle: Record | None) -> None:
         """Mark ``rows`` present and write the bundle's values, or each column's default where it has none."""
+        fresh = not self.present[rows].any()  # then the rows hold zeros already
         self.present[rows] = True
         for name, column in self.kind.columns.items():
             value = getattr(bundle, name, None)
-            target = self.arrays[name]
-            if value is None:
-                target[rows] = column.default
-                continue
-            try:
-                target[rows] = value
-            except ValueError:
-                wanted = " x ".join(map(str, column.shape)) or "a single value"
-                raise DeclarationError(
-                    f"{self.kind.__name__}.{name} takes {wanted} per row, received an array of shape {value.shape}"
-                ) from None
+            if value is not None:
+                self.arrays[name][rows] = value
+            elif not (fresh and column.zero):
+                self.arrays[name][rows] = column.default
 
-    def clear(self, rows: Any) -> None:
+    def clear(self, rows: Rows | int) -> None:
         """Unmark ``rows`` and zero them, so that nothing of a removed component lingers."""
         self.present[rows] = False
         for array in self.arrays.values():
             array[rows] = np.zeros((), array.dtype)
+
+    def restore(self, rows: Rows, values: dict[str, npt.NDArray[Any]]) -> None:
+        """Make exactly ``rows`` present, with these values; columns not given take their default."""
+        if issubclass(self.kind, Relation):
+            assert isinstance(rows, slice)
+            self.resize(rows.stop)
+        else:
+            gone = self.present.copy()
+            gone[rows] = False
+            if gone.any():
+                self.clear(np.nonzero(gone)[0])
+            self.present[rows] = True
+        for name, column in self.kind.columns.items():
+            self.arrays[name][rows] = values.get(name, column.default)
+
+    def gather(self, rows: Integers, used: int) -> None:
+        """Move ``rows`` (sorted) to the front in their order and zero the other rows below ``used``."""
+        for array in (*self.arrays.values(), self.present):
+            array[: len(rows)] = array[rows]
+            array[len(rows) : used] = np.zeros((), array.dtype)
+
+    def renumber(self, new_rows: Integers) -> None:
+        """Replace the row numbers that columns hold by ``new_rows[number]``; -1 stands for none."""
+        for name, column in self.kind.columns.items():
+            if column.holds == "rows":
+                held = self.arrays[name]
+                valid = (held >= 0) & (held < len(new_rows))
+                held[valid] = new_rows[held[valid]]

@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeVar, overload
+from typing import Any, TypeVar, overload
 
 import numpy as np
 
-from carom.ecs.column import Booleans, Integers
+from carom.ecs.changes import Watch
+from carom.ecs.column import Integers
 from carom.ecs.component import Component, Record, Relation, Resource
 from carom.ecs.components.name import Name
-from carom.ecs.entity import INDEX_BITS, Entity, EntityView, generation_of, index_of, pack
-from carom.ecs.errors import AccessError, DeclarationError, EntityError
-from carom.ecs.query import Rows, find_rows
+from carom.ecs.components.parent import Parent
+from carom.ecs.entity import INDEX_MASK, Entity, EntityView
+from carom.ecs.errors import AccessError, EntityError
+from carom.ecs.names import pattern
+from carom.ecs.query import Key, Kinds, Query, as_kinds
+from carom.ecs.slots import Rows, as_rows
+from carom.ecs.structure import Structure
 from carom.ecs.table import Table
-
-if TYPE_CHECKING:
-    from carom.ecs.system import System
 
 R = TypeVar("R", bound=Record | Resource)
 
 
-class World:
+class World(Structure):
     """All state of one simulation.
 
     ``world[Kind]`` is the table of a component or relation (attributes are arrays of the whole capacity), or the
@@ -31,19 +33,11 @@ class World:
     """
 
     def __init__(self, *, capacity: int = 64) -> None:
-        self.capacity = capacity
-        self.tables: dict[type[Record], Table] = {}
+        super().__init__(capacity)
         self.resources: dict[type[Resource], Resource] = {}
-        self.generations: Integers = np.zeros(capacity, np.int64)
-        self.alive = np.zeros(capacity, np.bool_)
-        self.died_at: dict[int, int] = {}
-        self.structure = 0
-        self.frame = 0
         self.guards: dict[Any, dict[Any, Any]] = {}
-        self.running: System | None = None
-        self._used = 0
-        self._free: list[int] = []
-        self._queries: dict[Any, tuple[int, Rows, Integers]] = {}
+        self._queries: dict[Key, Query] = {}
+        self._mark = 0
         self._live: dict[Any, Any] = {}
         self._views: dict[Any, Any] = {}
         self._current = self._views
@@ -60,8 +54,11 @@ class World:
         except KeyError:
             return self._open(key)
 
-    def __contains__(self, kind: type[Record] | type[Resource]) -> bool:
-        return kind in self.tables or kind in self.resources
+    def __contains__(self, key: object) -> bool:
+        """Tell whether a component, relation or resource is here, or whether an entity lives."""
+        if isinstance(key, (int, np.integer)):
+            return bool(self.slots.live(key))
+        return key in self.tables or key in self.resources
 
     def _open(self, key: Any) -> Any:
         if isinstance(key, (int, np.integer)):
@@ -76,8 +73,7 @@ class World:
         """Return the storage behind a kind, made on first use."""
         found = self.tables.get(kind)
         if found is None:
-            found = Table(kind, self.capacity if issubclass(kind, Component) else 64)
-            self.tables[kind] = found
+            found = super().table(kind)
             self._live[kind], self._views[kind] = found.live, found.view
         return found
 
@@ -89,7 +85,9 @@ class World:
 
     @contextmanager
     def edit(self, kind: type[R]) -> Iterator[R]:
-        """Lend the writable table of ``kind`` to code outside the step."""
+        """Lend the writable table of ``kind`` to code outside the step; inside, systems see what they declare."""
+        if kind is Name:
+            self.entity_names.stale = True
         if self._current is not self._views:
             yield self[kind]
             return
@@ -106,159 +104,116 @@ class World:
         finally:
             self._current = before
 
-    # Entities -------------------------------------------------------------------------------------------------------
-    def spawn(self, *bundles: Component, name: str | None = None) -> Entity:
-        """Make one entity with these components; columns not given take their defaults."""
-        return Entity(int(self.spawn_many(1, *bundles, names=None if name is None else [name])[0]))
-
-    def spawn_many(self, count: int, *bundles: Component, names: list[str] | None = None) -> Integers:
-        """Make ``count`` entities; a bundle's arrays hold one value for all, or one per entity along the first axis."""
-        rows = self._reserve(count)
-        try:
-            for bundle in bundles:
-                self.table(type(bundle)).fill(rows, bundle)
-            if names is not None:
-                self.table(Name).fill(rows, Name(text=names))
-        except DeclarationError:
-            self._release(rows)
-            raise
-        self.alive[rows] = True
-        self.structure += 1
-        return self.entities(rows)
-
-    def _reserve(self, count: int) -> Integers:
-        reused = [self._free.pop() for _ in range(min(count, len(self._free)))]
-        fresh = range(self._used, self._used + count - len(reused))
-        self._used = max(self._used, fresh.stop)
-        if self._used > self.capacity:
-            self.capacity = max(self._used, 2 * self.capacity)
-            self.generations = np.concatenate(
-                [self.generations, np.zeros(self.capacity - len(self.generations), np.int64)]
-            )
-            self.alive = np.concatenate([self.alive, np.zeros(self.capacity - len(self.alive), np.bool_)])
-            for table in self.tables.values():
-                if issubclass(table.kind, Component):
-                    table.grow(self.capacity)
-        return np.array([*reused, *fresh], np.int64)
-
-    def despawn(self, *entities: int) -> None:
-        """Remove entities with all their components; their handles are stale from now on."""
-        rows = {entity: self.row(entity) for entity in entities}
-        self._release(rows.values())
-        for entity, row in rows.items():
-            self.alive[row] = False
-            self.died_at[entity] = self.frame
-            self.generations[row] += 1
-        self.structure += 1
-
-    def _release(self, rows: Iterable[int]) -> None:
-        """Clear rows of all components and keep them for the next entities, lowest first."""
-        for row in rows:
-            for table in self.tables.values():
-                if issubclass(table.kind, Component) and table.present[row]:
-                    table.clear(row)
-            self._free.append(int(row))
-        self._free.sort(reverse=True)
-
-    def attach(self, entity: int, *bundles: Component) -> None:
-        """Give a living entity further components."""
-        row = self.row(entity)
-        for bundle in bundles:
-            self.table(type(bundle)).fill(row, bundle)
-        self.structure += 1
-
-    def detach(self, entity: int, *kinds: type[Component]) -> None:
-        """Take components from a living entity."""
-        row = self.row(entity)
-        for kind in kinds:
-            self.table(kind).clear(row)
-        self.structure += 1
-
-    def row(self, entity: int) -> int:
-        """Return the row of a living entity; raise EntityError for a stale handle, saying when the entity went."""
-        index = index_of(entity)
-        if (
-            entity >= 0
-            and index < self._used
-            and self.alive[index]
-            and self.generations[index] == generation_of(entity)
-        ):
-            return index
-        went = self.died_at.get(entity)
-        when = "never was in this world" if went is None else f"was despawned in frame {went}"
-        raise EntityError(f"entity {index}, generation {generation_of(entity)}, {when}")
-
-    def entity(self, row: int) -> Entity:
-        """Return the handle of the entity in ``row``."""
-        return pack(int(row), int(self.generations[row]))
-
-    def entities(self, rows: Any) -> Integers:
-        """Return the handles of the entities in an array of rows."""
-        handles: Integers = self.generations[rows] << INDEX_BITS | rows
-        return handles
-
+    # Single entities and names ----------------------------------------------------------------------------------------
     def locate(self, entity: int, key: str) -> tuple[type[Component], int]:
         """Return the component called ``key`` (snake case) and the row of an entity that must have it."""
-        row = self.row(entity)
-        held = {
-            kind.key: kind for kind, table in self.tables.items() if issubclass(kind, Component) and table.present[row]
-        }
-        if key not in held:
-            raise EntityError(f"entity '{self.name(entity)}' has no {key}, only {', '.join(sorted(held))}")
-        return held[key], row
+        kind, row = Record.registry.get(key), self.row(entity)
+        if kind in self.tables and issubclass(kind, Component) and self.tables[kind].present[row]:
+            return kind, row
+        for held in self.components(entity):  # registered by a class that is gone, or by another of that name
+            if held.key == key:
+                return held, row
+        listed = ", ".join(kind.key for kind in self.components(entity)) or "no component at all"
+        raise EntityError(f"entity '{self.name(entity)}' has no {key}, only {listed}")
 
-    # Names ----------------------------------------------------------------------------------------------------------
+    def children(self, entity: int) -> Integers:
+        """Return the handles of those an entity carries directly, in order of rows."""
+        rows = self.row_numbers(Parent)
+        return self.entities(rows[self.table(Parent).arrays["entity"][rows] == entity])
+
     def name(self, entity: int) -> str:
-        """Return the name of an entity, or its number in brackets when it has none."""
-        row = index_of(entity)
-        table = self.table(Name)
-        text = str(table.arrays["text"][row]) if row < table.capacity and table.present[row] else ""
-        return text or f"[{row}]"
+        """Return the name of an entity, or its number in brackets when it has none; a stale handle has none."""
+        if entity in self:
+            row, table = self.row(entity), self.table(Name)
+            if table.present[row] and table.arrays["text"][row]:
+                return str(table.arrays["text"][row])
+        return f"[{int(entity) & INDEX_MASK}]"
 
     def find(self, name: str) -> Entity:
         """Return the entity of that name; raise EntityError with near names when there is none."""
-        table = self.table(Name)
-        hits = np.nonzero(table.arrays["text"][: self._used] == name)[0]
-        if len(hits) and table.present[hits[0]]:
-            return self.entity(hits[0])
-        import difflib
+        return Entity(self.names_now().find(name))
 
-        near = difflib.get_close_matches(name, self.names(), 3)
-        hint = f"; did you mean {' or '.join(repr(n) for n in near)}?" if near else ""
-        raise EntityError(f"no entity is named {name!r}{hint}")
+    def find_all(self, text: str) -> Integers:
+        """Return the entities a pattern means, in order of rows; none is an empty array.
+
+        A pattern is a name, the name of all copies (``rain`` for ``rain[3,0,1]``), or holds ``*`` for any text.
+        """
+        fits, rows = pattern(text).fullmatch, self.row_numbers(Name)
+        texts = self.table(Name).arrays["text"][rows].tolist()
+        return self.entities(rows[[fits(text) is not None for text in texts]] if len(rows) else rows)
 
     def names(self) -> list[str]:
         """Return all names in row order."""
-        table = self.table(Name)
-        return [str(text) for text in table.arrays["text"][: self._used][table.present[: self._used]]]
+        names: list[str] = self.table(Name).arrays["text"][self.row_numbers(Name)].tolist()
+        return names
 
-    # Queries --------------------------------------------------------------------------------------------------------
-    def rows(self, *kinds: type[Component], without: Iterable[type[Component]] = ()) -> Rows:
-        """Return the rows that have all ``kinds`` and none of ``without``: a slice where contiguous, else sorted."""
-        return self._query(kinds, tuple(without))[1]
+    # Queries ----------------------------------------------------------------------------------------------------------
+    def rows(
+        self, *kinds: type[Component], without: Kinds = (), any_of: Kinds = (), changed_since: int | None = None
+    ) -> Rows:
+        """Return the rows that have all ``kinds``, none of ``without`` and, if given, one of ``any_of``.
 
-    def row_numbers(self, *kinds: type[Component], without: Iterable[type[Component]] = ()) -> Integers:
+        The result is a slice where they are contiguous, else a sorted array. ``changed_since`` keeps those where one of
+        ``kinds`` came or holds something else since that `mark`.
+        """
+        query = self._query(kinds, without, any_of)
+        return query.rows if changed_since is None else as_rows(self._changed(query, changed_since))
+
+    def row_numbers(
+        self, *kinds: type[Component], without: Kinds = (), any_of: Kinds = (), changed_since: int | None = None
+    ) -> Integers:
         """Return the same rows always as an int64 array, as kernels take them."""
-        return self._query(kinds, tuple(without))[2]
+        query = self._query(kinds, without, any_of)
+        return query.numbers if changed_since is None else self._changed(query, changed_since)
 
-    def _query(
-        self, kinds: tuple[type[Component], ...], without: tuple[type[Component], ...]
-    ) -> tuple[int, Rows, Integers]:
-        found = self._queries.get((kinds, without))
-        if found is None or found[0] != self.structure:
-            masks = [self.table(kind).present[: self._used] for kind in kinds]
-            absent = [self.table(kind).present[: self._used] for kind in without]
-            found = (self.structure, *find_rows(self.alive[: self._used], masks, absent))
-            self._queries[kinds, without] = found
-        return found
+    def query(self, *kinds: type[Component], without: Kinds = (), any_of: Kinds = (), optional: Kinds = ()) -> Query:
+        """Return the entities of such rows as an object that stays right: rows, handles, a loop, a dataframe."""
+        self._query(kinds, without, any_of)
+        return Query(self, kinds, as_kinds(without), as_kinds(any_of), as_kinds(optional))
 
+    def mark(self, *kinds: type[Component]) -> int:
+        """Return a mark for ``changed_since``; the components named are watched from the first mark on."""
+        self._look()
+        for kind in kinds:
+            if kind not in self._watches:
+                self._watches[kind] = Watch(self.table(kind), self.handles())
+        self._mark += 1
+        return self._mark
+
+    def _look(self) -> None:
+        for watch in self._watches.values():
+            watch.look(self.handles(), self._mark)
+
+    def _changed(self, query: Query, mark: int) -> Integers:
+        unwatched = [kind.__name__ for kind in query.kinds if kind not in self._watches]
+        if unwatched:
+            listed = ", ".join(unwatched)
+            raise AccessError(f"nobody watches {listed}; take the mark with world.mark({listed}) before things change")
+        self._look()
+        numbers = query.numbers
+        changed = np.zeros(len(numbers), np.bool_)
+        for kind in query.kinds:
+            changed |= self._watches[kind].changed_after[numbers] >= mark
+        return np.asarray(numbers[changed])
+
+    def _query(self, kinds: tuple[type[Component], ...], without: Kinds, any_of: Kinds) -> Query:
+        if self._current is not self._views and self._current is not self._live:
+            for kind in (*kinds, *as_kinds(without), *as_kinds(any_of)):
+                self._current[kind]  # raises for what the running system does not declare
+        try:
+            return self._queries[kinds, without, any_of]  # type: ignore[index]
+        except (KeyError, TypeError):  # not asked for before, or a list
+            key = (kinds, as_kinds(without), as_kinds(any_of))
+            return self._queries.setdefault(key, Query(self, *key))
+
+    # Relations --------------------------------------------------------------------------------------------------------
     def count(self, kind: type[Record]) -> int:
         """Return how many rows a kind has."""
         if issubclass(kind, Relation):
             view = self.table(kind).view
             assert isinstance(view, Relation)
             return view.count
-        return int(self.table(kind).present[: self._used].sum())
+        return int(np.count_nonzero(self.table(kind).present[: self.used()]))
 
     def resize(self, kind: type[Relation], count: int) -> None:
         """Set the row count of a relation; only systems that write it may."""
@@ -267,18 +222,3 @@ class World:
         if self._current is not self._live and self._current.get(kind) is not self.table(kind).live:
             raise AccessError(f"only a system that writes {kind.__name__} may resize it")
         self.table(kind).resize(count)
-
-    def used(self) -> int:
-        """Return one more than the highest row ever used."""
-        return self._used
-
-    def reset(self, alive: Booleans, generations: Integers, frame: int) -> None:
-        """Set who lives, for `restore_snapshot`; the tables are then filled by it."""
-        self._used = 0
-        self._free = []
-        self._reserve(len(alive))
-        self.alive[:] = False
-        self.alive[: self._used], self.generations[: self._used] = alive, generations
-        self._free = [int(row) for row in np.nonzero(~alive)[0][::-1]]
-        self.frame = frame
-        self.structure += 1

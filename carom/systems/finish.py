@@ -27,7 +27,7 @@ def clear_inputs(world: World, dt: float) -> None:
     clear_external(world.row_numbers(ExternalForce), external.force, external.torque)
 
 
-@system(reads=(Transform, Motion))
+@system(reads=(RigidBody, Transform, Motion))
 def check_finite(world: World, dt: float) -> None:
     """Stop at the first NaN or infinity, naming its entity and column."""
     find_not_finite(world)

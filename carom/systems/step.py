@@ -11,6 +11,7 @@ from carom.systems.forces.drag import apply_linear_drag, apply_quadratic_drag
 from carom.systems.forces.gravity import apply_gravity
 from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
 from carom.systems.forces.wind import apply_wind
+from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
 from carom.systems.progress import begin_step, begin_substep
 from carom.systems.response import drift, hold, settle, sort_out_contacts
@@ -51,6 +52,7 @@ STEP = Schedule(
     Phase(
         "finish",
         clear_inputs,
+        carry_children,  # entities carried by others follow them
         check_finite,
     ),
 )

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from carom.ecs import Component, Motion, Transform, World
 from carom.ecs.component import Record
-from carom.ecs.snapshot import rows_of, saved_kinds
+from carom.ecs.snapshot import row_numbers_of, saved_kinds
 
 LOOKS = ("visual.", "material.color")  # columns that change a picture but no motion
 KEY_COLUMNS: tuple[tuple[type[Component], str], ...] = (
@@ -74,7 +74,7 @@ def state_golden(world: World, driver: str | None = None) -> StateGolden:
     """Return the physical state of a world now."""
     digests = {}
     for kind in saved_kinds(world):
-        rows = rows_of(world, kind)
+        rows = row_numbers_of(world, kind)
         for name in kind.columns if len(rows) else ():
             if not f"{kind.key}.{name}".startswith(LOOKS):
                 digests[f"{kind.key}.{name}"] = _digest(world, kind, name, rows)

@@ -118,7 +118,7 @@ def test_relations_have_rows_of_their_own() -> None:
     class Spring(Relation):
         """Springs."""
 
-        a = column(unit="1", doc="first end", entity=True)
+        a = column(unit="1", doc="first end", holds="entities")
         length = column(unit="m", doc="rest length")
 
     Record.registry.pop("spring")

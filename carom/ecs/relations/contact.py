@@ -13,8 +13,8 @@ class Contact(Relation):
     """
 
     kept = True
-    a: Integers = column(unit="1", doc="first collider", entity=True)
-    b: Integers = column(unit="1", doc="second collider", entity=True)
+    a: Integers = column(unit="1", doc="first collider", holds="entities")
+    b: Integers = column(unit="1", doc="second collider", holds="entities")
     feature: Integers = column(unit="1", doc="which point of the pair", dtype="int64")
     normal: Floats = column(3, unit="1", doc="unit normal from a to b, world frame")
     depth: Floats = column(unit="m", doc="overlap, negative for a gap")
@@ -38,18 +38,18 @@ class Contact(Relation):
         role="derived",
     )
     blow: Floats = column(unit="m/s", doc="closing speed the resting stage answered as an impact", role="derived")
-    row_a: Integers = column(unit="1", doc="row of a", dtype="int64", role="derived")
-    row_b: Integers = column(unit="1", doc="row of b", dtype="int64", role="derived")
-    body_a: Integers = column(unit="1", doc="row of the body of a, -1 static", dtype="int64", role="derived")
-    body_b: Integers = column(unit="1", doc="row of the body of b, -1 static", dtype="int64", role="derived")
+    row_a: Integers = column(unit="1", doc="row of a", role="derived", holds="rows")
+    row_b: Integers = column(unit="1", doc="row of b", role="derived", holds="rows")
+    body_a: Integers = column(unit="1", doc="row of the body of a, -1 static", role="derived", holds="rows")
+    body_b: Integers = column(unit="1", doc="row of the body of b, -1 static", role="derived", holds="rows")
     offset_a: Floats = column(3, unit="m", doc="point on a from the centre of mass of its body", role="derived")
     offset_b: Floats = column(3, unit="m", doc="point on b from the centre of mass of its body", role="derived")
     kind: Integers = column(
         unit="1", doc="exact impacts: how to read extent; -1 for others", dtype="int64", role="derived"
     )
-    ball: Integers = column(unit="1", doc="exact impacts: row of the ball's body", dtype="int64", role="derived")
+    ball: Integers = column(unit="1", doc="exact impacts: row of the ball's body", role="derived", holds="rows")
     other: Integers = column(
-        unit="1", doc="exact impacts: row of the other body, -1 static", dtype="int64", role="derived"
+        unit="1", doc="exact impacts: row of the other body, -1 static", role="derived", holds="rows"
     )
     sign: Floats = column(unit="1", doc="exact impacts: 1 where the ball is a, -1 where it is b", role="derived")
     radius: Floats = column(unit="m", doc="exact impacts: radius of the ball", role="derived")

@@ -17,5 +17,5 @@ class Inside(Relation):
     """Who is inside which sensor, so that entering is told once."""
 
     kept = True
-    sensor: Integers = column(unit="1", doc="the sensor", entity=True)
-    entity: Integers = column(unit="1", doc="who is inside", entity=True)
+    sensor: Integers = column(unit="1", doc="the sensor", holds="entities")
+    entity: Integers = column(unit="1", doc="who is inside", holds="entities")

@@ -126,7 +126,8 @@ def store(world: World, found: Found) -> None:
     world.resize(Contact, count)
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     renew_contacts(
-        old_count, world.generations, found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point,
+        old_count, world.handles(), world.slots.row_shift,
+        found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point,
         found.by_fcl, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
         contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
         contact.warm_rolling, contact.impulse, contact.friction_impulse,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from carom.ecs import Force, Motion, World, system
+from carom.ecs import Force, Motion, RigidBody, World, system
 from carom.systems.forces.law import Forces, Law, parameter
 from carom.systems.kernels.forces import add_linear_drag, add_quadratic_drag
 
@@ -28,7 +28,7 @@ class QuadraticDrag(Law):
     density: float = parameter(unit="kg/m3", doc="density rho of the medium", default=1.225, above=0.0)
 
 
-@system(reads=(Forces,), adds=(Force,))
+@system(reads=(Forces, RigidBody), adds=(Force,))
 def apply_linear_drag(world: World, dt: float) -> None:
     """Add linear drag as a rate."""
     for law, rows in world[Forces].acting(LinearDrag, world):
@@ -36,7 +36,7 @@ def apply_linear_drag(world: World, dt: float) -> None:
         add_linear_drag(rows, law.coefficient, force.medium, force.drag, force.drag_flow)
 
 
-@system(reads=(Forces, Motion), adds=(Force,))
+@system(reads=(Forces, RigidBody, Motion), adds=(Force,))
 def apply_quadratic_drag(world: World, dt: float) -> None:
     """Add quadratic drag as a rate, by the speed at the middle of the substep."""
     for law, rows in world[Forces].acting(QuadraticDrag, world):

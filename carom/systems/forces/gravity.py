@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from carom.ecs import Force, Motion, RigidBody, World, system
+from carom.ecs import Force, RigidBody, World, system
 from carom.systems.kernels.forces import add_weight
 from carom.systems.settings import Settings
 
@@ -12,4 +12,4 @@ def apply_gravity(world: World, dt: float) -> None:
     """Add mass times the world's gravity."""
     gravity = world[Settings].gravity
     if any(gravity):
-        add_weight(world.row_numbers(RigidBody, Motion), world[RigidBody].mass, *gravity, world[Force].force)
+        add_weight(world.row_numbers(RigidBody), world[RigidBody].mass, *gravity, world[Force].force)

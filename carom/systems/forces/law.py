@@ -10,7 +10,6 @@ import numpy as np
 
 from carom.ecs.column import Integers
 from carom.ecs.component import Resource
-from carom.ecs.components.motion import Motion
 from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.errors import EntityError
 from carom.ecs.world import World
@@ -55,7 +54,7 @@ class Forces(Resource):
         entries = self.entries.get(kind)
         if entries is None:  # most laws of most worlds, in every substep
             return ()
-        bodies = world.row_numbers(RigidBody, Motion)
+        bodies = world.row_numbers(RigidBody)
         return [(law, bodies if entities is None else _rows(world, entities)) for law, entities in entries]
 
 

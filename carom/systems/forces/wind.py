@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from carom.ecs import Force, World, system
+from carom.ecs import Force, RigidBody, World, system
 from carom.systems.forces.law import Forces, Law, vector
 
 
@@ -17,7 +17,7 @@ class Wind(Law):
     velocity: tuple[float, float, float] = vector(unit="m/s", doc="velocity of the air")
 
 
-@system(reads=(Forces,), adds=(Force,))
+@system(reads=(Forces, RigidBody), adds=(Force,))
 def apply_wind(world: World, dt: float) -> None:
     """Add the wind to the velocity of the medium around each body."""
     for wind, rows in world[Forces].acting(Wind, world):

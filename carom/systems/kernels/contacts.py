@@ -6,7 +6,7 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.components.material import Combine
-from carom.ecs.entity import INDEX_BITS, INDEX_MASK
+from carom.ecs.entity import INDEX_MASK
 from carom.systems.kernels.balls import BOX, HALF_SPACE
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
@@ -126,7 +126,8 @@ def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass)
     "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse",
 )  # fmt: skip
 def renew_contacts(
-    old_count, generations, found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl,
+    old_count, handles, row_shift,
+    found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl,
     a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
     warm_normal, warm_friction, warm_rolling, impulse, friction_impulse,
 ):  # fmt: skip
@@ -141,13 +142,14 @@ def renew_contacts(
     for c in range(count):
         x, y, f = found_a[c], found_b[c], found_feature[c]
         while o < old_count:
-            p, q = a[o] & INDEX_MASK, b[o] & INDEX_MASK
+            p, q = a[o] & INDEX_MASK, b[o] & INDEX_MASK  # ids, then the rows of those ids
+            p, q = p + row_shift[p], q + row_shift[q]
             if p > x or (p == x and (q > y or (q == y and feature[o] >= f))):
                 break
             o += 1
         if o == old_count or feature[o] != f:
             continue
-        if a[o] != (generations[x] << INDEX_BITS | x) or b[o] != (generations[y] << INDEX_BITS | y):
+        if a[o] != handles[x] or b[o] != handles[y]:
             continue
         rested[c] = resting[o]
         kept[c, 0], kept[c, 7] = warm_normal[o], impulse[o]
@@ -156,7 +158,7 @@ def renew_contacts(
             kept[c, 8 + k] = friction_impulse[o, k]
     for c in range(count):
         x, y = found_a[c], found_b[c]
-        a[c], b[c], feature[c] = generations[x] << INDEX_BITS | x, generations[y] << INDEX_BITS | y, found_feature[c]
+        a[c], b[c], feature[c] = handles[x], handles[y], found_feature[c]
         row_a[c], row_b[c], by_fcl[c] = x, y, found_by_fcl[c]
         resting[c], warm_normal[c], impulse[c], depth[c] = rested[c], kept[c, 0], kept[c, 7], found_depth[c]
         for k in range(3):

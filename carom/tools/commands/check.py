@@ -27,7 +27,7 @@ def execute(arguments: argparse.Namespace) -> int:
             if not arguments.json:
                 print(fault, file=sys.stderr)
             continue
-        entities = int(loaded.simulation.world.alive.sum())
+        entities = int(loaded.simulation.world.slots.alive.sum())
         results.append({"world": world, "faults": [], "entities": entities, "expectations": len(loaded.expectations)})
         if not arguments.json:
             print(f"ok     {world}: {entities} entities, {len(loaded.expectations)} expectations")

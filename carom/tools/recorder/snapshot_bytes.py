@@ -10,15 +10,17 @@ import numpy.typing as npt
 
 from carom.ecs import Snapshot, World
 from carom.ecs.component import Record
+from carom.ecs.slots import Rows, as_rows
+from carom.ecs.snapshot import Arrays
 
 MAGIC = b"carom snapshot 1\n"
 
 
 def bytes_from_snapshot(snapshot: Snapshot) -> bytes:
     """Return one line of JSON that lists the parts in order, then the parts, little-endian and C-contiguous."""
-    parts: dict[str, npt.NDArray[Any] | bytes] = {"alive": snapshot.alive, "generations": snapshot.generations}
+    parts: dict[str, npt.NDArray[Any] | bytes] = {f"slots/{name}": values for name, values in snapshot.slots.items()}
     for kind, (rows, arrays) in snapshot.tables.items():
-        parts[f"{kind.key}#"] = rows
+        parts[f"{kind.key}#"] = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
         parts |= {f"{kind.key}.{name}": values for name, values in arrays.items()}
     for resource, state in sorted(snapshot.resources.items(), key=lambda item: item[0].__name__):
         parts[f"{resource.__name__}!"] = state
@@ -52,8 +54,9 @@ def snapshot_from_bytes(data: bytes, world: World) -> Snapshot:
         count = int(np.prod(shape))
         arrays[name] = np.frombuffer(rest, dtype, count, at).reshape(shape)
         at += arrays[name].nbytes
-    tables = {}
+    tables: dict[type[Record], tuple[Rows, Arrays]] = {}
     for key in [name[:-1] for name in arrays if name.endswith("#")]:
         columns = {name.partition(".")[2]: values for name, values in arrays.items() if name.startswith(f"{key}.")}
-        tables[Record.registry[key]] = (arrays[f"{key}#"], columns)
-    return Snapshot(header["frame"], arrays["alive"], arrays["generations"], tables, states)
+        tables[Record.registry[key]] = (as_rows(arrays[f"{key}#"]), columns)
+    slots = {name.removeprefix("slots/"): values for name, values in arrays.items() if name.startswith("slots/")}
+    return Snapshot(header["frame"], slots, tables, states)

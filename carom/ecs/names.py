@@ -1,0 +1,39 @@
+"""Names: which entity is called what, and patterns that mean several."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable
+
+from carom.ecs.errors import DeclarationError, EntityError
+
+
+def pattern(text: str) -> re.Pattern[str]:
+    """Return what ``text`` means: itself, all copies of that name (``rain[3,0,1]``), or with ``*`` all that fit."""
+    return re.compile(re.escape(text).replace(r"\*", ".*") + r"(?:\[[\d,]+\])?")
+
+
+class Names:
+    """The entity of each name, kept while entities come and go and made anew when somebody edited the names."""
+
+    def __init__(self) -> None:
+        self.entities: dict[str, int] = {}
+        self.stale = False
+
+    def refuse_taken(self, names: Iterable[str]) -> None:
+        """Raise DeclarationError when one of ``names`` is taken, or stands there twice."""
+        seen: set[str] = set()
+        for name in names:
+            if name and (name in self.entities or name in seen):
+                raise DeclarationError(f"two entities would be named {name!r}; names are unique, choose another")
+            seen.add(name)
+
+    def find(self, name: str) -> int:
+        """Return the handle of a name; raise EntityError with near names when there is none."""
+        found = self.entities.get(name)
+        if found is not None:
+            return found
+        near = difflib.get_close_matches(name, self.entities, 3)
+        hint = f"; did you mean {' or '.join(map(repr, near))}?" if near else ""
+        raise EntityError(f"no entity is named {name!r}{hint}")
