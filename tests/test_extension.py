@@ -66,6 +66,7 @@ def test_the_schema_knows_its_words_with_unit_and_meaning(site: Path) -> None:
     assert health["toughness"]["x-unit"] == "N s"
     assert health["toughness"]["description"] == "impulse up to which a blow does nothing (N s)"
     assert health["armor"]["maxItems"] == 3
+    assert health["guardian"]["type"] == "string"
     assert parts["Egg"]["required"] == ["radius", "length"]
     assert {"egg", "sphere"} < set(parts["Collider"]["properties"]) & set(parts["Visual"]["properties"])
     assert "tether" in parts["Force"]["properties"] and parts["Tether"]["properties"]["stiffness"]["x-unit"] == "N/m"
@@ -101,7 +102,7 @@ points = []
 for saved in recording.saved_states():
     restore_snapshot(simulation.world, snapshot_from_bytes(saved.state, simulation.world))
     assert state_hash(simulation.world) == saved.hash
-    points.append(int(simulation["dropped"].health.points))
+    points.append(int(simulation["swinging"].health.points))
 (version,) = recording.static["/about"]["version_carom_example"]
 print(json.dumps([points, version, sorted(recording.names(0).values())]))
 """
@@ -157,8 +158,8 @@ def test_check_tells_what_is_wrong_with_its_words(site: Path, tmp_path: Path) ->
     done = run([*CAROM, "check", world], site)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
-        f"{world}:3:18: prefabs.egg.health.pionts: unknown key; received 'pionts'; accepted: points, toughness, armor; "
-        "did you mean 'points'?\n"
+        f"{world}:3:18: prefabs.egg.health.pionts: unknown key; received 'pionts'; accepted: points, toughness, "
+        "guardian, armor; did you mean 'points'?\n"
         f"{world}:5:24: entities.0.health.points: must be a whole number; received 2.5; "
         "accepted: -2147483648 to 2147483647\n"
         f"{world}:5:37: entities.0.health.toughness: must be a value in N s; received '3 kg', which is a mass; "
@@ -169,12 +170,13 @@ def test_check_tells_what_is_wrong_with_its_words(site: Path, tmp_path: Path) ->
         "body, collider, material, visual, health, grid; did you mean 'health'?\n"
         f"{world}:9:15: forces.0.tether.stiffness: must be above 0 N/m; received 0\n"
     )
-    world.write_text("carom: 1\nentities: [{name: a, health: {}}]\nexpect: [{never: a.health.point > 2}]\n")
+    world.write_text("carom: 1\nentities: [{name: a, health: {guardian: aa}}]\nexpect: [{never: a.health.point > 2}]\n")
     done = run([*CAROM, "check", world], site)
     assert done.stderr == (
+        f"{world}:2:31: entities.0.health.guardian: unknown entity; received 'aa'; accepted: a; did you mean 'a'?\n"
         f"{world}:3:11: expect.0.never: a has no such column; received 'health.point'; accepted: position, rotation, "
         "friction, restitution, density, rolling_friction, spinning_friction, friction_combine, restitution_combine, "
-        "color, points, toughness, armor; did you mean 'points'?\n"
+        "color, points, toughness, guardian, armor; did you mean 'points'?\n"
     )
 
 

@@ -65,6 +65,7 @@ def load_text(
     populator = Populator(source, simulation, folder or Path())
     populator.add_all(values["entities"])
     source.excused = _named(data.get("entities")) - {name.partition("[")[0] for name in simulation.world.names()}
+    populator.point_all()
     _forces(source, simulation, values["forces"])
     expectations = read_expectations(source, simulation, values["expect"])
     if values["render"] is not None and values["render"].camera is not None:

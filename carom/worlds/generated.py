@@ -62,8 +62,10 @@ def _column_type(name: str, column: Column, **bounds: float) -> Any:
     if name in SPECIAL and column.shape == (4,):
         return SPECIAL[name]
     shape = column.shape
-    if column.dtype == np.bool_:
-        kind: Any = Flag
+    if holds_entities(column):
+        kind: Any = str
+    elif column.dtype == np.bool_:
+        kind = Flag
     elif column.dtype.kind == "U":
         kind = Annotated[str, Text(column.dtype.itemsize // 4)]
     elif column.dtype.kind in "iu":
@@ -76,7 +78,14 @@ def _column_type(name: str, column: Column, **bounds: float) -> Any:
     return kind
 
 
+def holds_entities(column: Column) -> bool:
+    """Tell whether a file states names of entities for a column."""
+    return column.entity
+
+
 def _column_field(column: Column) -> Any:
+    if holds_entities(column):
+        return Field(None, description=f"{column.doc}: the name of an entity")
     default = np.broadcast_to(np.asarray(column.default, column.dtype), column.shape).tolist()
     return Field(default, description=_description(column.doc, column.unit))
 

@@ -6,23 +6,36 @@ import re
 from collections.abc import Iterator
 from itertools import product
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from carom.ecs import Entity
 from carom.ecs.column import Floats
+from carom.ecs.component import Component
 from carom.ecs.components.name import NAME_LENGTH
 from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import Materials
 from carom.systems.layers import Layers
+from carom.systems.own_components import components_of_extensions
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import Path, WordError
+from carom.worlds.generated import holds_entities
 from carom.worlds.geometry import GEOMETRY_WORDS, GeometryReader
 from carom.worlds.names import known
 from carom.worlds.reader import Source
 
 SUB_PATH = re.compile(r"([a-z_]+(?:\.[a-z_]+)*): (.*)", re.DOTALL)
+
+
+class Pointer(NamedTuple):
+    """A column that holds entities, with the names the file states for it there."""
+
+    path: Path
+    kind: type[Component]
+    column: str
+    names: Any
 
 
 class Populator:
@@ -32,6 +45,7 @@ class Populator:
         self.source, self.simulation = source, simulation
         self.geometries = GeometryReader(folder)
         self.taken: dict[str, Path] = {}
+        self.pointers: list[tuple[Entity, Pointer]] = []
 
     def add_all(self, entities: list[Any]) -> None:
         """Add the entities of a file in its order; None stands for one already reported."""
@@ -54,6 +68,7 @@ class Populator:
             return
         transform = words.pop("transform", {})
         jitter = transform.pop("jitter", None)
+        pointers = self.take_pointers(path, words)
         try:
             for key in ("collider", "visual"):
                 if isinstance(words.get(key), dict):
@@ -62,11 +77,37 @@ class Populator:
                 if jitter is not None:
                     reach = np.broadcast_to(jitter, 3)
                     position = position + self.simulation.world[Random].generator.uniform(-reach, reach)
-                self.simulation.add(name=copy, transform=transform | {"position": tuple(position)}, **words)
+                entity = self.simulation.add(name=copy, transform=transform | {"position": tuple(position)}, **words)
+                self.pointers += [(entity, pointer) for pointer in pointers]
         except _ReportedError:
             return
         except DeclarationError as fault:
             self.report(path, str(fault))
+
+    def take_pointers(self, path: Path, words: dict[str, Any]) -> list[Pointer]:
+        """Take out what names other entities, which may come later in the file."""
+        own = components_of_extensions()
+        return [
+            Pointer((*path, key, name), own[key], name, words[key].pop(name))
+            for key in own
+            if key in words
+            for name in words[key].copy()
+            if holds_entities(own[key].columns[name])
+        ]
+
+    def point_all(self) -> None:
+        """Let columns hold the entities the file names, now that all are there; report unknown names."""
+        world = self.simulation.world
+        names = world.names()
+        for entity, pointer in self.pointers:
+            column = pointer.kind.columns[pointer.column]
+            try:
+                found = [world.find(known("entity", str(name), names)) for name in np.ravel(pointer.names)]
+            except WordError as fault:
+                self.source.report_value(pointer.path, fault)
+                continue
+            with world.edit(pointer.kind) as table:
+                getattr(table, pointer.column)[world.row(entity)] = np.reshape(found, column.shape)
 
     def places(
         self, name: str | None, grid: dict[str, Any] | None, position: Floats
