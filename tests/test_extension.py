@@ -12,8 +12,11 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from carom.ecs import DeclarationError, Phase, Schedule, System, World, system
+from carom.ecs import DeclarationError, Phase, Schedule, SnapshotError, System, World, system
 from carom.systems import places
+from carom.systems.simulation import Simulation
+from carom.tools.recorder.snapshot_bytes import snapshot_from_bytes
+from carom.tools.recording import Recording
 from carom.worlds.reader import read
 
 EXAMPLE = Path(__file__).parent / "example_extension"
@@ -80,7 +83,8 @@ def test_explain_shows_its_systems_where_they_are_placed(site: Path) -> None:
     assert names[names.index("take_damage") + 1] == "clear_inputs"
     assert names[names.index("apply_tether") - 1] == "apply_quadratic_drag"
     assert (damage["phase"], damage["reads"], damage["writes"]) == ("finish", ["Impact"], ["Health"])
-    assert (tether["phase"], tether["reads"], tether["adds"]) == ("substep", ["Forces", "Transform"], ["Force"])
+    assert (tether["phase"], tether["adds"]) == ("substep", ["Force"])
+    assert tether["reads"] == ["Forces", "Transform", "RigidBody"]
 
 
 def test_its_world_holds_what_it_expects_and_is_recorded_and_drawn(site: Path, tmp_path: Path) -> None:
@@ -109,6 +113,10 @@ print(json.dumps([points, version, sorted(recording.names(0).values())]))
     done = run(["-c", code, record, NEST], site)
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout) == [[3, 2], "0.1.0", ["dropped", "floor", "swinging"]]
+    simulation = Simulation()
+    with pytest.raises(SnapshotError) as fault:
+        snapshot_from_bytes(Recording(record).saved_states()[0].state, simulation.world)
+    assert str(fault.value) == "the snapshot holds health, which nothing here declares; install the extension it is of"
 
 
 def test_its_state_is_hashed_and_stated_in_python_as_in_files(site: Path) -> None:

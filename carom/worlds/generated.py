@@ -80,7 +80,7 @@ def _column_type(name: str, column: Column, **bounds: float) -> Any:
 
 def holds_entities(column: Column) -> bool:
     """Tell whether a file states names of entities for a column."""
-    return column.entity
+    return column.holds == "entities"
 
 
 def _column_field(column: Column) -> Any:

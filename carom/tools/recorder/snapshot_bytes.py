@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from carom.ecs import Snapshot, World
 from carom.ecs.component import Record
+from carom.ecs.errors import SnapshotError
 from carom.ecs.slots import Rows, as_rows
 from carom.ecs.snapshot import Arrays
 
@@ -39,7 +40,10 @@ def bytes_from_snapshot(snapshot: Snapshot) -> bytes:
 
 
 def snapshot_from_bytes(data: bytes, world: World) -> Snapshot:
-    """Return the snapshot in ``data``; ``world`` tells which classes its resources are of."""
+    """Return the snapshot in ``data``; ``world`` tells which classes its resources are of.
+
+    Raises SnapshotError when it holds a component that nothing declares here.
+    """
     line, _, rest = data.removeprefix(MAGIC).partition(b"\n")
     header = json.loads(line)
     resources = {kind.__name__: kind for kind in world.resources}
@@ -55,7 +59,12 @@ def snapshot_from_bytes(data: bytes, world: World) -> Snapshot:
         arrays[name] = np.frombuffer(rest, dtype, count, at).reshape(shape)
         at += arrays[name].nbytes
     tables: dict[type[Record], tuple[Rows, Arrays]] = {}
-    for key in [name[:-1] for name in arrays if name.endswith("#")]:
+    keys = [name[:-1] for name in arrays if name.endswith("#")]
+    unknown = ", ".join(key for key in keys if key not in Record.registry)
+    if unknown:
+        message = f"the snapshot holds {unknown}, which nothing here declares; install the extension it is of"
+        raise SnapshotError(message)
+    for key in keys:
         columns = {name.partition(".")[2]: values for name, values in arrays.items() if name.startswith(f"{key}.")}
         tables[Record.registry[key]] = (as_rows(arrays[f"{key}#"]), columns)
     slots = {name.removeprefix("slots/"): values for name, values in arrays.items() if name.startswith("slots/")}

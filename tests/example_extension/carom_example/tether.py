@@ -5,7 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.ecs import Force, Transform, World, system
+from carom.ecs import Force, RigidBody, Transform, World, system
 from carom.systems.forces.law import Forces, Law, parameter, vector
 from carom.systems.places import placed
 
@@ -20,7 +20,7 @@ class Tether(Law):
 
 
 @placed(after="apply_quadratic_drag")
-@system(reads=(Forces, Transform), adds=(Force,))
+@system(reads=(Forces, Transform, RigidBody), adds=(Force,))
 def apply_tether(world: World, dt: float) -> None:
     """Add what tethers pull."""
     for law, rows in world[Forces].acting(Tether, world):
