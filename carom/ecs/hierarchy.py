@@ -37,7 +37,11 @@ def levels(world: World, rows: Integers) -> list[Integers]:
     """Return ``rows`` of children in groups, each carried by entities that stand in no later group."""
     if not len(rows):
         return []
-    parents = world.slots.rows(world[Parent].entity[rows])
+    carriers = world[Parent].entity[rows]
+    if (carriers < 0).any():
+        child = world.name(world.entity(rows[np.argmin(carriers)]))
+        raise EntityError(f"entity '{child}' has a parent component but no parent; set parent.entity, or detach it")
+    parents = world.slots.rows(carriers)
     rootless = ~world.table(Transform).present[parents]
     if rootless.any():
         child, carrier = rows[rootless][0], parents[rootless][0]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from carom.ecs import (
     Collider,
@@ -20,13 +21,15 @@ from carom.ecs import (
     Transform,
     Visual,
     World,
+    tag,
 )
-from carom.ecs.column import Floats
+from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Component, Resource
 from carom.ecs.components.collider import ColliderPose
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.rigid_body import BodyType
 from carom.ecs.errors import DeclarationError
+from carom.ecs.hierarchy import compose
 from carom.ecs.spatial import quaternion
 from carom.systems.layers import EVERYTHING, Layers
 from carom.systems.own_components import own_component
@@ -36,7 +39,7 @@ from carom.systems.shapes.shape import Bounds, MassProperties
 
 Words = Mapping[str, Any]
 COMBINE_QUANTITIES = ("friction", "restitution")
-ENTITY_WORDS = ("name", "transform", "motion", "body", "collider", "material", "visual")
+ENTITY_WORDS = ("name", "transform", "motion", "body", "collider", "material", "visual", "tags")
 
 
 class Materials(Resource):
@@ -46,24 +49,45 @@ class Materials(Resource):
         self.named: dict[str, Words] = {}
 
 
-def add_entity(
+def add_entity(world: World, *, name: str | None = None, **words: Any) -> Entity:
+    """Add one entity described in the words of a world file, all numbers SI.
+
+    ``body`` makes it move (an empty mapping takes its mass from the shape's volume and the material's density); without
+    one it is static. ``visual`` False hides it, ``tags`` are names, and ``parent`` names who carries it. Further words
+    are the keys of a user's own components, each with its columns: ``health={"points": 3}``. Raises DeclarationError
+    for anything a file would be refused for.
+    """
+    entity = world.spawn(*bundles_of(world, **words), name=name)
+    _carry(world, np.array([entity]), words)
+    return entity
+
+
+def add_entities(world: World, positions: npt.ArrayLike, *, names: list[str] | None = None, **words: Any) -> Integers:
+    """Add an entity at each position (n, 3), m, all alike otherwise; ``words`` are those of `add_entity`."""
+    places = np.asarray(positions, np.float64).reshape(-1, 3)
+    entities = world.spawn_many(len(places), *bundles_of(world, **words), Transform(position=places), names=names)
+    _carry(world, entities, words)
+    return entities
+
+
+def _carry(world: World, entities: Integers, words: Words) -> None:
+    if words.get("parent", {}).get("entity", -1) >= 0:
+        compose(world, world.slots.rows(entities))
+
+
+def bundles_of(
     world: World,
     *,
-    name: str | None = None,
     transform: Words | None = None,
     motion: Words | None = None,
     body: Words | None = None,
     collider: Words | None = None,
     material: str | Words | None = None,
     visual: Words | bool | None = None,
+    tags: Iterable[str] = (),
     **own: Words,
-) -> Entity:
-    """Add one entity described in the words of a world file, all numbers SI.
-
-    ``body`` makes it move (an empty mapping takes its mass from the shape's volume and the material's density); without
-    one it is static. ``visual`` False hides it. Further words are the keys of a user's own components, each with its
-    columns: ``health={"points": 3}``. Raises DeclarationError for anything a file would be refused for.
-    """
+) -> list[Component]:
+    """Return the components that the words of an entity stand for."""
     surface = material_of(world, material)
     bundles: list[Component] = [_transform(transform or {}), surface]
     shape = shape_of(collider) if collider is not None else None
@@ -84,8 +108,11 @@ def add_entity(
     seen = _visual(world, visual, collider, shape, surface)
     if seen is not None:
         bundles.append(seen)
+    if body is not None and "parent" in own:
+        raise DeclarationError("parent: a body moves by forces, not with who carries it; remove body or parent")
+    bundles += [tag(label)() for label in tags]
     bundles += [own_component(key, words, ENTITY_WORDS) for key, words in own.items()]
-    return world.spawn(*bundles, name=name)
+    return bundles
 
 
 def shape_of(words: Words) -> Shape:

@@ -1,4 +1,4 @@
-"""Own components: those a user declares, stated on an entity under their key, in Python and in files."""
+"""Components stated column by column under their key, in Python and in files: a user's own, and Parent."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from carom.ecs.component import Component, Record
+from carom.ecs.components.parent import Parent
 from carom.ecs.errors import DeclarationError
 from carom.systems.extensions import load_extensions
 
@@ -15,8 +16,8 @@ def is_own(kind: type[Record]) -> bool:
     return kind.__module__.partition(".")[0] != "carom"
 
 
-def components_of_extensions() -> dict[str, type[Component]]:
-    """Return by key what world files may state: components of extensions that have state, or no columns at all.
+def components_of_files() -> dict[str, type[Component]]:
+    """Return by key what world files may state: Parent, and what extensions declare with state or without columns.
 
     Those a script declares are not among them, so that a file means the same to every command.
     """
@@ -24,17 +25,21 @@ def components_of_extensions() -> dict[str, type[Component]]:
     return {
         key: kind
         for key, kind in sorted(Record.registry.items())
-        if issubclass(kind, Component) and kind.__module__.partition(".")[0] in packages
+        if issubclass(kind, Component) and (kind is Parent or kind.__module__.partition(".")[0] in packages)
         if not kind.columns or any(column.role == "state" for column in kind.columns.values())
     }
 
 
 def own_component(key: str, words: Any, others: Iterable[str]) -> Component:
-    """Return the bundle of a user's component from a mapping of its columns; ``others`` are an entity's further words.
+    """Return the bundle of a component from a mapping of its columns; ``others`` are an entity's further words.
 
-    Raises DeclarationError for a key that no component outside carom has.
+    Raises DeclarationError for a key that none of these components has.
     """
-    own = {key: kind for key, kind in Record.registry.items() if issubclass(kind, Component) and is_own(kind)}
+    own = {
+        key: kind
+        for key, kind in Record.registry.items()
+        if issubclass(kind, Component) and (kind is Parent or is_own(kind))
+    }
     if key not in own:
         raise DeclarationError(f"an entity has no word '{key}'; its words are {', '.join([*others, *sorted(own)])}")
     if not isinstance(words, Mapping):

@@ -26,7 +26,7 @@ from carom.ecs.components.force import Force
 from carom.ecs.components.motion import Motion
 from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
-from carom.systems.assembly import Materials, add_entity
+from carom.systems.assembly import Materials, add_entities, add_entity
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.finish import find_not_finite
@@ -67,6 +67,10 @@ class Simulation:
     def add(self, **words: Any) -> Entity:
         """Add one entity: ``add(name="ball", collider={"sphere": {"radius": 0.1}}, body={})``; see `add_entity`."""
         return add_entity(self.world, **words)
+
+    def add_many(self, positions: npt.ArrayLike, *, names: list[str] | None = None, **words: Any) -> Integers:
+        """Add an entity at each of ``positions`` (n, 3), m, all alike otherwise, far faster than one by one."""
+        return add_entities(self.world, positions, names=names, **words)
 
     def material(self, name: str, **words: Any) -> None:
         """Name a material for later `add` calls."""

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from carom.ecs.errors import DeclarationError
+from carom.ecs.errors import DeclarationError, EntityError
+from carom.ecs.hierarchy import compose
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.worlds import library
@@ -66,6 +67,11 @@ def load_text(
     populator.add_all(values["entities"])
     source.excused = _named(data.get("entities")) - {name.partition("[")[0] for name in simulation.world.names()}
     populator.point_all()
+    try:
+        if not source.faults:
+            compose(simulation.world)
+    except EntityError as fault:
+        source.report(("entities",), str(fault))
     _forces(source, simulation, values["forces"])
     expectations = read_expectations(source, simulation, values["expect"])
     if values["render"] is not None and values["render"].camera is not None:

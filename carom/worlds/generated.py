@@ -16,7 +16,7 @@ from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import COMBINE_QUANTITIES
 from carom.systems.extensions import origin
 from carom.systems.forces import LAWS
-from carom.systems.own_components import components_of_extensions, is_own
+from carom.systems.own_components import components_of_files, is_own
 from carom.systems.settings import Settings
 from carom.systems.shapes import SHAPES
 from carom.worlds.color import ColorWord
@@ -97,7 +97,7 @@ def _description(doc: str, unit: str) -> str:
 def own_fields(taken: Iterable[str]) -> Fields:
     """Return one optional field per component of extensions, none of them called like a word that is ``taken``."""
     fields: Fields = {}
-    for key, kind in components_of_extensions().items():
+    for key, kind in components_of_files().items():
         where = f"component {kind.__name__} of {origin(kind.__module__)}"
         if key in taken:
             raise DeclarationError(f"{where} has the key {key!r}, which is a word of every entity; rename it")

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from itertools import product
 from pathlib import Path as FilePath
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.ecs import Entity
-from carom.ecs.column import Floats
+from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Component
 from carom.ecs.components.name import NAME_LENGTH
 from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import Materials
 from carom.systems.layers import Layers
-from carom.systems.own_components import components_of_extensions
+from carom.systems.own_components import components_of_files
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import Path, WordError
@@ -45,7 +43,7 @@ class Populator:
         self.source, self.simulation = source, simulation
         self.geometries = GeometryReader(folder)
         self.taken: dict[str, Path] = {}
-        self.pointers: list[tuple[Entity, Pointer]] = []
+        self.pointers: list[tuple[Integers, Pointer]] = []
 
     def add_all(self, entities: list[Any]) -> None:
         """Add the entities of a file in its order; None stands for one already reported."""
@@ -73,12 +71,13 @@ class Populator:
             for key in ("collider", "visual"):
                 if isinstance(words.get(key), dict):
                     self.read_geometry((*path, key), words[key])
-            for copy, position in self.places(name, grid, np.array(transform.get("position", (0.0, 0.0, 0.0)))):
-                if jitter is not None:
-                    reach = np.broadcast_to(jitter, 3)
-                    position = position + self.simulation.world[Random].generator.uniform(-reach, reach)
-                entity = self.simulation.add(name=copy, transform=transform | {"position": tuple(position)}, **words)
-                self.pointers += [(entity, pointer) for pointer in pointers]
+            positions = self.places(name, grid, np.array(transform.get("position", (0.0, 0.0, 0.0))))
+            if jitter is not None:
+                reach = np.broadcast_to(jitter, 3)
+                positions = positions + self.simulation.world[Random].generator.uniform(-reach, reach, positions.shape)
+            names = None if name is None else copies(name, grid)
+            entities = self.simulation.add_many(positions, names=names, transform=transform, **words)
+            self.pointers += [(entities, pointer) for pointer in pointers]
         except _ReportedError:
             return
         except DeclarationError as fault:
@@ -86,7 +85,7 @@ class Populator:
 
     def take_pointers(self, path: Path, words: dict[str, Any]) -> list[Pointer]:
         """Take out what names other entities, which may come later in the file."""
-        own = components_of_extensions()
+        own = components_of_files()
         return [
             Pointer((*path, key, name), own[key], name, words[key].pop(name))
             for key in own
@@ -99,7 +98,7 @@ class Populator:
         """Let columns hold the entities the file names, now that all are there; report unknown names."""
         world = self.simulation.world
         names = world.names()
-        for entity, pointer in self.pointers:
+        for entities, pointer in self.pointers:
             column = pointer.kind.columns[pointer.column]
             try:
                 found = [world.find(known("entity", str(name), names)) for name in np.ravel(pointer.names)]
@@ -107,22 +106,17 @@ class Populator:
                 self.source.report_value(pointer.path, fault)
                 continue
             with world.edit(pointer.kind) as table:
-                getattr(table, pointer.column)[world.row(entity)] = np.reshape(found, column.shape)
+                getattr(table, pointer.column)[world.slots.rows(entities)] = np.reshape(found, column.shape)
 
-    def places(
-        self, name: str | None, grid: dict[str, Any] | None, position: Floats
-    ) -> Iterator[tuple[str | None, Floats]]:
-        """Yield name and position of each copy."""
+    def places(self, name: str | None, grid: dict[str, Any] | None, position: Floats) -> Floats:
+        """Return the position of each copy (n, 3)."""
         if grid is None:
-            yield name, position
-            return
-        counts = grid["count"]
-        longest = f"{name}[{','.join(str(count - 1) for count in counts)}]"
+            return position[None]
+        longest = f"{name}[{','.join(str(count - 1) for count in grid['count'])}]"
         if name is not None and len(longest) > NAME_LENGTH:
             raise DeclarationError(f"grid: the name {longest!r} of its last copy exceeds {NAME_LENGTH} characters")
-        corner = position + np.array(grid.get("origin", (0.0, 0.0, 0.0)))
-        for i, j, k in product(*map(range, counts)):
-            yield name and f"{name}[{i},{j},{k}]", corner + np.array((i, j, k)) * grid["spacing"]
+        steps = np.indices(grid["count"]).reshape(3, -1).T
+        return np.asarray(position + np.array(grid.get("origin", (0.0, 0.0, 0.0))) + steps * grid["spacing"])
 
     def read_geometry(self, path: Path, words: dict[str, Any]) -> None:
         """Put shapes in the place of the words of meshes and hulls; report files that cannot be used."""
@@ -168,6 +162,13 @@ class Populator:
                     return
         place = (*path, "collider") if message.startswith("state exactly one shape") else path
         self.source.report(place, message)
+
+
+def copies(name: str, grid: dict[str, Any] | None) -> list[str]:
+    """Return the name of each copy in the order of their places."""
+    if grid is None:
+        return [name]
+    return [f"{name}[{i},{j},{k}]" for i, j, k in product(*map(range, grid["count"]))]
 
 
 class _ReportedError(Exception):

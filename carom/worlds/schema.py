@@ -70,6 +70,7 @@ def document() -> type[Words]:
         "collider": (collider, Field(None, description="the shape by which it touches others")),
         "material": (either(str, material), Field(None, description="name of a material, or its words")),
         "visual": (either(Flag, visual), Field(None, description="what is seen; false hides it")),
+        "tags": (names, Field([], description="what it is, for queries")),
     }  # fmt: skip
     grid = (Grid, Field(None, description="copies on a grid"))
     named = (Name, Field(None, description="unique name"))

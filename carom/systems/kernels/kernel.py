@@ -14,12 +14,13 @@ from carom.ecs.errors import AccessError
 from carom.ecs.system import GUARDED
 
 ROOM = Path(__file__).parents[1]
-SOURCES = hashlib.blake2b(
-    b"".join(
-        path.read_bytes()
-        for path in sorted([*ROOM.glob("kernels/*.py"), *ROOM.parent.glob("ecs/spatial/*.py"), ROOM / "constants.py"])
-    )
-).hexdigest()
+PLAIN = ("scalars.py", "trigonometry.py")  # whose functions kernels compile as they stand
+FILES = [
+    *ROOM.glob("kernels/*.py"),
+    *(ROOM.parent / "ecs" / "spatial" / name for name in PLAIN),
+    ROOM / "constants.py",
+]
+SOURCES = hashlib.blake2b(b"".join(path.read_bytes() for path in sorted(FILES))).hexdigest()
 
 
 def compiled(function: Callable[..., Any], **options: Any) -> Any:
