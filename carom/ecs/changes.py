@@ -8,44 +8,51 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs.column import Booleans, Integers
+from carom.ecs.entity import INDEX_MASK
 from carom.ecs.table import Table
-
-NOBODY = -1
 
 
 class Watch:
-    """What a table held when it was last looked at, and for each row the mark after which it last changed.
+    """What each holder of a component held when it was last looked at, and the mark after which that last changed.
 
-    Rows are compared bit by bit, so that writing the value that is there already is no change. Only watched tables pay.
+    Values are compared bit by bit and by entity, so that writing the value that is there already is no change, nor is
+    to be moved to another row. Only watched tables pay.
     """
 
-    def __init__(self, table: Table, handles: Integers) -> None:
+    def __init__(self, table: Table, handles: Integers, first: int) -> None:
         self.table = table
-        self.changed_after: Integers = np.zeros(0, np.int64)
-        self.held_by: Integers = np.zeros(0, np.int64)
-        self.seen: dict[str, npt.NDArray[Any]] = {}
-        self.look(handles, 0)
+        self.first = first  # the mark from which on changes are known
+        self.changed_after: Integers = np.zeros(0, np.int64)  # by row; the others are by holder, in order of rows
+        self.rows: Integers = np.zeros(0, np.int64)
+        self.holders: Integers = np.zeros(0, np.int64)
+        self.seen: dict[str, npt.NDArray[Any]] = {name: array[:0] for name, array in table.arrays.items()}
+        self.look(handles, first - 1)
 
     def look(self, handles: Integers, mark: int) -> None:
         """Find what changed since the last look; it changed after ``mark``."""
-        used = len(handles)
-        holders = np.where(self.table.present[:used], handles, NOBODY)
-        known = min(used, len(self.held_by))
-        changed: Booleans = np.ones(used, np.bool_)
-        changed[:known] = holders[:known] != self.held_by[:known]
-        for name, array in self.table.arrays.items():
-            differs = bits(array[:known]) != bits(self.seen.get(name, array)[:known])
-            changed[:known] |= differs.reshape(known, -1).any(axis=1)
-        after = np.full(used, mark)
-        after[:known] = np.where(changed[:known], mark, self.changed_after[:known])
-        self.changed_after, self.held_by = after, holders
-        self.seen = {name: array[:used].copy() for name, array in self.table.arrays.items()}
+        rows = np.nonzero(self.table.present[: len(handles)])[0]
+        holders = handles[rows]
+        before, known = self._places(holders)
+        seen = {name: array[rows] for name, array in self.table.arrays.items()}
+        same = np.ones(len(before), np.bool_)
+        for name, array in seen.items():
+            agrees = bits(array[known]) == bits(self.seen[name][before])
+            same &= agrees.all(axis=tuple(range(1, agrees.ndim)))
+        after = np.full(len(rows), mark)
+        after[known] = np.where(same, self.changed_after[self.rows[before]], mark)
+        self.changed_after = np.zeros(len(handles), np.int64)
+        self.changed_after[rows] = after
+        self.rows, self.holders, self.seen = rows, holders, seen
 
-    def gather(self, rows: Integers) -> None:
-        """Follow `World.compact`: to be moved is no change."""
-        rows = rows[rows < len(self.held_by)]
-        self.changed_after, self.held_by = self.changed_after[rows], self.held_by[rows]
-        self.seen = {name: array[rows] for name, array in self.seen.items()}
+    def _places(self, holders: Integers) -> tuple[Integers, Booleans]:
+        """Return where those of ``holders`` that were there before stood among the holders, and a mask of them."""
+        ids, were = holders & INDEX_MASK, self.holders & INDEX_MASK
+        place = np.full(max(ids.max(initial=-1), were.max(initial=-1)) + 1, -1)
+        place[were] = np.arange(len(were))
+        before = place[ids]
+        known: Booleans = before >= 0
+        known[known] = self.holders[before[known]] == holders[known]
+        return before[known], known
 
 
 def bits(array: npt.NDArray[Any]) -> npt.NDArray[Any]:

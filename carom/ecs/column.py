@@ -72,7 +72,11 @@ class Column:
     def fit(self, value: npt.NDArray[Any], count: int, where: str) -> None:
         """Raise DeclarationError unless ``value`` is one row's value, or one for each of ``count`` rows."""
         if value.shape not in ((), (1,), self.shape, (1, *self.shape), (count, *self.shape)):
-            raise DeclarationError(f"{where} takes {self.per_row()} per row, received an array of shape {value.shape}")
+            each = f" for all, or {(count, *self.shape)} for each" if count != 1 else ""
+            raise DeclarationError(
+                f"{where} takes {self.per_row()} per row, received an array of shape {value.shape}; "
+                f"give shape {self.shape}{each}"
+            )
 
     def per_row(self) -> str:
         """Return in words how many numbers one row holds."""

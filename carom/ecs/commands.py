@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from carom.ecs.column import Integers
 from carom.ecs.component import Component, Resource
 from carom.ecs.prefab import Prefab
+from carom.ecs.query import Query
 
 if TYPE_CHECKING:
     from carom.ecs.world import World
@@ -31,11 +33,10 @@ class Commands(Resource):
         """Ask for many entities, as `World.spawn_many` makes them."""
         self.ask(lambda world: world.spawn_many(count, *bundles, names=names))
 
-    def despawn(self, *entities: Any) -> None:
-        """Ask for entities, one by one or as arrays of handles, to be removed with those they carry."""
-        self.ask(
-            lambda world: world.despawn(*(group[world.slots.live(group)] for group in map(np.atleast_1d, entities)))
-        )
+    def despawn(self, *entities: int | Integers | Query) -> None:
+        """Ask for entities, one by one, as arrays of handles or as queries, to be removed with those they carry."""
+        groups = [group.entities if isinstance(group, Query) else np.atleast_1d(group) for group in entities]
+        self.ask(lambda world: world.despawn(*(group[world.slots.live(group)] for group in groups)))
 
     def attach(self, entity: int, *bundles: Component | Prefab) -> None:
         """Ask for components to be given to an entity."""

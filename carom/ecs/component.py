@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from typing import Any, ClassVar, Self
 
-import numpy as np
-
 from carom.ecs.column import Column
 from carom.ecs.errors import DeclarationError, SnapshotError
 
@@ -19,12 +17,12 @@ class Record:
     registry: ClassVar[dict[str, type[Record]]] = {}
     kept: ClassVar[bool] = False  # a derived kind that is a result: observers read it although no system does
 
-    def __init_subclass__(cls, **options: Any) -> None:
+    def __init_subclass__(cls, *, key: str = "", **options: Any) -> None:
         super().__init_subclass__(**options)
         cls.columns = {name: value for name, value in vars(cls).items() if isinstance(value, Column)}
         for name in cls.columns:
             delattr(cls, name)
-        cls.key = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", cls.__name__).lower()
+        cls.key = key or re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", cls.__name__).lower()
         if cls.__module__ == __name__:
             return
         known = Record.registry.get(cls.key)
@@ -41,11 +39,7 @@ class Record:
                 raise DeclarationError(
                     f"{type(self).__name__} has no column '{name}'; its columns are {', '.join(self.columns)}"
                 )
-            try:
-                array = np.asarray(value, self.columns[name].dtype)
-            except (TypeError, ValueError) as fault:
-                raise DeclarationError(f"{type(self).__name__}.{name}: {fault}") from None
-            setattr(self, name, array)
+            setattr(self, name, self.columns[name].accept(value, f"{type(self).__name__}.{name}"))
 
     @classmethod
     def derived(cls) -> bool:

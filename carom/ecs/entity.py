@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, NewType, TypeVar
 
 import numpy as np
 
+from carom.ecs.components.name import Name
+
 if TYPE_CHECKING:
     from carom.ecs.component import Component
     from carom.ecs.world import World
@@ -83,6 +85,8 @@ class RecordView:
         if key is ...:
             column.fit(accepted, 1, where)
         row = self._world.row(self._entity)
+        if self._kind is Name:
+            self._world.names_now().refuse_taken([str(accepted)], self._entity)
         with self._world.edit(self._kind) as table:
             array = getattr(table, name)
             if key is ...:
@@ -98,7 +102,10 @@ class RecordView:
 
 
 class Value(np.ndarray):
-    """The value of one entity in one column: assigning to its elements, and ``+=``, write through to the table."""
+    """The value of one entity in one column: assigning to its elements, and ``+=``, write through to the table.
+
+    So it is also of a value kept under a name, as long as no spawn makes the table grow.
+    """
 
     write: Callable[[Any, Any], None] | None = None
 
@@ -109,10 +116,18 @@ class Value(np.ndarray):
             self.write(key, value)
 
 
-def _out_of_place(operator: str) -> Any:
-    """Return ``+=`` as ``+``: the result is assigned to the column, which writes it through."""
-    return lambda self, other: getattr(np.ndarray, operator)(np.asarray(self), other)
+def _in_place(operator: str) -> Callable[[Value, Any], Any]:
+    """Return ``+=`` as ``+`` followed by writing through; of part of a value, as the caller assigns that part."""
+
+    def apply(self: Value, other: Any) -> Any:
+        result = getattr(np.ndarray, operator)(np.asarray(self), other)
+        if self.write is None:
+            return result
+        self.write(..., result)
+        return self
+
+    return apply
 
 
 for _name in ("add", "sub", "mul", "truediv", "floordiv", "mod", "pow"):
-    setattr(Value, f"__i{_name}__", _out_of_place(f"__{_name}__"))
+    setattr(Value, f"__i{_name}__", _in_place(f"__{_name}__"))

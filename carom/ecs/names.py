@@ -6,7 +6,10 @@ import difflib
 import re
 from collections.abc import Iterable
 
+from carom.ecs.column import Integers, Texts
 from carom.ecs.errors import DeclarationError, EntityError
+
+NOBODY = -1
 
 
 def pattern(text: str) -> re.Pattern[str]:
@@ -21,11 +24,16 @@ class Names:
         self.entities: dict[str, int] = {}
         self.stale = False
 
-    def refuse_taken(self, names: Iterable[str]) -> None:
-        """Raise DeclarationError when one of ``names`` is taken, or stands there twice."""
+    def note(self, texts: Texts, entities: Integers) -> None:
+        """Take in who is called what; an empty text is no name."""
+        pairs = zip(texts.tolist(), entities.tolist(), strict=True)
+        self.entities.update((text, entity) for text, entity in pairs if text)
+
+    def refuse_taken(self, names: Iterable[str], entity: int = NOBODY) -> None:
+        """Raise DeclarationError when one of ``names`` is that of another than ``entity``, or stands there twice."""
         seen: set[str] = set()
         for name in names:
-            if name and (name in self.entities or name in seen):
+            if name and (self.entities.get(name, entity) != entity or name in seen):
                 raise DeclarationError(f"two entities would be named {name!r}; names are unique, choose another")
             seen.add(name)
 

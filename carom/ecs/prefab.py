@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from carom.ecs.component import Component, Record
+from carom.ecs.errors import DeclarationError
 
 
 class Prefab:
@@ -23,6 +24,10 @@ def merge(bundles: Iterable[Component | Prefab]) -> list[Component]:
     for bundle in bundles:
         for part in bundle.bundles if isinstance(bundle, Prefab) else (bundle,):
             kind = type(part)
+            if not isinstance(part, Component):
+                name = part.__name__ if isinstance(part, type) else kind.__name__
+                received = f"the class {name}; write {name}(...)" if isinstance(part, type) else f"{name} {part!r}"
+                raise DeclarationError(f"an entity is made of components and prefabs, received {received}")
             if kind not in merged:
                 merged[kind] = kind()
             vars(merged[kind]).update(vars(part))

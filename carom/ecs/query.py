@@ -11,13 +11,14 @@ from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Component
 from carom.ecs.entity import Entity, EntityView
 from carom.ecs.errors import AccessError
-from carom.ecs.slots import Rows, as_rows
+from carom.ecs.slots import Rows, as_rows, as_spans
 
 if TYPE_CHECKING:
     from carom.ecs.world import World
 
 Kinds = type[Component] | Iterable[type[Component]]
-Key = tuple[tuple[type[Component], ...], tuple[type[Component], ...], tuple[type[Component], ...]]
+Several = tuple[type[Component], ...]
+Key = tuple[Several, Several, Several, Several]
 
 
 def as_kinds(kinds: Kinds) -> tuple[type[Component], ...]:
@@ -35,16 +36,17 @@ class Query:
     def __init__(
         self,
         world: World,
-        kinds: tuple[type[Component], ...],
-        without: tuple[type[Component], ...],
-        any_of: tuple[type[Component], ...],
-        optional: tuple[type[Component], ...] = (),
+        kinds: Several,
+        without: Several,
+        any_of: Several,
+        optional: Several,
     ) -> None:
         self.world, self.kinds, self.without = world, kinds, without
         self.any_of, self.optional = any_of, optional
         self.structure = -1
         self._rows: Rows
         self._numbers: Integers
+        self._spans: Integers | None = None
 
     @property
     def rows(self) -> Rows:
@@ -64,11 +66,9 @@ class Query:
     def spans(self) -> Integers:
         """The rows as runs (n, 2) from first to one past last, for kernels that loop over long stretches."""
         rows = self.numbers
-        if not len(rows):
-            return np.zeros((0, 2), np.int64)
-        breaks = np.nonzero(np.diff(rows) != 1)[0]
-        first, last = np.concatenate([[0], breaks + 1]), np.concatenate([breaks, [len(rows) - 1]])
-        return np.stack([rows[first], rows[last] + 1], axis=1)
+        if self._spans is None:
+            self._spans = as_spans(rows)
+        return self._spans
 
     @property
     def entities(self) -> Integers:
@@ -77,6 +77,7 @@ class Query:
 
     def has(self, kind: type[Component]) -> Booleans:
         """Return for each row whether the entity has ``kind``: a mask (n,)."""
+        self.world[kind]  # raises for what the running system does not declare
         return np.asarray(self.world.table(kind).present[self.numbers])
 
     def __len__(self) -> int:
@@ -105,4 +106,5 @@ class Query:
             match &= np.logical_or.reduce([world.table(kind).present[:used] for kind in self.any_of])
         self._numbers = np.nonzero(match)[0].astype(np.int64, copy=False)
         self._rows = as_rows(self._numbers)
+        self._spans = None
         self.structure = world.structure

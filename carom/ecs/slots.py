@@ -23,6 +23,15 @@ def as_rows(rows: Integers) -> Rows:
     return slice(first, last + 1) if last - first + 1 == len(rows) else rows
 
 
+def as_spans(rows: Integers) -> Integers:
+    """Return sorted rows as runs (n, 2) from first to one past last."""
+    if not len(rows):
+        return np.zeros((0, 2), np.int64)
+    breaks = np.nonzero(np.diff(rows) != 1)[0]
+    first, last = np.concatenate([[0], breaks + 1]), np.concatenate([breaks, [len(rows) - 1]])
+    return np.stack([rows[first], rows[last] + 1], axis=1)
+
+
 class Slots:
     """Rows, the ids that handles carry, and the generation of each id.
 
@@ -83,6 +92,8 @@ class Slots:
         self.alive[rows] = False
         self.generations[ids] += 1
         self.died_at[ids] = frame
+        last = self.alive[: self.used][::-1]
+        self.used = self.used - int(last.argmax()) if last.any() else 0
         self._free = None
 
     def compact(self) -> Integers:

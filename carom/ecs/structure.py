@@ -13,9 +13,9 @@ from carom.ecs.column import Integers
 from carom.ecs.component import Component, Record
 from carom.ecs.components.name import Name
 from carom.ecs.entity import Entity
-from carom.ecs.errors import AccessError
+from carom.ecs.errors import AccessError, DeclarationError
 from carom.ecs.hierarchy import descendants
-from carom.ecs.names import Names
+from carom.ecs.names import NOBODY, Names
 from carom.ecs.prefab import Prefab, merge
 from carom.ecs.query import Query
 from carom.ecs.slots import Slots
@@ -56,6 +56,8 @@ class Structure:
         values that do not fit their column and for names that are taken, EntityError for values that lead to no entity.
         """
         self._refuse_inside("spawn")
+        if count < 0:
+            raise DeclarationError(f"spawn_many makes 0 entities or more, received {count}")
         parts = merge(bundles if names is None else (*bundles, Name(text=names)))
         self._check(parts, count)
         rows = self.slots.choose(count)
@@ -87,9 +89,9 @@ class Structure:
         """Give a living entity further components, or others in the place of those it has."""
         self._refuse_inside("attach")
         row, parts = self.row(entity), merge(bundles)
+        self._check(parts, 1, entity)
         if any(isinstance(part, Name) for part in parts):
             self._forget_names(np.array([row]))
-        self._check(parts, 1)
         self._fill(slice(row, row + 1), parts)
 
     def detach(self, entity: int, *kinds: type[Component]) -> None:
@@ -106,7 +108,7 @@ class Structure:
         """Move all entities to the first rows, in their order, so that no gaps are left where others were.
 
         Handles stay valid, queries find contiguous rows again where they can, and what follows is the same to the last
-        bit, since no result depends on more than the order of rows.
+        bit, since no result depends on more than the order of rows. Those who come later come last: no gap is left.
         """
         self._refuse_inside("compact")
         used = self.slots.used
@@ -115,8 +117,6 @@ class Structure:
         new_rows[rows] = np.arange(len(rows))
         for table in self._components():
             table.gather(rows, used)
-        for watch in self._watches.values():
-            watch.gather(rows)
         for table in self.tables.values():
             table.renumber(new_rows)
         self.structure += 1
@@ -137,7 +137,7 @@ class Structure:
                 f"ask for it instead: world[Commands].ask(lambda world: world.{verb}(...)), with Commands in writes="
             )
 
-    def _check(self, parts: list[Component], count: int) -> None:
+    def _check(self, parts: list[Component], count: int, entity: int = NOBODY) -> None:
         for part in parts:
             for name, value in vars(part).items():
                 column = part.columns[name]
@@ -145,16 +145,13 @@ class Structure:
                 if column.holds == "entities":
                     self.slots.rows(value[value >= 0])
             if isinstance(part, Name):
-                self.names_now().refuse_taken(np.broadcast_to(part.text, count).tolist())
+                self.names_now().refuse_taken(np.broadcast_to(part.text, count).tolist(), entity)
 
     def _fill(self, rows: slice, parts: list[Component]) -> None:
         for part in parts:
             self.table(type(part)).fill(rows, part)
             if isinstance(part, Name):
-                handles = self.entities(rows).tolist()
-                self.entity_names.entities.update(
-                    zip(self.table(Name).arrays["text"][rows].tolist(), handles, strict=True)
-                )
+                self.entity_names.note(self.table(Name).arrays["text"][rows], self.entities(rows))
         self.structure += 1
 
     def _grow(self, capacity: int) -> None:
@@ -204,8 +201,8 @@ class Structure:
         if self.entity_names.stale:
             table = self.table(Name)
             rows = np.nonzero(table.present[: self.used()])[0]
-            texts = table.arrays["text"][rows].tolist()
-            self.entity_names.entities = dict(zip(texts, self.entities(rows).tolist(), strict=True))
+            self.entity_names.entities = {}
+            self.entity_names.note(table.arrays["text"][rows], self.entities(rows))
             self.entity_names.stale = False
         return self.entity_names
 

@@ -86,14 +86,18 @@ class Table:
 
     def gather(self, rows: Integers, used: int) -> None:
         """Move ``rows`` (sorted) to the front in their order and zero the other rows below ``used``."""
+        if len(rows) == used:
+            return
         for array in (*self.arrays.values(), self.present):
             array[: len(rows)] = array[rows]
             array[len(rows) : used] = np.zeros((), array.dtype)
 
     def renumber(self, new_rows: Integers) -> None:
         """Replace the row numbers that columns hold by ``new_rows[number]``; -1 stands for none."""
+        mine = slice(0, self.live.count) if isinstance(self.live, Relation) else np.nonzero(self.present)[0]
         for name, column in self.kind.columns.items():
             if column.holds == "rows":
-                held = self.arrays[name]
+                held = self.arrays[name][mine]
                 valid = (held >= 0) & (held < len(new_rows))
                 held[valid] = new_rows[held[valid]]
+                self.arrays[name][mine] = held

@@ -18,13 +18,11 @@ def tag(name: str) -> type[Tag]:
     Raises DeclarationError for a name that is no lower-case word, or that a component with columns has already.
     """
     if not re.fullmatch(r"[a-z][a-z0-9]*(_[a-z0-9]+)*", name):
-        raise DeclarationError(f"tag {name!r} is no name; use lower-case words joined by _, like 'red_team'")
+        raise DeclarationError(f"tags: {name!r} is no tag; write lower-case words joined by _, like 'red_team'")
     known = Record.registry.get(name)
     if known is None:
         title = "".join(part.capitalize() for part in name.split("_"))
-        known = type(title, (Tag,), {"__doc__": f"The tag {name}.", "__module__": __name__})
-        Record.registry[name] = known
-        known.key = name
+        known = type(title, (Tag,), {"__doc__": f"The tag {name}.", "__module__": __name__}, key=name)
     if not issubclass(known, Tag):
-        raise DeclarationError(f"tag {name!r} is the name of the component {known.__name__}; choose another")
+        raise DeclarationError(f"tags: {name!r} is the key of the component {known.__name__}; choose another")
     return known

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import chain
 from typing import Any, TypeVar, overload
 
 import numpy as np
@@ -14,7 +15,7 @@ from carom.ecs.component import Component, Record, Relation, Resource
 from carom.ecs.components.name import Name
 from carom.ecs.components.parent import Parent
 from carom.ecs.entity import INDEX_MASK, Entity, EntityView
-from carom.ecs.errors import AccessError, EntityError
+from carom.ecs.errors import AccessError, DeclarationError, EntityError
 from carom.ecs.names import pattern
 from carom.ecs.query import Key, Kinds, Query, as_kinds
 from carom.ecs.slots import Rows, as_rows
@@ -86,14 +87,11 @@ class World(Structure):
     @contextmanager
     def edit(self, kind: type[R]) -> Iterator[R]:
         """Lend the writable table of ``kind`` to code outside the step; inside, systems see what they declare."""
-        if kind is Name:
-            self.entity_names.stale = True
-        if self._current is not self._views:
-            yield self[kind]
-            return
-        if issubclass(kind, Record):
-            self.table(kind)
-        yield self._live[kind]
+        self[kind]  # makes the table, or raises for what is not here or not declared
+        try:
+            yield self._live[kind] if self._current is self._views else self._current[kind]
+        finally:
+            self.entity_names.stale |= kind is Name
 
     @contextmanager
     def faces(self, faces: dict[Any, Any] | None) -> Iterator[None]:
@@ -131,6 +129,9 @@ class World(Structure):
 
     def find(self, name: str) -> Entity:
         """Return the entity of that name; raise EntityError with near names when there is none."""
+        found = self.names_now().entities.get(name)
+        if found is None or self.name(found) != name:
+            self.entity_names.stale = True  # a system may have written names
         return Entity(self.names_now().find(name))
 
     def find_all(self, text: str) -> Integers:
@@ -140,12 +141,12 @@ class World(Structure):
         """
         fits, rows = pattern(text).fullmatch, self.row_numbers(Name)
         texts = self.table(Name).arrays["text"][rows].tolist()
-        return self.entities(rows[[fits(text) is not None for text in texts]] if len(rows) else rows)
+        return self.entities(rows[[bool(text and fits(text)) for text in texts]] if len(rows) else rows)
 
     def names(self) -> list[str]:
         """Return all names in row order."""
         names: list[str] = self.table(Name).arrays["text"][self.row_numbers(Name)].tolist()
-        return names
+        return [name for name in names if name]
 
     # Queries ----------------------------------------------------------------------------------------------------------
     def rows(
@@ -156,28 +157,27 @@ class World(Structure):
         The result is a slice where they are contiguous, else a sorted array. ``changed_since`` keeps those where one of
         ``kinds`` came or holds something else since that `mark`.
         """
-        query = self._query(kinds, without, any_of)
+        query = self._query(kinds, without, any_of, ())
         return query.rows if changed_since is None else as_rows(self._changed(query, changed_since))
 
     def row_numbers(
         self, *kinds: type[Component], without: Kinds = (), any_of: Kinds = (), changed_since: int | None = None
     ) -> Integers:
         """Return the same rows always as an int64 array, as kernels take them."""
-        query = self._query(kinds, without, any_of)
+        query = self._query(kinds, without, any_of, ())
         return query.numbers if changed_since is None else self._changed(query, changed_since)
 
     def query(self, *kinds: type[Component], without: Kinds = (), any_of: Kinds = (), optional: Kinds = ()) -> Query:
         """Return the entities of such rows as an object that stays right: rows, handles, a loop, a dataframe."""
-        self._query(kinds, without, any_of)
-        return Query(self, kinds, as_kinds(without), as_kinds(any_of), as_kinds(optional))
+        return self._query(kinds, without, any_of, optional)
 
     def mark(self, *kinds: type[Component]) -> int:
         """Return a mark for ``changed_since``; the components named are watched from the first mark on."""
         self._look()
+        self._mark += 1
         for kind in kinds:
             if kind not in self._watches:
-                self._watches[kind] = Watch(self.table(kind), self.handles())
-        self._mark += 1
+                self._watches[kind] = Watch(self.table(kind), self.handles(), self._mark)
         return self._mark
 
     def _look(self) -> None:
@@ -185,26 +185,32 @@ class World(Structure):
             watch.look(self.handles(), self._mark)
 
     def _changed(self, query: Query, mark: int) -> Integers:
-        unwatched = [kind.__name__ for kind in query.kinds if kind not in self._watches]
+        watches = self._watches
+        unwatched = [kind.__name__ for kind in query.kinds if kind not in watches or watches[kind].first > mark]
         if unwatched:
             listed = ", ".join(unwatched)
-            raise AccessError(f"nobody watches {listed}; take the mark with world.mark({listed}) before things change")
+            raise AccessError(
+                f"nobody watched {listed} at mark {mark}; take the mark with world.mark({listed}) before things change"
+            )
         self._look()
         numbers = query.numbers
         changed = np.zeros(len(numbers), np.bool_)
         for kind in query.kinds:
-            changed |= self._watches[kind].changed_after[numbers] >= mark
+            changed |= watches[kind].changed_after[numbers] >= mark
         return np.asarray(numbers[changed])
 
-    def _query(self, kinds: tuple[type[Component], ...], without: Kinds, any_of: Kinds) -> Query:
+    def _query(self, kinds: tuple[type[Component], ...], without: Kinds, any_of: Kinds, optional: Kinds) -> Query:
+        key = (kinds, as_kinds(without), as_kinds(any_of), as_kinds(optional))
         if self._current is not self._views and self._current is not self._live:
-            for kind in (*kinds, *as_kinds(without), *as_kinds(any_of)):
+            for kind in chain(*key):
                 self._current[kind]  # raises for what the running system does not declare
-        try:
-            return self._queries[kinds, without, any_of]  # type: ignore[index]
-        except (KeyError, TypeError):  # not asked for before, or a list
-            key = (kinds, as_kinds(without), as_kinds(any_of))
-            return self._queries.setdefault(key, Query(self, *key))
+        found = self._queries.get(key)
+        if found is None:
+            for kind in chain(*key):
+                if not (isinstance(kind, type) and issubclass(kind, Component)):
+                    raise DeclarationError(f"a query takes component classes, received {kind!r}")
+            found = self._queries[key] = Query(self, *key)
+        return found
 
     # Relations --------------------------------------------------------------------------------------------------------
     def count(self, kind: type[Record]) -> int:

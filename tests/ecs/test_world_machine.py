@@ -1,0 +1,353 @@
+"""Ten thousand random changes of a world, each held against plain dicts and lists."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, ClassVar
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+from hypothesis.stateful import (
+    RuleBasedStateMachine,
+    initialize,
+    invariant,
+    precondition,
+    rule,
+    run_state_machine_as_test,
+)
+from plain_world import KINDS, RED, WATCHED, Bond, Link, Place, PlainWorld
+
+from carom.ecs import (
+    Component,
+    DeclarationError,
+    EntityError,
+    Name,
+    Parent,
+    Snapshot,
+    World,
+    restore_snapshot,
+    state_hash,
+    take_snapshot,
+)
+
+QUERIES: list[tuple[tuple[type[Component], ...], ...]] = [
+    ((), (), ()),
+    ((Place,), (), ()),
+    ((Place, Link), (), ()),
+    ((Place,), (RED,), ()),
+    ((), (), (Link, RED)),
+    ((Place,), (Parent,), (Name, RED)),
+]
+NUMBERS = st.sampled_from([0.0, -0.0, 1.5, -2.25, float("nan"), float("inf"), 1e-320])
+TRIPLES = st.tuples(NUMBERS, NUMBERS, NUMBERS)
+NAMES = st.sampled_from(["", "ball", "wall", "rain[0]", "rain[1]", "rain[1,2]", "Ω"])
+PICK = st.integers(0, 10**6)  # whom of those there are, by the rest of a division
+KIND = st.sampled_from(KINDS)
+STEPS = 10_000
+EXAMPLES = 240
+
+
+class Machine(RuleBasedStateMachine):
+    """One world, driven beside its model."""
+
+    steps: ClassVar[int] = 0
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.world, self.model = World(capacity=1), PlainWorld()
+        self.mark, self.ever = 0, [0]
+        self.saved: list[tuple[Snapshot, PlainWorld, str]] = []
+        self.hashes: dict[str, str] = {}
+
+    @initialize()
+    def watch(self) -> None:
+        """Have changes noted from the first entity on."""
+        self.take_mark()
+
+    # Choosing ---------------------------------------------------------------------------------------------------------
+    def living(self) -> bool:
+        """Tell whether anybody can be picked."""
+        return bool(self.model.held)
+
+    def pick(self, number: int) -> int:
+        """Return a living entity."""
+        handles = sorted(self.model.held)
+        return handles[number % len(handles)]
+
+    def bundle(self, kind: type[Component], numbers: tuple[float, ...], pick: int) -> dict[str, Any]:
+        """Return values for a component."""
+        if kind is Place:
+            return {"position": numbers, "turns": pick % 100} if pick % 3 else {"position": numbers}
+        if kind is Link:
+            return {"target": self.pick(pick), "row": pick % (len(self.model.rows) + 3)} if self.model.held else {}
+        if kind is Parent:
+            return {"entity": self.pick(pick), "position": numbers} if self.model.held else {}
+        return {}
+
+    def taken(self, name: str, holder: int = -1) -> bool:
+        """Tell whether another than ``holder`` has a name."""
+        named = {h: str(held[Name]["text"]) for h, held in self.model.held.items() if Name in held}
+        return bool(name) and any(text == name and h != holder for h, text in named.items())
+
+    # Changing ---------------------------------------------------------------------------------------------------------
+    @precondition(lambda self: len(self.model.held) < 40)
+    @rule(count=st.sampled_from([0, 1, 1, 2, 3, 5, 20]), kinds=st.sets(KIND), numbers=TRIPLES, pick=PICK)
+    def spawn_many(self, count: int, kinds: set[type[Component]], numbers: tuple[float, ...], pick: int) -> None:
+        """New ones stand in the lowest gap that holds them all; arrays give each its own value."""
+        values = {kind: self.bundle(kind, numbers, pick) for kind in sorted(kinds - {Name}, key=lambda kind: kind.key)}
+        if Place in values and count:
+            values[Place]["position"] = np.outer(np.arange(1, count + 1), numbers)
+        names = [f"many{self.mark}.{pick}.{k}" for k in range(count)] if Name in kinds and count else None
+        if names and any(map(self.taken, names)):
+            return
+        first = self.model.first_row(count)
+        made = self.world.spawn_many(count, *(kind(**given) for kind, given in values.items()), names=names)
+        handles = made.tolist()
+        assert len({*handles, *self.model.held}) == count + len(self.model.held)
+        self.model.place(first, handles)
+        for k, handle in enumerate(handles):
+            for kind, given in values.items():
+                own = {"position": given["position"][k]} if kind is Place else {}
+                self.model.fill(handle, kind, given | own)
+            if names:
+                self.model.fill(handle, Name, {"text": names[k]})
+        self.ever = [*self.ever[-50:], *handles]
+
+    @rule(name=NAMES)
+    def spawn_named(self, name: str) -> None:
+        """A name that is taken is refused, and nothing has happened."""
+        if self.taken(name):
+            message = f"two entities would be named {name!r}; names are unique, choose another"
+            with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+                self.world.spawn(Place(), name=name)
+            return
+        first = self.model.first_row(1)
+        handle = int(self.world.spawn(Place(), name=name))
+        self.model.place(first, [handle])
+        self.model.fill(handle, Place, {})
+        self.model.fill(handle, Name, {"text": name})
+        self.ever.append(handle)
+
+    @precondition(living)
+    @rule(picks=st.lists(PICK, min_size=1, max_size=6), as_array=st.booleans())
+    def despawn(self, picks: list[int], as_array: bool) -> None:
+        """Some go, as an array or one by one, also where one is named twice; those they carry go with them."""
+        handles = [self.pick(number) for number in picks]
+        self.world.despawn(*([np.array(handles)] if as_array else handles))
+        self.model.despawn(handles)
+
+    @rule(number=st.integers(0, len(QUERIES) - 1))
+    def despawn_query(self, number: int) -> None:
+        """Everyone a query finds goes."""
+        kinds, without, any_of = QUERIES[number]
+        if len(found := self.model.matching(kinds, without, any_of)) < 8:
+            self.world.despawn(self.world.query(*kinds, without=without, any_of=any_of))
+            self.model.despawn([handle for row in found if (handle := self.model.rows[row]) is not None])
+
+    @precondition(living)
+    @rule(kind=KIND, numbers=TRIPLES, name=NAMES, who=PICK, whom=PICK)
+    def attach(self, kind: type[Component], numbers: tuple[float, ...], name: str, who: int, whom: int) -> None:
+        """A component comes, or is replaced by another of its kind."""
+        entity = self.pick(who)
+        given = {"text": name} if kind is Name else self.bundle(kind, numbers, whom)
+        if kind is Name and self.taken(name, entity):
+            with pytest.raises(DeclarationError):
+                self.world.attach(entity, Name(text=name))
+            return
+        self.world.attach(entity, kind(**given))
+        self.model.fill(entity, kind, given)
+
+    @precondition(living)
+    @rule(kinds=st.sets(KIND, min_size=1, max_size=2), who=PICK)
+    def detach(self, kinds: set[type[Component]], who: int) -> None:
+        """Components go; those that are not there are no fault."""
+        entity = self.pick(who)
+        self.world.detach(entity, *kinds)
+        for kind in kinds:
+            self.model.held[entity].pop(kind, None)
+
+    @precondition(living)
+    @rule(numbers=TRIPLES, who=PICK, way=st.sampled_from(["whole", "element", "slice", "sum", "edit", "turns"]))
+    def write(self, numbers: tuple[float, ...], who: int, way: str) -> None:
+        """Values are written through an entity or through the table."""
+        entity = self.pick(who)
+        if Place not in self.model.held[entity]:
+            return
+        place, values = self.world[entity].place, self.model.held[entity][Place]
+        if way == "whole":
+            place.position = numbers
+            values["position"][:] = numbers
+        elif way == "element":
+            place.position[who % 3] = numbers[0]
+            values["position"][who % 3] = numbers[0]
+        elif way == "slice":
+            place.position[1:] = numbers[1:]
+            values["position"][1:] = numbers[1:]
+        elif way == "sum":
+            place.position += numbers
+            values["position"] += numbers
+        elif way == "edit":
+            with self.world.edit(Place) as table:
+                table.position[self.world.row(entity)] = numbers
+            values["position"][:] = numbers
+        else:
+            place.turns += 1
+            values["turns"] += 1
+
+    @precondition(living)
+    @rule(name=NAMES, who=PICK)
+    def rename(self, name: str, who: int) -> None:
+        """A name is edited; that of another is refused."""
+        entity = self.pick(who)
+        if Name not in self.model.held[entity]:
+            return
+        if self.taken(name, entity):
+            with pytest.raises(DeclarationError):
+                self.world[entity].name.text = name
+            return
+        self.world[entity].name.text = name
+        self.model.fill(entity, Name, {"text": name})
+
+    @rule(count=st.integers(0, 4), pick=PICK)
+    def bind(self, count: int, pick: int) -> None:
+        """Rows of a relation hold handles and rows."""
+        whom = [(self.pick(pick + k) if self.model.held else -1, (pick + k) % 7 - 1) for k in range(count)]
+        with self.world.faces(None):
+            self.world.resize(Bond, count)
+            bond = self.world[Bond]
+            bond.who[:count], bond.row[:count] = np.array(whom, np.int64).reshape(-1, 2).T
+        self.model.bonds = whom
+
+    @rule()
+    def compact(self) -> None:
+        """All stand in the first rows, in their order; the hash is as it was."""
+        before = state_hash(self.world)
+        self.world.compact()
+        self.model.compact()
+        assert state_hash(self.world) == before
+
+    @rule()
+    def save(self) -> None:
+        """Keep a snapshot."""
+        self.saved = [*self.saved[-2:], (take_snapshot(self.world), self.model.saved(), state_hash(self.world))]
+
+    @precondition(lambda self: self.saved)
+    @rule(which=PICK)
+    def restore(self, which: int) -> None:
+        """Everything is as it was saved, by hash too."""
+        snapshot, model, saved_hash = self.saved[which % len(self.saved)]
+        restore_snapshot(self.world, snapshot)
+        self.model.restore(model)
+        assert state_hash(self.world) == saved_hash
+
+    @rule()
+    def take_mark(self) -> None:
+        """From here on changes count anew."""
+        self.model.look(self.mark)
+        self.mark = self.world.mark(*WATCHED)
+
+    # Comparing --------------------------------------------------------------------------------------------------------
+    @rule(back=st.integers(0, 3))
+    def changed_since(self, back: int) -> None:
+        """Those who came or hold something else since a mark, and nobody else."""
+        mark = max(1, self.mark - back)
+        self.model.look(self.mark)
+        for kinds in ((Place,), (Place, Link)):
+            expected = [
+                row
+                for row in self.model.matching(kinds, (), ())
+                if any(self.model.changed[kind][self.model.rows[row] or 0] >= mark for kind in kinds)
+            ]
+            assert self.world.row_numbers(*kinds, changed_since=mark).tolist() == expected
+
+    @invariant()
+    def rows_and_queries_agree(self) -> None:
+        """Handles lead to their rows and back; queries find the same rows, as a slice where they are contiguous."""
+        type(self).steps += 1
+        world, rows = self.world, self.model.rows
+        assert world.used() == len(rows)
+        living = [row for row, handle in enumerate(rows) if handle is not None]
+        handles = [handle for handle in rows if handle is not None]
+        assert [world.row(handle) for handle in handles] == world.slots.rows(np.array(handles, int)).tolist() == living
+        assert world.entities(np.array(living, int)).tolist() == handles
+        for kinds, without, any_of in QUERIES:
+            expected = self.model.matching(kinds, without, any_of)
+            found = world.rows(*kinds, without=without, any_of=any_of)
+            contiguous = not expected or expected[-1] - expected[0] + 1 == len(expected)
+            assert isinstance(found, slice) == contiguous
+            assert np.r_[found].tolist() == expected
+            query = world.query(*kinds, without=without, any_of=any_of)
+            assert query.numbers.tolist() == expected
+            assert [row for first, end in query.spans.tolist() for row in range(first, end)] == expected
+            assert query.entities.tolist() == [rows[row] for row in expected]
+            assert query.has(RED).tolist() == [RED in self.model.held[rows[row] or 0] for row in expected]
+
+    @invariant()
+    def columns_agree(self) -> None:
+        """Every column holds the model's bits, and zeros where nobody has the component."""
+        for kind in KINDS:
+            table, rows = self.world.table(kind), self.model.matching((kind,), (), ())
+            assert np.nonzero(table.present)[0].tolist() == rows
+            for name, array in table.arrays.items():
+                expected = [self.model.held[self.model.rows[row] or 0][kind][name] for row in rows]
+                assert array[rows].tobytes() == b"".join(value.tobytes() for value in expected), (kind, name)
+                assert not array[~table.present].any()
+        bond = self.world[Bond]
+        assert list(zip(bond.who[: bond.count].tolist(), bond.row[: bond.count].tolist(), strict=True)) == (
+            self.model.bonds
+        )
+
+    @invariant()
+    def names_and_families_agree(self) -> None:
+        """Names are found by themselves and by patterns, children by who carries them."""
+        world, model = self.world, self.model
+        named = [
+            (int(h), str(model.held[h][Name]["text"])) for h in model.rows if h is not None and Name in model.held[h]
+        ]
+        named = [(handle, text) for handle, text in named if text]
+        assert world.names() == [text for _, text in named]
+        assert world.find_all("rain").tolist() == [handle for handle, text in named if text.startswith("rain")]
+        assert world.find_all("*").tolist() == [handle for handle, _ in named]
+        for handle, text in named[:3]:
+            assert world.find(text) == handle
+            assert world.name(handle) == text
+        for parent in list(model.held)[:2]:
+            expected = [
+                h for h in model.rows if h is not None and model.held[h].get(Parent, {}).get("entity") == parent
+            ]
+            assert world.children(parent).tolist() == expected
+
+    @invariant()
+    def stale_handles_raise(self) -> None:
+        """Who is gone is told, whatever has the row now."""
+        stale = [handle for handle in self.ever if handle not in self.model.held][-3:]
+        for handle in stale:
+            assert handle not in self.world
+            with pytest.raises(EntityError, match=r"^entity \d+, generation \d+, (was despawned|never was)"):
+                self.world.despawn(handle, *list(self.model.held)[:1])
+
+    @invariant()
+    def hashes_agree(self) -> None:
+        """Two states have one hash exactly if the model says that they are the same."""
+        found, state = state_hash(self.world), self.model.state()
+        assert self.hashes.setdefault(found, state) == state
+        assert self.hashes.setdefault(state, found) == found
+
+
+def test_a_world_does_what_plain_dicts_do() -> None:
+    """Whatever comes, goes, moves, is saved and restored: the same rows, values, names, changes and faults."""
+    Machine.steps = 0
+    run_state_machine_as_test(
+        Machine,
+        settings=settings(
+            max_examples=EXAMPLES,
+            stateful_step_count=50,
+            derandomize=True,
+            database=None,
+            deadline=None,
+            suppress_health_check=list(HealthCheck),
+        ),
+    )
+    assert Machine.steps >= STEPS
