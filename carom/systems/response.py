@@ -15,7 +15,7 @@ from carom.ecs.relations.impact import Impact
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_pairs import FclObjects
-from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, TABLE_FULL, fly
+from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly
 from carom.systems.kernels.resting import hold_contacts
 from carom.systems.kernels.settling import finish_drift
 from carom.systems.kernels.sorting import sort_contacts
@@ -86,42 +86,40 @@ def log_blows(world: World) -> None:
 )
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""
-    at, first = 0.0, world.count(Impact)
+    contact = world[Contact]
+    contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
+    at, events = 0.0, 0
     while True:
-        at, reason = _fly(world, at, dt, first)
+        at, reason, events = _fly(world, at, dt, events)
         if reason == DONE:
             return
-        if reason == OUT_OF_REACH:
-            _finish(world, at, ended=False)
-            detect_again(world, world[Progress].left + dt - at)
+        _finish(world, at, ended=False)
+        detect_again(world, world[Progress].left + dt - at)
 
 
-def _fly(world: World, at: float, h: float, first: int) -> tuple[float, int]:
-    """Fly to the end of the substep or to what stops the flight; log the impacts on the way, the first in this row."""
+def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, int]:
+    """Fly to the end of the substep or to what stops the flight; append the impacts on the way to their table."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
-    contact, impact, progress, settings = world[Contact], world[Impact], world[Progress], world[Settings]
-    n, logged = slice(0, contact.count), impact.count
-    now, count, reason, cut = fly(
+    contact, progress, settings = world[Contact], world[Progress], world[Settings]
+    now, reason, events, cut, count, pair, log = fly(
         world.row_numbers(RigidBody), at, h, progress.left, 0.5 if settings.integrator == "verlet" else 0.0,
         progress.clock, flight.center, transform.rotation, motion.linear, motion.angular, flight.time,
         flight.acceleration, flight.angular_acceleration, flight.felt, flight.detected_center, flight.reach,
         body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes,
-        contact.kind[n], contact.ball, contact.other, contact.extent, contact.radius,
+        contact.kind[: contact.count], contact.ball, contact.other, contact.extent, contact.radius,
         contact.other_position, contact.other_rotation, contact.sign, contact.friction, contact.restitution,
-        contact.resting, contact.impulse, contact.friction_impulse,
-        logged, logged - first, impact.time, impact.a, impact.point, impact.normal, impact.speed, impact.impulse,
-        impact.friction_impulse,
+        contact.resting, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, events,
     )  # fmt: skip
     world[Answered].impacts_cut += cut
-    if count > logged:
-        new = slice(logged, count)
-        pair = impact.a[new].copy()  # the kernel logs contact rows, which the next detection renumbers
+    if count:
+        first = world.count(Impact)
+        world.resize(Impact, first + count)
+        impact, new, pair, log = world[Impact], slice(first, first + count), pair[:count], log[:count]
         impact.a[new], impact.b[new] = contact.a[pair], contact.b[pair]
-        world.resize(Impact, count)
-    if reason == TABLE_FULL:
-        world.resize(Impact, count + 1)  # makes room
-        world.resize(Impact, count)
-    return now, reason
+        impact.time[new], impact.speed[new], impact.impulse[new] = log[:, TIME], log[:, SPEED], log[:, IMPULSE]
+        for column, at_column in ((impact.point, POINT), (impact.normal, NORMAL), (impact.friction_impulse, FRICTION)):
+            column[new] = log[:, at_column : at_column + 3]
+    return now, reason, events
 
 
 @system(reads=(RigidBody,), writes=(Transform, Motion, Flight, Contact))

@@ -38,6 +38,8 @@ class Contact(Relation):
         role="derived",
     )
     blow: Floats = column(unit="m/s", doc="closing speed the resting stage answered as an impact", role="derived")
+    strikes: Integers = column(unit="1", doc="impacts in this substep so far", dtype="int64", role="derived")
+    plastic: Integers = column(unit="1", doc="those after which the pair kept together", dtype="int64", role="derived")
     row_a: Integers = column(unit="1", doc="row of a", role="derived", holds="rows")
     row_b: Integers = column(unit="1", doc="row of b", role="derived", holds="rows")
     body_a: Integers = column(unit="1", doc="row of the body of a, -1 static", role="derived", holds="rows")

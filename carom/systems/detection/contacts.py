@@ -130,7 +130,7 @@ def store(world: World, found: Found) -> None:
         found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point,
         found.by_fcl, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
         contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
-        contact.warm_rolling, contact.impulse, contact.friction_impulse,
+        contact.warm_rolling, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic,
     )  # fmt: skip
     complete_contacts(
         count, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,

@@ -123,13 +123,13 @@ def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass)
 
 @kernel(
     "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
-    "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse",
+    "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
 )  # fmt: skip
 def renew_contacts(
     old_count, handles, row_shift,
     found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl,
     a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
-    warm_normal, warm_friction, warm_rolling, impulse, friction_impulse,
+    warm_normal, warm_friction, warm_rolling, impulse, friction_impulse, strikes, plastic,
 ):  # fmt: skip
     """Replace the contacts by those found, keeping what a contact of the same colliders and feature held.
 
@@ -137,7 +137,7 @@ def renew_contacts(
     """
     count = len(found_a)
     kept = np.zeros((count, 11))
-    rested = np.zeros(count, np.bool_)
+    rested, counted = np.zeros(count, np.bool_), np.zeros((count, 2), np.int64)
     o = 0
     for c in range(count):
         x, y, f = found_a[c], found_b[c], found_feature[c]
@@ -151,7 +151,7 @@ def renew_contacts(
             continue
         if a[o] != handles[x] or b[o] != handles[y]:
             continue
-        rested[c] = resting[o]
+        rested[c], counted[c, 0], counted[c, 1] = resting[o], strikes[o], plastic[o]
         kept[c, 0], kept[c, 7] = warm_normal[o], impulse[o]
         for k in range(3):
             kept[c, 1 + k], kept[c, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
@@ -160,6 +160,7 @@ def renew_contacts(
         x, y = found_a[c], found_b[c]
         a[c], b[c], feature[c] = handles[x], handles[y], found_feature[c]
         row_a[c], row_b[c], by_fcl[c] = x, y, found_by_fcl[c]
+        strikes[c], plastic[c] = counted[c, 0], counted[c, 1]
         resting[c], warm_normal[c], impulse[c], depth[c] = rested[c], kept[c, 0], kept[c, 7], found_depth[c]
         for k in range(3):
             normal[c, k], point[c, k] = found_normal[c, k], found_point[c, k]

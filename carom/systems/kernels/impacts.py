@@ -13,27 +13,31 @@ from carom.systems.kernels.bodies import advance_body
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.strikes import foresee, strike
 
-DONE, OUT_OF_REACH, TABLE_FULL = 0, 1, 2
+DONE, OUT_OF_REACH = 0, 1
+
+# A row of the log: time, speed, impulse, and where the three vectors of 3 begin.
+TIME, SPEED, IMPULSE, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 6, 9, 12
 
 
 @kernel(
     "center", "rotation", "linear", "angular", "time", "acceleration", "resting", "impulse", "friction_impulse",
-    "log_time", "log_pair", "log_point", "log_normal", "log_speed", "log_impulse", "log_friction",
+    "strikes", "plastic",
 )  # fmt: skip
 def fly(
     rows, start, h, left, bend, clock,
     center, rotation, linear, angular, time, acceleration, angular_acceleration, felt, detected_center, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
-    friction, restitution, resting, impulse, friction_impulse,
-    log_count, events, log_time, log_pair, log_point, log_normal, log_speed, log_impulse, log_friction,
+    friction, restitution, resting, impulse, friction_impulse, strikes, plastic, events,
 ):  # fmt: skip
-    """Fly all bodies from ``start`` to ``h`` (s) into the substep; return (time reached, impacts logged, reason, cut).
+    """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts.
 
-    ``left`` is the time from the substep's end to the step's. Pairs are rows of the contact table with ``kind`` >= 0;
-    their first body is the ball. Where a body comes to move faster than its detection foresaw, or the log is full,
-    everything is brought to that instant and the reason returned; the caller detects anew, or grows the log, and calls
-    again, with the ``events`` of this substep so far. ``cut`` counts impacts beyond the cap, which are let pass.
+    Returns (time reached, reason, events, cut, impacts logged, pair of each, log). ``left`` is the time from the
+    substep's end to the step's. Pairs are rows of the contact table with ``kind`` >= 0; their first body is the ball.
+    Where a body comes to move faster than its detection foresaw, everything is brought to that instant; the caller
+    detects anew and calls again. What the substep has counted so far goes on: ``events``, and for each pair
+    ``strikes`` and ``plastic``, else detection in the middle would renew the patience with endless rows of impacts.
+    ``cut`` counts impacts beyond the cap, which are let pass.
     """
     pairs = np.nonzero(kind >= 0)[0]
     most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * len(pairs)
@@ -63,7 +67,8 @@ def fly(
     seek_count = len(pairs)
     for m in range(seek_count):
         seek[m] = m
-    strikes, plastic = np.zeros(len(pairs), np.int64), np.zeros(len(pairs), np.int64)
+    # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
+    log, log_pair, log_count = np.empty((64, WIDTH)), np.empty(64, np.int64), 0
     now, cut = start, 0
     reason = DONE
     first = True
@@ -73,7 +78,7 @@ def fly(
             m = seek[index]
             p = pairs[m]
             foreseen = foresee(
-                p, ball[p], other[p], now, h, (not first or start > 0.0) and plastic[m] < PATIENCE, bend,
+                p, ball[p], other[p], now, h, (not first or start > 0.0) and plastic[p] < PATIENCE, bend,
                 center, rotation, linear, angular, time, acceleration, felt,
                 kind, radius, extent, other_position, other_rotation, resting,
             )  # fmt: skip
@@ -97,9 +102,6 @@ def fly(
             cut += 1
             now = h
             break
-        if log_count == len(log_time):
-            reason = TABLE_FULL
-            break
         i, o = ball[p], other[p]
         for body in (i, o):
             if body >= 0 and time[body] < now:
@@ -108,28 +110,30 @@ def fly(
                     inertia, principal_axes,
                 )  # fmt: skip
         speed, normal, nx, ny, nz, px, py, pz, jx, jy, jz, together = strike(
-            p, i, o, h, strikes[m], center, rotation, linear, angular, acceleration, felt,
+            p, i, o, h, strikes[p], center, rotation, linear, angular, acceleration, felt,
             inverse_mass, inverse_inertia, principal_axes,
             kind, radius, extent, other_position, other_rotation, friction, restitution,
         )  # fmt: skip
         enter_time(soonest, leaves + m, NEVER)
         resting[p] = together  # from now on only a blow makes it an impact, else plastic pairs would never end
-        plastic[m] += together
-        strikes[m] += 1
+        plastic[p] += together
+        strikes[p] += 1
         events += 1
         if speed > 0.0:
             impulse[p] += normal
-            log_time[log_count] = clock + now
+            if log_count == len(log_pair):
+                longer, longer_pair = np.empty((2 * log_count, WIDTH)), np.empty(2 * log_count, np.int64)
+                longer[:log_count], longer_pair[:log_count] = log, log_pair
+                log, log_pair = longer, longer_pair
             log_pair[log_count] = p
-            log_speed[log_count] = speed
-            log_impulse[log_count] = normal
+            log[log_count, TIME], log[log_count, SPEED], log[log_count, IMPULSE] = clock + now, speed, normal
             # The ball is a where sign is 1: the normal from a to b points away from it, and b feels the reaction.
             for k, (j, n, at) in enumerate(((jx, nx, px), (jy, ny, py), (jz, nz, pz))):
                 rubbing = -sign[p] * (j - normal * n)
                 friction_impulse[p, k] += rubbing
-                log_friction[log_count, k] = rubbing
-                log_normal[log_count, k] = -sign[p] * n
-                log_point[log_count, k] = at
+                log[log_count, FRICTION + k] = rubbing
+                log[log_count, NORMAL + k] = -sign[p] * n
+                log[log_count, POINT + k] = at
             log_count += 1
 
         # Both bodies are on new arcs: foresee all their pairs anew, and see whether detection still covers them.
@@ -156,7 +160,7 @@ def fly(
                 i, now, bend, center, rotation, linear, angular, time, acceleration, angular_acceleration,
                 inertia, principal_axes,
             )  # fmt: skip
-    return now, log_count, reason, cut
+    return now, reason, events, cut, log_count, log_pair, log
 
 
 @inlined
