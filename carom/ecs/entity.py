@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, NewType, TypeVar
 import numpy as np
 
 from carom.ecs.components.name import Name
+from carom.ecs.describe import describe, describe_component
+from carom.ecs.display import entity_html
 
 if TYPE_CHECKING:
     from carom.ecs.component import Component
@@ -32,14 +34,15 @@ class EntityView:
         object.__setattr__(self, "entity", entity)
 
     def __getattr__(self, key: str) -> RecordView:
-        if key.startswith("__"):
+        if key.startswith("_"):  # asked for by Python and notebooks
             raise AttributeError(key)
         world: World = object.__getattribute__(self, "_world")
         return RecordView(world, self.entity, key)
 
     def __getitem__(self, kind: type[C]) -> C:
         """Return the component of this class, for those who prefer classes to names: ``world[ball][Motion].linear``."""
-        return getattr(self, kind.key)  # type: ignore[no-any-return]
+        world: World = object.__getattribute__(self, "_world")
+        return RecordView(world, self.entity, kind.key)  # type: ignore[return-value]
 
     def __contains__(self, kind: type[Component]) -> bool:
         world: World = object.__getattribute__(self, "_world")
@@ -51,6 +54,14 @@ class EntityView:
     def __dir__(self) -> list[str]:
         world: World = object.__getattribute__(self, "_world")
         return [*super().__dir__(), *(kind.key for kind in world.components(self.entity))]
+
+    def __repr__(self) -> str:
+        world: World = object.__getattribute__(self, "_world")
+        return describe(world, self.entity) if self.entity in world else world.slots.fate(self.entity)
+
+    def _repr_html_(self) -> str | None:
+        world: World = object.__getattribute__(self, "_world")
+        return entity_html(world, self.entity) if self.entity in world else None
 
 
 class RecordView:
@@ -78,6 +89,9 @@ class RecordView:
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._kind.columns]
+
+    def __repr__(self) -> str:
+        return describe_component(self._world, self._entity, self._kind)
 
     def _write(self, name: str, key: Any, value: Any) -> None:
         column, where = self._kind.columns[name], f"{self._kind.__name__}.{name}"

@@ -9,11 +9,16 @@ import numpy as np
 
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Component
+from carom.ecs.dataframe import Dataframe, query_table
+from carom.ecs.describe import describe_query
+from carom.ecs.display import query_html
 from carom.ecs.entity import Entity, EntityView
 from carom.ecs.errors import AccessError
 from carom.ecs.slots import Rows, as_rows, as_spans
 
 if TYPE_CHECKING:
+    from pyarrow import Table
+
     from carom.ecs.world import World
 
 Kinds = type[Component] | Iterable[type[Component]]
@@ -26,7 +31,7 @@ def as_kinds(kinds: Kinds) -> tuple[type[Component], ...]:
     return (kinds,) if isinstance(kinds, type) else tuple(kinds)
 
 
-class Query:
+class Query(Dataframe):
     """The entities that have all ``kinds``, none of ``without`` and, if given, at least one of ``any_of``.
 
     It stays right as entities come and go: rows are found anew when the structure has changed since they were asked
@@ -79,6 +84,16 @@ class Query:
         """Return for each row whether the entity has ``kind``: a mask (n,)."""
         self.world[kind]  # raises for what the running system does not declare
         return np.asarray(self.world.table(kind).present[self.numbers])
+
+    def arrow(self) -> Table:
+        """Return the entities with these components, optional ones null where they lack them; see `Dataframe.arrow`."""
+        return query_table(self)
+
+    def __repr__(self) -> str:
+        return describe_query(self)
+
+    def _repr_html_(self) -> str:
+        return query_html(self)
 
     def __len__(self) -> int:
         return len(self.numbers)

@@ -10,10 +10,12 @@ from typing import Any, TypeVar, overload
 import numpy as np
 
 from carom.ecs.changes import Watch
-from carom.ecs.column import Integers
+from carom.ecs.column import Integers, Texts
 from carom.ecs.component import Component, Record, Relation, Resource
 from carom.ecs.components.name import Name
 from carom.ecs.components.parent import Parent
+from carom.ecs.describe import describe, describe_world
+from carom.ecs.display import world_html
 from carom.ecs.entity import INDEX_MASK, Entity, EntityView
 from carom.ecs.errors import AccessError, DeclarationError, EntityError
 from carom.ecs.names import pattern
@@ -76,6 +78,7 @@ class World(Structure):
         if found is None:
             found = super().table(kind)
             self._live[kind], self._views[kind] = found.live, found.view
+            found.live._world = found.view._world = self
         return found
 
     def add(self, resource: Resource) -> None:
@@ -126,6 +129,26 @@ class World(Structure):
             if table.present[row] and table.arrays["text"][row]:
                 return str(table.arrays["text"][row])
         return f"[{int(entity) & INDEX_MASK}]"
+
+    def names_of(self, entities: Integers) -> Texts:
+        """Return the name of each of many entities (n,), empty where one has none or lives no more."""
+        live, texts = self.slots.live(entities), self.table(Name).arrays["text"]
+        names = np.zeros(len(live), texts.dtype)
+        names[live] = texts[self.slots.rows(entities[live])]
+        return names
+
+    def describe(self, entity: int) -> str:
+        """Return an entity in words: each component with its values, tags, whom it carries.
+
+        Values come with unit and meaning, those at their default in short. Raises EntityError for a stale handle.
+        """
+        return describe(self, entity)
+
+    def __repr__(self) -> str:
+        return describe_world(self)
+
+    def _repr_html_(self) -> str:
+        return world_html(self)
 
     def find(self, name: str) -> Entity:
         """Return the entity of that name; raise EntityError with near names when there is none."""
