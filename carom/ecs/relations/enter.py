@@ -9,8 +9,8 @@ class Enter(Relation):
 
     kept = True
     time: Floats = column(unit="s", doc="simulated time at the start of the step that saw it", role="derived")
-    sensor: Integers = column(unit="1", doc="the sensor", dtype="int64", role="derived")
-    entity: Integers = column(unit="1", doc="who entered", dtype="int64", role="derived")
+    sensor: Integers = column(unit="1", doc="the sensor", role="derived", holds="entities")
+    entity: Integers = column(unit="1", doc="who entered", role="derived", holds="entities")
 
 
 class Inside(Relation):

@@ -9,8 +9,8 @@ class Impact(Relation):
 
     kept = True
     time: Floats = column(unit="s", doc="simulated time of the impact, inside the step", role="derived")
-    a: Integers = column(unit="1", doc="first collider", dtype="int64", role="derived")
-    b: Integers = column(unit="1", doc="second collider", dtype="int64", role="derived")
+    a: Integers = column(unit="1", doc="first collider", role="derived", holds="entities")
+    b: Integers = column(unit="1", doc="second collider", role="derived", holds="entities")
     point: Floats = column(3, unit="m", doc="where, world frame", role="derived")
     normal: Floats = column(3, unit="1", doc="unit normal from a to b", role="derived")
     speed: Floats = column(unit="m/s", doc="closing speed along the normal", role="derived")
