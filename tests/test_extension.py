@@ -26,11 +26,11 @@ from carom.ecs import (
     System,
     World,
     column,
+    snapshot_from_bytes,
     system,
 )
 from carom.systems import places
 from carom.systems.simulation import Simulation
-from carom.tools.recorder.snapshot_bytes import snapshot_from_bytes
 from carom.tools.recording import Recording
 from carom.worlds.generated import column_fields
 from carom.worlds.reader import read
@@ -112,8 +112,7 @@ def test_its_world_holds_what_it_expects_and_is_recorded_and_drawn(site: Path, t
     assert picture.read_bytes().startswith(b"\x89PNG")
     code = """
 import json, sys
-from carom.ecs import restore_snapshot, state_hash
-from carom.tools.recorder.snapshot_bytes import snapshot_from_bytes
+from carom.ecs import restore_snapshot, snapshot_from_bytes, state_hash
 from carom.tools.recording import Recording
 from carom.worlds.builder import load_world
 
@@ -133,7 +132,11 @@ print(json.dumps([points, version, sorted(recording.names(0).values())]))
     simulation = Simulation()
     with pytest.raises(SnapshotError) as fault:
         snapshot_from_bytes(Recording(record).saved_states()[0].state, simulation.world)
-    assert str(fault.value) == "the snapshot holds health, which nothing here declares; install the extension it is of"
+    assert str(fault.value) == (
+        "the snapshot does not fit this world:\n"
+        "  it holds component 'health', which nothing here declares; carom_example.health did: "
+        "import it, or install the package carom_example"
+    )
 
 
 def test_its_state_is_hashed_and_stated_in_python_as_in_files(site: Path) -> None:

@@ -12,6 +12,7 @@ from carom.ecs.components.parent import Parent
 from carom.ecs.components.rigid_body import BodyType, RigidBody
 from carom.ecs.components.transform import Transform
 from carom.ecs.components.visual import Visual
+from carom.ecs.difference import Difference, first_difference
 from carom.ecs.entity import Entity, EntityView
 from carom.ecs.errors import (
     AccessError,
@@ -23,8 +24,11 @@ from carom.ecs.errors import (
 )
 from carom.ecs.prefab import Prefab
 from carom.ecs.query import Query
+from carom.ecs.ring import Ring
 from carom.ecs.schedule import Phase, Schedule
 from carom.ecs.snapshot import Snapshot, restore_snapshot, state_hash, take_snapshot
+from carom.ecs.snapshot_bytes import bytes_from_snapshot, snapshot_from_bytes
+from carom.ecs.snapshot_file import load_snapshot, save_snapshot
 from carom.ecs.system import System, system
 from carom.ecs.tags import Tag, tag
 from carom.ecs.world import World
@@ -38,6 +42,7 @@ __all__ = [
     "Combine",
     "Component",
     "DeclarationError",
+    "Difference",
     "Entity",
     "EntityError",
     "EntityView",
@@ -54,6 +59,7 @@ __all__ = [
     "Relation",
     "Resource",
     "RigidBody",
+    "Ring",
     "Schedule",
     "Snapshot",
     "SnapshotError",
@@ -62,8 +68,13 @@ __all__ = [
     "Transform",
     "Visual",
     "World",
+    "bytes_from_snapshot",
     "column",
+    "first_difference",
+    "load_snapshot",
     "restore_snapshot",
+    "save_snapshot",
+    "snapshot_from_bytes",
     "state_hash",
     "system",
     "tag",

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -11,16 +12,21 @@ from xxhash import xxh3_128
 
 from carom.ecs.column import Integers
 from carom.ecs.component import Component, Record, Relation, Resource
+from carom.ecs.components.name import Name
+from carom.ecs.entity import INDEX_BITS, INDEX_MASK
 from carom.ecs.errors import SnapshotError
+from carom.ecs.names import NOBODY
 from carom.ecs.slots import Rows
+from carom.ecs.snapshot_faults import faults_of
 from carom.ecs.world import World
 
 Arrays = dict[str, npt.NDArray[Any]]
 SAVED = ("state", "input")
 ALIGNMENT = 64  # bytes, of a cache line
+NOTHING = np.empty(0, np.uint8)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Snapshot:
     """Every saved column of the present rows in row order, who lives, and the saved part of each resource."""
 
@@ -28,13 +34,37 @@ class Snapshot:
     slots: Arrays
     tables: dict[type[Record], tuple[Rows, Arrays]]
     resources: dict[type[Resource], bytes]
+    memory: npt.NDArray[np.uint8] = field(default_factory=lambda: NOTHING, repr=False)
+
+    def numbers(self, kind: type[Record]) -> Integers:
+        """Return the rows of a kind as an array."""
+        rows = self.tables[kind][0] if kind in self.tables else slice(0, 0)
+        return np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
+
+    def handles(self, rows: Integers) -> Integers:
+        """Return the handles of the entities in rows."""
+        ids = rows + self.slots["id_shift"][rows]
+        return np.asarray(self.slots["generations"][ids].astype(np.int64) << INDEX_BITS | ids)
+
+    def living(self) -> Integers:
+        """Return all handles, in order of rows."""
+        return self.handles(np.nonzero(self.slots["alive"])[0])
+
+    def name(self, entity: int) -> str:
+        """Return the name of an entity, its number in brackets when it has none; ``none`` for no entity."""
+        place = np.nonzero(self.handles(self.numbers(Name)) == entity)[0]
+        text = str(self.tables[Name][1]["text"][place[0]]) if len(place) else ""
+        return text or ("none" if entity == NOBODY else f"[{entity & INDEX_MASK}]")
 
 
 class Block:
-    """Memory for many arrays in one piece: the system hands out one large piece ten times faster than many."""
+    """Memory for many arrays in one piece: the system hands out one large piece ten times faster than many.
 
-    def __init__(self, size: int) -> None:
-        self.memory = np.empty(size, np.uint8)
+    Memory that was in use before is taken where it suffices: touching new one costs far more than the copying.
+    """
+
+    def __init__(self, size: int, used_before: npt.NDArray[np.uint8]) -> None:
+        self.memory = used_before if used_before.size >= size else np.empty(size, np.uint8)
         self.taken = 0
 
     def copy(self, array: npt.NDArray[Any]) -> npt.NDArray[Any]:
@@ -69,31 +99,67 @@ def saved_kinds(world: World) -> list[type[Record]]:
     return sorted((kind for kind in world.tables if saved_columns(kind) or not kind.columns), key=lambda kind: kind.key)
 
 
-def take_snapshot(world: World) -> Snapshot:
-    """Copy all state of a world."""
-    sources: dict[type[Record], tuple[Rows, Arrays]] = {}
-    for kind, table in world.tables.items():  # who has a component is state, also where its columns are not
-        saved = saved_columns(kind)
-        if saved or issubclass(kind, Component):
-            rows = rows_of(world, kind)
-            sources[kind] = (rows, {name: table.arrays[name][rows] for name in saved})
-    block = Block(sum(array.nbytes + ALIGNMENT for _, arrays in sources.values() for array in arrays.values()))
-    tables = {k: (rows, {n: block.copy(array) for n, array in arrays.items()}) for k, (rows, arrays) in sources.items()}
+def look_at(world: World, roles: Collection[str] = SAVED) -> Snapshot:
+    """Return a snapshot with the columns of these roles that shares the world's memory: it lasts until the next change.
+
+    Kinds stand in order of name, and only those that have rows: a table that was made and never filled is no state.
+    """
+    tables: dict[type[Record], tuple[Rows, Arrays]] = {}
+    for kind in sorted(world.tables, key=lambda kind: kind.key):
+        names = [name for name, column in kind.columns.items() if column.role in roles]
+        if not names and not issubclass(kind, Component):
+            continue
+        rows = rows_of(world, kind)  # who has a component is state, also where its columns are not
+        if rows.stop if isinstance(rows, slice) else len(rows):
+            tables[kind] = (rows, {name: world.tables[kind].arrays[name][rows] for name in names})
     resources = {k: s for k, r in world.resources.items() if (s := r.state()) is not None}
     return Snapshot(world.frame, world.slots.state(), tables, resources)
 
 
+def take_snapshot(world: World, *, reuse: Snapshot | None = None) -> Snapshot:
+    """Copy all state of a world; into the memory of a snapshot that nobody needs any more, where that suffices."""
+    return copied(look_at(world), reuse)
+
+
+def copied(seen: Snapshot, reuse: Snapshot | None = None) -> Snapshot:
+    """Return a snapshot that shares memory with nobody."""
+    size = sum(array.nbytes + ALIGNMENT for _, arrays in seen.tables.values() for array in arrays.values())
+    block = Block(size, NOTHING if reuse is None else reuse.memory)
+    tables = {
+        kind: (rows, {name: block.copy(array) for name, array in arrays.items()})
+        for kind, (rows, arrays) in seen.tables.items()
+    }
+    return Snapshot(seen.frame, seen.slots, tables, seen.resources, block.memory)
+
+
 def restore_snapshot(world: World, snapshot: Snapshot) -> None:
-    """Make a world what it was when the snapshot was taken; raise SnapshotError when it is of another kind of world."""
-    missing = [kind.__name__ for kind in snapshot.resources if kind not in world.resources]
-    if missing:
-        raise SnapshotError(f"the snapshot holds {', '.join(missing)}, which this world does not have")
+    """Make a world what it was when the snapshot was taken.
+
+    Raises SnapshotError, and changes nothing, when the snapshot does not fit the world or a resource refuses its part.
+    """
+    if faults := faults_of(snapshot, world):
+        raise SnapshotError("\n  ".join(["the snapshot does not fit this world:", *faults]))
+    _restore_resources(world, snapshot.resources)
     world.begin_restore(snapshot.slots, snapshot.frame)
     for kind in {*world.tables, *snapshot.tables}:
         rows, arrays = snapshot.tables.get(kind, (slice(0, 0), {}))
         world.table(kind).restore(rows, arrays)
-    for resource, state in snapshot.resources.items():
-        world.resources[resource].restore(state)
+
+
+def _restore_resources(world: World, states: dict[type[Resource], bytes]) -> None:
+    """Give every resource its part, or, where one refuses, all of them what they had."""
+    before: dict[type[Resource], bytes] = {}
+    try:
+        for kind, state in states.items():
+            held = world.resources[kind].state()
+            assert held is not None, "faults_of() found those that save nothing"
+            before[kind] = held
+            world.resources[kind].restore(state)
+    except Exception:
+        for kind, held in before.items():
+            if world.resources[kind].state() != held:
+                world.resources[kind].restore(held)
+        raise
 
 
 def state_hash(world: World) -> str:

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from heaps import bin_of_balls, hashes
 
 from carom.ecs import (
     EntityError,
     Material,
     Motion,
+    Resource,
+    Snapshot,
     SnapshotError,
     Transform,
     World,
+    bytes_from_snapshot,
     restore_snapshot,
     state_hash,
     take_snapshot,
@@ -48,35 +52,6 @@ def bouncing_and_resting(**settings: Any) -> Simulation:
     simulation.add(collider=trap, transform={"position": (1.5, 0.5, 0.0)}, name="trap")
     simulation.force("linear_drag", coefficient=0.01)
     return simulation
-
-
-def bin_of_balls(count: int, **settings: Any) -> Simulation:
-    """Return balls thrown into a bin where they rattle: thousands of impacts in a step."""
-    simulation = Simulation(dt=1 / 120, **settings)
-    simulation.add(collider={"plane": {}}, name="floor")
-    for x, z in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        wall = {"box": {"size": (0.2 if x else 2.4, 4.0, 0.2 if z else 2.4)}}
-        simulation.add(collider=wall, transform={"position": (0.77 * x, 2.0, 0.77 * z)})
-    for k in range(count):
-        place = (-0.42 + 0.33 * (k % 3) + 0.01 * (k % 7), 0.2 + 0.34 * (k // 9), -0.4 + 0.32 * (k // 3 % 3))
-        simulation.add(
-            collider={"sphere": {"radius": 0.15}},
-            body={"mass": 1.0},
-            material={"restitution": 0.6 if k % 2 else 0.2},
-            transform={"position": (place[0], place[1], place[2] + 0.005 * (k % 5))},
-            motion={"linear": (0.3 * (k % 5 - 2), -3.0, 0.2 * (k % 3 - 1))},
-            name=f"ball{k}",
-        )
-    return simulation
-
-
-def hashes(simulation: Simulation, frames: int) -> list[str]:
-    """Return the state hash after each of the next frames."""
-    found = []
-    for _ in range(frames):
-        simulation.step()
-        found.append(state_hash(simulation.world))
-    return found
 
 
 @pytest.mark.parametrize("collision", ["auto", "fcl"])
@@ -173,12 +148,101 @@ def test_the_random_generator_goes_on_where_it_was() -> None:
         assert [*drawn.integers(0, 10**9, 3, dtype=np.uint32).tolist(), *drawn.normal(size=3).tolist()] == expected
 
 
+class Weather(Resource):
+    """A resource with a state that it takes back only if it is fair."""
+
+    def __init__(self, sky: bytes) -> None:
+        self.sky = sky
+
+    def state(self) -> bytes:
+        """Return the sky."""
+        return self.sky
+
+    def restore(self, state: bytes) -> None:
+        """Take back a sky without storms."""
+        self.sky = state
+        if state == b"storm":
+            raise SnapshotError("no storms here")
+
+
+def refused(world: World, snapshot: Snapshot) -> str:
+    """Return the message with which a snapshot is refused; the world is as it was before."""
+    before = bytes_from_snapshot(take_snapshot(world))
+    with pytest.raises(SnapshotError) as fault:
+        restore_snapshot(world, snapshot)
+    assert bytes_from_snapshot(take_snapshot(world)) == before
+    return str(fault.value)
+
+
 def test_a_snapshot_of_another_kind_of_world_is_refused() -> None:
-    """A resource that saved state must be there to take it back."""
-    snapshot = take_snapshot(Simulation().world)
-    message = "the snapshot holds Random, which this world does not have"
-    with pytest.raises(SnapshotError, match=f"^{re.escape(message)}$"):
-        restore_snapshot(World(), snapshot)
+    """With all that does not fit, and nothing is changed: neither by halves nor in part."""
+    simulation = bouncing_and_resting()
+    simulation.step(20)
+    snapshot = take_snapshot(simulation.world)
+    world = World()
+    world.add(Weather(b"sun"))
+    world.spawn(Transform(position=(1.0, 2.0, 3.0)))
+    rows, columns = snapshot.tables[Motion]
+    wrong = {name: values for name, values in columns.items() if name != "angular"} | {
+        "linear": columns["linear"].astype(np.float32),
+        "colour": columns["linear"],
+    }
+    assert isinstance(rows, slice)
+    outside = (slice(rows.start + 8, rows.stop + 8), snapshot.tables[Transform][1])
+    tables = snapshot.tables | {Motion: (rows, wrong), Transform: outside}
+    assert refused(world, replace(snapshot, tables=tables)) == (
+        "the snapshot does not fit this world:\n"
+        "  it holds Motion.colour, which is no state here\n"
+        "  Motion.linear is float32 of shape (11, 3), declared here is float64 of shape (11, 3)\n"
+        "  it does not hold Motion.angular\n"
+        "  Transform.position is float64 of shape (13, 3), declared here is float64 of shape (11, 3)\n"
+        "  Transform.rotation is float64 of shape (13, 4), declared here is float64 of shape (11, 4)\n"
+        "  Transform stands in rows where nobody lives\n"
+        "  it holds Random, which this world does not have; add it with world.add(Random(...))\n"
+        "  it does not hold Weather, whose state this world needs"
+    )
+
+
+def test_who_lives_must_make_sense() -> None:
+    """Two rows of one id, or a list cut short, would break the world later."""
+    world = World()
+    world.spawn_many(3, Transform())
+    snapshot = take_snapshot(world)
+    twice = snapshot.slots | {"id_shift": np.array([1, 0, 0], np.int32)}
+    short = snapshot.slots | {"generations": snapshot.slots["generations"][:2]}
+    for slots in (twice, short):
+        assert refused(world, replace(snapshot, slots=slots)) == (
+            "the snapshot does not fit this world:\n  its table of who lives contradicts itself"
+        )
+    without = {name: values for name, values in snapshot.slots.items() if name != "died_at"}
+    assert refused(world, replace(snapshot, slots=without)) == (
+        "the snapshot does not fit this world:\n  its table of who lives has other columns than here"
+    )
+
+
+def test_what_a_resource_refuses_changes_no_other() -> None:
+    """The generator, restored before it, is set back too."""
+    simulation = Simulation(seed=2)
+    simulation.world.add(Weather(b"storm"))
+    snapshot = take_snapshot(simulation.world)
+    simulation.world[Random].generator.normal()
+    simulation.world.add(Weather(b"rain"))
+    assert refused(simulation.world, snapshot) == "no storms here"
+    assert simulation.world[Weather].sky == b"rain"
+
+
+def test_memory_of_a_snapshot_nobody_needs_is_taken_over() -> None:
+    """If it is large enough; what is in the new snapshot is the same."""
+    simulation = bouncing_and_resting()
+    simulation.step(20)
+    old = take_snapshot(simulation.world)
+    simulation.step(1)
+    fresh = take_snapshot(simulation.world)
+    reused = take_snapshot(simulation.world, reuse=old)
+    assert reused.memory is old.memory
+    assert bytes_from_snapshot(reused) == bytes_from_snapshot(fresh)
+    simulation.world.spawn_many(1000, Transform())
+    assert take_snapshot(simulation.world, reuse=old).memory is not old.memory
 
 
 def columns_of(simulation: Simulation) -> list[tuple[Any, str]]:

@@ -12,12 +12,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carom.ecs import Entity, NonFiniteError, Transform, Visual, restore_snapshot, state_hash
+from carom.ecs import (
+    Entity,
+    NonFiniteError,
+    Transform,
+    Visual,
+    restore_snapshot,
+    snapshot_from_bytes,
+    state_hash,
+)
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
 from carom.tools.recorder import Recorder
-from carom.tools.recorder.snapshot_bytes import bytes_from_snapshot, snapshot_from_bytes
 from carom.tools.recording import Recording
 
 RED, BLUE, GREY = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9), (0.4, 0.4, 0.4)
@@ -213,16 +220,6 @@ def test_a_snapshot_in_the_recording_restores_the_run_bit_by_bit(tmp_path: Path)
     assert state_hash(again.world) == states[1].hash
     again.step(60)
     assert state_hash(again.world) == state_hash(simulation.world)
-
-
-def test_equal_states_make_equal_snapshot_bytes() -> None:
-    """And reading them back loses nothing."""
-    from carom.ecs import take_snapshot
-
-    data = [bytes_from_snapshot(take_snapshot(falling_world().world)) for _ in range(2)]
-    assert data[0] == data[1]
-    world = falling_world().world
-    assert bytes_from_snapshot(snapshot_from_bytes(data[0], world)) == data[0]
 
 
 def test_settings_versions_and_the_world_file_travel_along(tmp_path: Path) -> None:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from carom.ecs import state_hash, take_snapshot
+from carom.ecs import bytes_from_snapshot, state_hash, take_snapshot
 from carom.systems.simulation import Simulation
-from carom.tools.recorder.snapshot_bytes import bytes_from_snapshot
 from carom.tools.recorder.stream import Stamp, Stream
 
 PATH = "snapshots"
