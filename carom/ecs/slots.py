@@ -131,13 +131,17 @@ class Slots:
 
     def ids(self, rows: Any) -> Integers:
         """Return the id of each row."""
-        numbers = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else np.asarray(rows, np.int64)
-        return np.asarray(numbers + self.id_shift[rows], np.int64)
+        numbers = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else np.array(rows, np.int64)
+        numbers += self.id_shift[rows]
+        return numbers
 
     def entities(self, rows: Any) -> Integers:
         """Return the handles of the entities in ``rows``."""
         ids = self.ids(rows)
-        return np.asarray(self.generations[ids].astype(np.int64) << INDEX_BITS | ids)
+        handles = self.generations[ids].astype(np.int64)
+        handles <<= INDEX_BITS
+        handles |= ids
+        return handles
 
     def live(self, entities: Any) -> Booleans:
         """Return for each handle whether it leads to a living entity."""

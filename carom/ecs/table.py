@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,12 @@ import numpy.typing as npt
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Record, Relation
 from carom.ecs.slots import Rows
+
+
+def by_row(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return an array as one of opaque rows, which NumPy moves about 3 times faster than rows of several numbers."""
+    size = array.itemsize * math.prod(array.shape[1:])
+    return array.view(np.dtype((np.void, size))).reshape(len(array)) if array.ndim > 1 else array
 
 
 class Table:
@@ -64,10 +71,13 @@ class Table:
             elif not (fresh and column.zero):
                 self.arrays[name][rows] = column.default
 
-    def clear(self, rows: Rows | int) -> None:
+    def clear(self, rows: Integers) -> None:
         """Unmark ``rows`` and zero them, so that nothing of a removed component lingers."""
         self.present[rows] = False
-        for array in self.arrays.values():
+        for name, column in self.kind.columns.items():
+            array = by_row(self.arrays[name])
+            if column.zero and not array.take(rows).view(np.uint8).any():
+                continue  # what was never written takes no memory, and zeros would
             array[rows] = np.zeros((), array.dtype)
 
     def restore(self, rows: Rows, values: dict[str, npt.NDArray[Any]]) -> None:
