@@ -17,11 +17,9 @@ from carom.ecs.entity import INDEX_BITS, INDEX_MASK
 from carom.ecs.errors import SnapshotError
 from carom.ecs.names import NOBODY
 from carom.ecs.slots import Rows
-from carom.ecs.snapshot_faults import faults_of
+from carom.ecs.snapshot_faults import SAVED, Arrays, faults_of
 from carom.ecs.world import World
 
-Arrays = dict[str, npt.NDArray[Any]]
-SAVED = ("state", "input")
 ALIGNMENT = 64  # bytes, of a cache line
 NOTHING = np.empty(0, np.uint8)
 

@@ -12,8 +12,8 @@ from xxhash import xxh3_128, xxh3_128_hexdigest
 from carom.ecs.component import Record
 from carom.ecs.errors import SnapshotError
 from carom.ecs.slots import Rows, as_rows
-from carom.ecs.snapshot import Arrays, Snapshot
-from carom.ecs.snapshot_faults import faults_of, missing_resource
+from carom.ecs.snapshot import Snapshot
+from carom.ecs.snapshot_faults import Arrays, faults_of, missing_resource
 from carom.ecs.world import World
 
 MAGIC = b"carom snapshot "

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs.component import Record, Relation
+from carom.ecs.entity import INDEX_MASK
 from carom.ecs.slots import Rows
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from carom.ecs.world import World
 
 Arrays = dict[str, npt.NDArray[Any]]
-SAVED = ("state", "input")
+SAVED = ("state", "input")  # the roles of columns that a snapshot holds
 
 
 def faults_of(snapshot: Snapshot, world: World) -> list[str]:
@@ -25,7 +26,7 @@ def faults_of(snapshot: Snapshot, world: World) -> list[str]:
     alive = snapshot.slots["alive"] if not faults else None
     for kind, (rows, arrays) in snapshot.tables.items():
         count = rows.stop - rows.start if isinstance(rows, slice) else len(rows)
-        faults += _faults_of_columns(kind, arrays, count)
+        faults += _faults_of_columns(kind, arrays, count, len(snapshot.slots.get("generations", ())))
         if alive is not None and not _stand(kind, rows, alive):
             faults.append(f"{kind.__name__} stands in rows where nobody lives")
     savers = {kind for kind, resource in world.resources.items() if resource.state() is not None}
@@ -55,7 +56,7 @@ def _faults_of_slots(slots: Arrays) -> Iterator[str]:
         yield "its table of who lives contradicts itself"
 
 
-def _faults_of_columns(kind: type[Record], arrays: Arrays, count: int) -> Iterator[str]:
+def _faults_of_columns(kind: type[Record], arrays: Arrays, count: int, reached: int) -> Iterator[str]:
     saved = {name: column for name, column in kind.columns.items() if column.role in SAVED}
     for name in sorted(arrays.keys() - saved.keys()):
         yield f"it holds {kind.__name__}.{name}, which is no state here"
@@ -69,6 +70,8 @@ def _faults_of_columns(kind: type[Record], arrays: Arrays, count: int) -> Iterat
                 f"{kind.__name__}.{name} is {held.dtype} of shape {held.shape}, "
                 f"declared here is {column.dtype} of shape {declared}"
             )
+        elif column.holds == "entities" and ((held >= 0) & (held & INDEX_MASK >= reached)).any():
+            yield f"{kind.__name__}.{name} holds entities that never lived"
 
 
 def _stand(kind: type[Record], rows: Rows, alive: npt.NDArray[np.bool_]) -> bool:

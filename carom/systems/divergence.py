@@ -12,7 +12,8 @@ from xxhash import xxh3_128_digest
 
 from carom.ecs import Component, Difference, Snapshot, System, first_difference, restore_snapshot, take_snapshot
 from carom.ecs.component import Relation
-from carom.ecs.snapshot import SAVED, copied, look_at
+from carom.ecs.snapshot import copied, look_at
+from carom.ecs.snapshot_faults import SAVED
 from carom.systems.simulation import Simulation
 
 COMPARED = (*SAVED, "derived")  # a force differs before a velocity does

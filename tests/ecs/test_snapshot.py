@@ -26,7 +26,8 @@ from carom.ecs import (
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Inside
 from carom.ecs.relations.impact import Impact
-from carom.ecs.snapshot import SAVED, saved_kinds
+from carom.ecs.snapshot import saved_kinds
+from carom.ecs.snapshot_faults import SAVED
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
@@ -217,6 +218,17 @@ def test_who_lives_must_make_sense() -> None:
     without = {name: values for name, values in snapshot.slots.items() if name != "died_at"}
     assert refused(world, replace(snapshot, slots=without)) == (
         "the snapshot does not fit this world:\n  its table of who lives has other columns than here"
+    )
+
+
+def test_handles_that_never_were_are_no_state() -> None:
+    """Kernels look them up by number, without asking whether the number is one."""
+    simulation = bouncing_and_resting()
+    simulation.step(20)
+    snapshot = take_snapshot(simulation.world)
+    snapshot.tables[Contact][1]["b"][2] = 12_345
+    assert refused(simulation.world, snapshot) == (
+        "the snapshot does not fit this world:\n  Contact.b holds entities that never lived"
     )
 
 
