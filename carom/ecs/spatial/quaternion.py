@@ -1,4 +1,8 @@
-"""Unit quaternions xyzw over leading axes; a rotation takes vectors from the inner to the outer frame."""
+"""Unit quaternions xyzw over leading axes; a rotation takes vectors from the inner to the outer frame.
+
+Functions broadcast their arguments and take only + - * / sqrt and carom's own trigonometry, so that they are equal on
+every machine. q and -q are one rotation.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +10,32 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs.column import Floats
-from carom.ecs.spatial.trigonometry import sine_cosine
+from carom.ecs.spatial import vector
+from carom.ecs.spatial.angles import arc_tangent, sines_cosines
+from carom.ecs.spatial.checks import refuse, refuse_unless_rotation, shaped
+from carom.ecs.spatial.constants import BACK, IDENTITY_MATRIX, IDENTITY_ROTATION, RIGHT, UP
+from carom.ecs.spatial.euler import axes_of, to_euler
 
-IDENTITY: Floats = np.array([0.0, 0.0, 0.0, 1.0])
+__all__ = [
+    "IDENTITY",
+    "change_handedness",
+    "conjugate",
+    "from_axis_angle",
+    "from_euler",
+    "from_matrix",
+    "look_at",
+    "matrix",
+    "multiply",
+    "normalise",
+    "rotate",
+    "slerp",
+    "to_axis_angle",
+    "to_euler",
+]
+
+IDENTITY = IDENTITY_ROTATION
+AXES = (4,)
+PARALLEL = 1e-18  # squared sine below which the direction of a cross product would be rounding
 
 
 def multiply(a: npt.ArrayLike, b: npt.ArrayLike) -> Floats:
@@ -50,52 +77,122 @@ def matrix(q: npt.ArrayLike) -> Floats:
 
 
 def normalise(q: npt.ArrayLike) -> Floats:
-    """Return q over its length, shape (..., 4)."""
+    """Return q over its length, shape (..., 4); a zero or infinite q is a GeometryError."""
     q = np.asarray(q, np.float64)
-    unit: Floats = q / np.sqrt((q * q).sum(axis=-1, keepdims=True))
+    size = np.sqrt((q * q).sum(axis=-1, keepdims=True))
+    refuse(~((size > 0.0) & (size < np.inf))[..., 0], "a quaternion of length 0 or infinity is no rotation")
+    unit: Floats = q / size
     return unit
 
 
-def from_axis_angle(axis: npt.ArrayLike, angle: float) -> Floats:
-    """Return the rotation by ``angle`` (rad) about ``axis`` (3,) of any length but 0."""
-    axis = np.asarray(axis, np.float64)
-    sine, cosine = sine_cosine(angle / 2.0)
-    return np.array([*(axis / np.sqrt((axis * axis).sum()) * sine), cosine])
+def slerp(a: npt.ArrayLike, b: npt.ArrayLike, t: npt.ArrayLike) -> Floats:
+    """Return the rotations (..., 4) a fraction t (...) of the shorter way from a to b, at constant angular speed.
+
+    a at 0; b at 1, or -b, which is the same rotation, where -b is the nearer. Half a turn apart both ways are equally
+    short, and the way is the one towards b as it is given. Outside of 0..1 the turning goes on. Source: Shoemake,
+    Animating rotation with quaternion curves, SIGGRAPH 1985, section 3.3; the angle is Kahan's, see ``vector.angle``.
+    """
+    a, b = shaped(a, AXES, "a quaternion"), shaped(b, AXES, "a quaternion")
+    t = np.asarray(t, np.float64)[..., None]
+    b = np.where((a * b).sum(axis=-1, keepdims=True) < 0.0, -b, b)
+    apart, together = (np.sqrt((part * part).sum(axis=-1, keepdims=True)) for part in (a - b, a + b))
+    angle = 2.0 * arc_tangent(apart, together)
+    (whole, _), (before, _), (after, _) = (sines_cosines(share * angle) for share in (1.0, 1.0 - t, t))
+    same = whole == 0.0
+    divisor = np.where(same, 1.0, whole)
+    between: Floats = np.where(same, 1.0 - t, before / divisor) * a + np.where(same, t, after / divisor) * b
+    return between
+
+
+def from_axis_angle(axis: npt.ArrayLike, angle: npt.ArrayLike) -> Floats:
+    """Return the rotations (..., 4) by ``angle`` (...) in rad about ``axis`` (..., 3), by the right-hand rule.
+
+    The axis may have any length but 0 (GeometryError).
+    """
+    return _turn(vector.normalise(axis), np.asarray(angle, np.float64))
+
+
+def to_axis_angle(q: npt.ArrayLike) -> tuple[Floats, Floats]:
+    """Return unit axes (..., 3) and angles (...) in rad, 0..pi, of rotations (..., 4) of any length but 0.
+
+    Where nothing turns every axis is right, and +x is given.
+    """
+    q = shaped(q, AXES, "a quaternion")
+    refuse(~q.any(axis=-1), "a zero quaternion is no rotation")
+    q = np.where(q[..., 3:] < 0.0, -q, q)
+    angle = 2.0 * arc_tangent(vector.length(q[..., :3]), q[..., 3])
+    return vector.normalise(q[..., :3], otherwise=RIGHT), angle
 
 
 def from_euler(angles: npt.ArrayLike, order: str) -> Floats:
-    """Return rotations about the axes of ``order`` one after another: XYZ about turning axes, xyz about fixed ones."""
-    turns = [
-        from_axis_angle(np.eye(3)["xyz".index(o.lower())], float(a))
-        for o, a in zip(order, np.asarray(angles), strict=True)
-    ]
+    """Return rotations (..., 4) by angles (..., n) in rad about the n axes of ``order`` one after another.
+
+    XYZ about turning axes, xyz about fixed ones; another order, or another number of angles, is a GeometryError.
+    """
+    axes = axes_of(order)
+    angles = shaped(angles, (len(axes),), f"angles in the order '{order}'")
     total = IDENTITY
-    for turn in turns:
+    for k, axis in enumerate(axes):
+        turn = _turn(IDENTITY_MATRIX[axis, :3], angles[..., k])
         total = multiply(total, turn) if order.isupper() else multiply(turn, total)
     return total
 
 
 def from_matrix(m: npt.ArrayLike) -> Floats:
-    """Return the rotation of a matrix (3, 3) with orthonormal columns (Shepperd, 1978)."""
-    m = np.asarray(m, np.float64)
-    trace = m[0, 0] + m[1, 1] + m[2, 2]
-    k = int(np.argmax([m[0, 0], m[1, 1], m[2, 2], trace]))
-    if k == 3:
-        q = np.array([m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1], 1.0 + trace])
-    else:
-        i, j = (k + 1) % 3, (k + 2) % 3
-        q = np.zeros(4)
-        q[k] = 1.0 + m[k, k] - m[i, i] - m[j, j]
-        q[i], q[j], q[3] = m[i, k] + m[k, i], m[j, k] + m[k, j], m[j, i] - m[i, j]
-    return normalise(q)
+    """Return the rotations (..., 4) of matrices (..., 3, 3) whose columns are the turned axes.
+
+    Columns that are not orthonormal within 1e-3, or left-handed, are a GeometryError. Of the four ways to take q from
+    m, each matrix goes the one that divides by the largest part (Shepperd, Quaternion from rotation matrix, Journal of
+    Guidance and Control 1, 223, 1978).
+    """
+    m = shaped(m, (3, 3), "a rotation matrix")
+    refuse_unless_rotation(m, "a matrix")
+    return _from_axes(m)
 
 
-def look_at(direction: npt.ArrayLike, up: npt.ArrayLike = (0.0, 1.0, 0.0)) -> Floats:
-    """Return the rotation that turns forward (-z) to ``direction`` and keeps y as near ``up`` as it can."""
-    back = -np.asarray(direction, np.float64)
-    back = back / np.sqrt((back * back).sum())
-    right = np.cross(np.asarray(up, np.float64), back)
-    if (right * right).sum() < 1e-18:
-        right = np.cross((0.0, 0.0, 1.0), back) if abs(back[2]) < 0.9 else np.cross((1.0, 0.0, 0.0), back)
-    right = right / np.sqrt((right * right).sum())
-    return from_matrix(np.stack([right, np.cross(back, right), back], axis=1))
+def look_at(direction: npt.ArrayLike, up: npt.ArrayLike = UP) -> Floats:
+    """Return the rotations (..., 4) that turn forward (-z) to ``direction`` (..., 3), y as near ``up`` (..., 3) as can.
+
+    A zero direction is a GeometryError. An ``up`` that is zero or along the direction says nothing; then +z takes its
+    place, or +x where the direction is near z.
+    """
+    back = vector.normalise(-np.asarray(direction, np.float64))
+    up = shaped(up, vector.AXES, "up")
+    right = vector.cross(up, back)
+    level = vector.dot(right, right) > PARALLEL * vector.dot(up, up)
+    instead = np.where(np.abs(back[..., 2:]) < 0.9, BACK, RIGHT)
+    right = vector.normalise(np.where(level[..., None], right, vector.cross(instead, back)))
+    back = np.broadcast_to(back, right.shape)
+    return _from_axes(np.stack([right, vector.cross(back, right), back], axis=-1))
+
+
+def change_handedness(q: npt.ArrayLike) -> Floats:
+    """Return rotations (..., 4) of a right-handed frame in the left-handed one with +z forward, or back.
+
+    A mirror keeps the part of a turning axis across itself and turns the parts along it round, against what it does to
+    a direction: x and y change their signs.
+    """
+    changed: Floats = shaped(q, AXES, "a quaternion") * np.array([-1.0, -1.0, 1.0, 1.0])
+    return changed
+
+
+def _turn(axis: Floats, angle: Floats) -> Floats:
+    """Return the rotations (..., 4) by angles (...) about unit axes (..., 3)."""
+    sine, cosine = sines_cosines(angle / 2.0)
+    found = np.zeros((*np.broadcast_shapes(axis.shape[:-1], angle.shape), 4))
+    found[..., :3], found[..., 3] = axis * sine[..., None], cosine
+    return found
+
+
+def _from_axes(m: Floats) -> Floats:
+    """Return the rotations (..., 4) of matrices (..., 3, 3) known to be rotations."""
+    trace = m[..., 0, 0] + m[..., 1, 1] + m[..., 2, 2]
+    ways = np.zeros((*m.shape[:-2], 4, 4))
+    for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
+        ways[..., k, k] = 1.0 + m[..., k, k] - m[..., i, i] - m[..., j, j]
+        ways[..., k, i], ways[..., k, j] = m[..., i, k] + m[..., k, i], m[..., j, k] + m[..., k, j]
+        ways[..., k, 3] = ways[..., 3, k] = m[..., j, i] - m[..., i, j]
+    ways[..., 3, 3] = 1.0 + trace
+    sizes = np.stack([m[..., 0, 0], m[..., 1, 1], m[..., 2, 2], trace], axis=-1)
+    best = np.argmax(sizes, axis=-1)[..., None, None]
+    return normalise(np.take_along_axis(ways, best, axis=-2)[..., 0, :])
