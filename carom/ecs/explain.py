@@ -5,8 +5,9 @@ from __future__ import annotations
 import textwrap
 from itertools import zip_longest
 
+from carom.ecs.access import Kind
 from carom.ecs.schedule import Schedule
-from carom.ecs.system import Kind
+from carom.ecs.system import Condition, named
 
 CELL = 40  # characters after which a list of components goes on in the next line
 
@@ -16,10 +17,10 @@ def explain(schedule: Schedule) -> str:
     rows: list[tuple[str, ...]] = [("phase", "system", "reads", "writes", "adds")]
     shown = ""
     for phase, system in schedule:
-        label = "" if phase.name == shown else phase.name + (" (repeated)" if phase.repeat else "")
+        label = "" if phase.name == shown else phase.name + (" (repeated)" if phase.repeat else "") + _if(phase.when)
         shown = phase.name
         lists = [textwrap.wrap(_names(kinds), CELL) for kinds in (system.reads, system.writes, system.adds)]
-        rows += zip_longest([label], [system.name], *lists, fillvalue="")
+        rows += zip_longest([label], [system.name + _if(system.when)], *lists, fillvalue="")
     widths = [max(len(row[i]) for row in rows) for i in range(5)]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
     lines.insert(1, "  ".join("-" * width for width in widths))
@@ -29,3 +30,7 @@ def explain(schedule: Schedule) -> str:
 
 def _names(kinds: tuple[Kind, ...]) -> str:
     return " ".join(kind.__name__ for kind in kinds)
+
+
+def _if(condition: Condition | None) -> str:
+    return "" if condition is None else f" (if {named(condition)})"

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+import difflib
+from collections.abc import Callable, Iterable, Iterator
+from time import perf_counter_ns
+from typing import TYPE_CHECKING, Final
 
+from carom.ecs.access import Kind
 from carom.ecs.commands import apply_commands
 from carom.ecs.component import Record
 from carom.ecs.errors import DeclarationError
-from carom.ecs.system import Kind, System
+from carom.ecs.system import Condition, System, sight
+from carom.ecs.timings import COMMANDS, Timings
 
 if TYPE_CHECKING:
     from carom.ecs.world import World
@@ -18,17 +22,44 @@ AfterSystem = Callable[[System], None]
 
 
 class Phase:
-    """Systems in order under one name, run ``repeat(world)`` times with the time step divided among the repeats."""
+    """Systems in order under one name, run ``repeat(world)`` times with the time step divided among the repeats.
 
-    def __init__(self, name: str, *systems: System, repeat: Repeat | None = None) -> None:
-        self.name, self.systems, self.repeat = name, systems, repeat
+    ``when`` is asked once in a frame, before the first repeat, and reads what the systems of the phase declare.
+    """
+
+    def __init__(
+        self, name: str, *systems: System, repeat: Repeat | None = None, when: Condition | None = None
+    ) -> None:
+        for stray in systems:
+            if not isinstance(stray, System):
+                raise DeclarationError(
+                    f"phase '{name}' takes systems, received {getattr(stray, '__name__', repr(stray))}; "
+                    f"write @system(reads=..., writes=...) above the function"
+                )
+        self.name: Final = name
+        self.systems: Final = systems
+        self.repeat: Final = repeat
+        self.when: Final = when
+        self.named: Final = tuple((system, system.name) for system in systems)
+        self._sight = None if when is None else sight(when, f"phase '{name}'", "one of its systems", systems)
+
+    def holding(self, *systems: System) -> Phase:
+        """Return this phase with these systems in the place of its own."""
+        return Phase(self.name, *systems, repeat=self.repeat, when=self.when)
+
+    def due(self, world: World, *, checked: bool) -> bool:
+        """Ask the condition."""
+        if self.when is None or self._sight is None:
+            return True
+        return bool(self._sight.call(world, self.when) if checked else self.when(world))
 
 
 class Schedule:
-    """Phases in order; order of writing is order of execution."""
+    """Phases in order; order of writing is order of execution. A schedule never changes: `insert` makes another."""
 
     def __init__(self, *phases: Phase) -> None:
-        self.phases = phases
+        self.phases: Final = phases
+        self._names = (*(name for phase in phases for _, name in phase.named), COMMANDS)
         self._check()
 
     def __iter__(self) -> Iterator[tuple[Phase, System]]:
@@ -36,32 +67,76 @@ class Schedule:
 
     def run(self, world: World, dt: float, *, checked: bool = False, after: AfterSystem | None = None) -> None:
         """Run one frame of ``dt`` seconds; ``checked`` enforces declared access, ``after`` hears of each system run."""
-        with world.faces(None):
-            for phase in self.phases:
-                repeats = phase.repeat(world) if phase.repeat else 1
-                share = dt / repeats
-                for _ in range(repeats):
-                    for system in phase.systems:
-                        if checked:
-                            system.guarded(world, share)
-                        else:
-                            system.function(world, share)
-                        if after is not None:
-                            after(system)
-                apply_commands(world)
+        if Timings not in world.resources:
+            world.add(Timings())
+        timings = world.resources[Timings]
+        assert isinstance(timings, Timings)
+        spent, calls = timings.begin(self._names)
+        try:
+            with world.faces(None):
+                began = perf_counter_ns()  # one reading ends a system and begins the next: nothing is left out
+                for phase in self.phases:
+                    if phase.when is not None and not phase.due(world, checked=checked):
+                        continue
+                    repeats = 1 if phase.repeat is None else phase.repeat(world)
+                    share = dt / max(repeats, 1)
+                    for _ in range(repeats):
+                        for system, name in phase.named:
+                            world.running = system
+                            if system.when is not None and not system.due(world, checked=checked):
+                                continue
+                            if checked:
+                                system.guarded(world, share)
+                            else:
+                                system.function(world, share)
+                            now = perf_counter_ns()
+                            spent[name] += now - began
+                            calls[name] += 1
+                            began = now
+                            if after is not None:
+                                after(system)
+                                began = perf_counter_ns()
+                    world.running = None
+                    apply_commands(world)
+                    now = perf_counter_ns()
+                    spent[COMMANDS] += now - began
+                    calls[COMMANDS] += 1
+                    began = now
+        finally:
+            world.running = None
 
-    def with_system(self, new: System, *, after: str) -> Schedule:
-        """Return this schedule with ``new`` behind the system named ``after``."""
-        names = [system.name for _, system in self]
-        if after not in names:
-            raise DeclarationError(f"no system is named {after!r}; there are {', '.join(names)}")
-        phases = []
-        for phase in self.phases:
-            systems: list[System] = []
-            for system in phase.systems:
-                systems += [system, new] if system.name == after else [system]
-            phases.append(Phase(phase.name, *systems, repeat=phase.repeat))
-        return Schedule(*phases)
+    def insert(self, *new: System, before: str | None = None, after: str | None = None) -> Schedule:
+        """Return this schedule with systems right before or right after the one of that name."""
+        neighbour = before if after is None else after
+        if neighbour is None or (before is not None and after is not None):
+            raise DeclarationError(
+                'a system is inserted either before or after another; write insert(my_system, after="apply_gravity")'
+            )
+        around = (lambda old: (old, *new)) if after is not None else (lambda old: (*new, old))
+        phases = self._exchanged([neighbour], around)
+        return _changed(phases, f"with {_listed(system.name for system in new)}")
+
+    def replace(self, name: str, new: System) -> Schedule:
+        """Return this schedule with another system in the place of the one of that name."""
+        phases = self._exchanged([name], lambda old: (new,))
+        return _changed(phases, f"with {new.name!r} in the place of {name!r}")
+
+    def remove(self, *names: str) -> Schedule:
+        """Return this schedule without the systems of these names."""
+        return _changed(self._exchanged(names, lambda old: ()), f"without {_listed(names)}")
+
+    def _exchanged(self, names: Iterable[str], exchange: Callable[[System], tuple[System, ...]]) -> list[Phase]:
+        """Return the phases with each system of ``names`` exchanged for others."""
+        there = self._names[:-1]
+        for name in names:
+            if name not in there:
+                near = difflib.get_close_matches(name, there, 1)
+                hint = f"did you mean {near[0]!r}? " if near else ""
+                raise DeclarationError(f"no system is named {name!r}; {hint}there are {', '.join(there)}")
+        return [
+            phase.holding(*(new for old, name in phase.named for new in (exchange(old) if name in names else (old,))))
+            for phase in self.phases
+        ]
 
     def _check(self) -> None:
         faults: list[str] = []
@@ -87,3 +162,14 @@ class Schedule:
                 faults.append(f"{kind.__name__} is written by {writers} and read by nobody; read it or remove it")
         if faults:
             raise DeclarationError("the schedule is wrong:\n  " + "\n  ".join(faults))
+
+
+def _changed(phases: list[Phase], change: str) -> Schedule:
+    try:
+        return Schedule(*phases)
+    except DeclarationError as fault:
+        raise DeclarationError(f"{change} {fault}") from None
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(map(repr, names))

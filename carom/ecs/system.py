@@ -1,33 +1,31 @@
-"""Systems: functions over columns that declare what they touch."""
+"""Systems: functions over columns that declare what they touch, and when they run."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextvars import ContextVar
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import TYPE_CHECKING
 
-from carom.ecs.component import Record, Resource
-from carom.ecs.errors import AccessError
+from carom.ecs.access import Access, Kind
+from carom.ecs.errors import DeclarationError
 
 if TYPE_CHECKING:
     from carom.ecs.world import World
 
-Kind = type[Record] | type[Resource]
 Function = Callable[["World", float], None]
-
-#: Set while a system runs guarded, so that kernels expect read-only arrays.
-GUARDED: ContextVar[bool] = ContextVar("guarded", default=False)
+Condition = Callable[["World"], bool]
 
 
 @dataclass(frozen=True, eq=False)
 class System:
-    """A function ``(world, dt)`` with its declared access."""
+    """A function ``(world, dt)`` with its declared access; with ``when`` it runs only where that holds."""
 
     function: Function
     reads: tuple[Kind, ...]
     writes: tuple[Kind, ...]
     adds: tuple[Kind, ...]
+    when: Condition | None = None
 
     @property
     def name(self) -> str:
@@ -45,46 +43,28 @@ class System:
 
     def guarded(self, world: World, dt: float) -> None:
         """Run the function seeing only what it declares: reads read-only, everything undeclared refused."""
-        faces = world.guards.get(self)
-        if faces is None:
-            faces = world.guards[self] = Declared(self, world)
-        with world.faces(faces):
-            token = GUARDED.set(True)
-            try:
-                self.function(world, dt)
-            except ValueError as fault:
-                if "read-only" not in str(fault):
-                    raise
-                kinds = ", ".join(kind.__name__ for kind in self.reads if issubclass(kind, Record))
-                raise AccessError(
-                    f"system '{self.name}' writes to a column it declares to read ({kinds}); "
-                    f"move the component to writes= (or adds=) of @system"
-                ) from fault
-            finally:
-                GUARDED.reset(token)
+        self._access.call(world, self.function, dt)
 
+    def due(self, world: World, *, checked: bool = False) -> bool:
+        """Ask the condition; guarded, it reads what the system declares and writes nothing."""
+        if self.when is None:
+            return True
+        return bool(self._sight.call(world, self.when) if checked else self.when(world))
 
-class Declared(dict[Any, Any]):
-    """The tables and resources one system may touch."""
-
-    def __init__(self, system: System, world: World) -> None:
-        super().__init__()
-        self.system = system
-        for kind in (*system.reads, *system.writes, *system.adds):
-            if issubclass(kind, Record):
-                table = world.table(kind)
-                self[kind] = table.live if kind in system.writes or kind in system.adds else table.view
-            elif kind in world.resources:
-                self[kind] = world.resources[kind]
-
-    def __missing__(self, key: Any) -> Any:
-        if not (isinstance(key, type) and issubclass(key, (Record, Resource))):
-            raise KeyError(key)
-        declared = ", ".join(kind.__name__ for kind in self) or "nothing"
-        raise AccessError(
-            f"system '{self.system.name}' touches {key.__name__} but declares only {declared}; "
-            f"add {key.__name__} to reads=, writes= or adds= of @system"
+    @cached_property
+    def _access(self) -> Access:
+        return Access(
+            f"system '{self.name}'",
+            self.reads,
+            (*self.writes, *self.adds),
+            "reads=, writes= or adds= of @system",
+            "move the component to writes= (or adds=) of @system",
         )
+
+    @cached_property
+    def _sight(self) -> Access:
+        assert self.when is not None
+        return sight(self.when, f"system '{self.name}'", "the system", (self,))
 
 
 def system(
@@ -92,6 +72,40 @@ def system(
     reads: tuple[Kind, ...] = (),
     writes: tuple[Kind, ...] = (),
     adds: tuple[Kind, ...] = (),
+    when: Condition | None = None,
 ) -> Callable[[Function], System]:
-    """Declare a function ``(world, dt)`` as a system; ``adds`` is for columns that several systems accumulate into."""
-    return lambda function: System(function, reads, writes, adds)
+    """Declare a function ``(world, dt)`` as a system; ``adds`` is for columns that several systems accumulate into.
+
+    ``when`` is asked each time just before the system would run: ``when=every(10)``, or a function of the world that
+    looks at what the system declares.
+    """
+    return lambda function: System(function, reads, writes, adds, when)
+
+
+def every(count: int) -> Condition:
+    """Return the condition that holds in every ``count``-th frame; dt stays that of one frame."""
+    if count < 1:
+        raise DeclarationError(f"every() counts in frames, 1 or more; received {count}")
+
+    def due(world: World) -> bool:
+        return world.frame % count == 0
+
+    due.__name__ = f"every({count})"
+    return due
+
+
+def sight(condition: Condition, owner: str, declares: str, systems: tuple[System, ...]) -> Access:
+    """Return the access of a condition: it reads what ``systems`` declare, and ``declares`` says who that is."""
+    kinds = dict.fromkeys(kind for one in systems for kind in (*one.reads, *one.writes, *one.adds))
+    return Access(
+        f"condition '{named(condition)}' of {owner}",
+        tuple(kinds),
+        (),
+        f"reads= of {declares}",
+        "a condition only looks; write in the system",
+    )
+
+
+def named(condition: Condition) -> str:
+    """Return the name of a condition; an object that is called has that of its class."""
+    return str(getattr(condition, "__name__", type(condition).__name__))

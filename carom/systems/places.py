@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from carom.ecs.errors import DeclarationError
-from carom.ecs.schedule import Phase, Schedule
+from carom.ecs.schedule import Schedule
 from carom.ecs.system import System
 from carom.systems.extensions import load_extensions, origin
 
@@ -83,6 +83,6 @@ def _with_places(schedule: Schedule, places: tuple[Place, ...]) -> Schedule:
                         break
         waiting = [place for place in waiting if place not in ready]
     try:
-        return Schedule(*(Phase(phase.name, *systems, repeat=phase.repeat) for phase, systems in phases))
+        return Schedule(*(phase.holding(*systems) for phase, systems in phases))
     except DeclarationError as fault:
         raise DeclarationError("\n  ".join([str(fault), *(f"{place} is placed in it" for place in places)])) from None

@@ -96,7 +96,7 @@ class Simulation:
         push.__name__ = name or str(getattr(function, "__name__", "force_function"))
         push.__doc__ = function.__doc__
         made = system(reads=(Transform, Motion, RigidBody), adds=(Force,))(push)
-        self.schedule = self.schedule.with_system(made, after="apply_quadratic_drag")
+        self.schedule = self.schedule.insert(made, after="apply_quadratic_drag")
         return made
 
     # Running.

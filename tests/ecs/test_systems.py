@@ -257,17 +257,6 @@ def test_a_wrong_schedule_is_refused_when_built(phases: list[Phase], faults: lis
         Schedule(*phases)
 
 
-def test_a_system_is_placed_behind_another() -> None:
-    """`with_system` keeps everything else; an unknown name lists those that there are."""
-    schedule = Schedule(Phase("first", write_scratch), Phase("second", read_scratch, repeat=lambda world: 2))
-    longer = schedule.with_system(add_scratch, after="write_scratch")
-    assert [system.name for _, system in longer] == ["write_scratch", "add_scratch", "read_scratch"]
-    assert longer.phases[1].repeat is schedule.phases[1].repeat
-    assert [system.name for _, system in schedule] == ["write_scratch", "read_scratch"]
-    with error(DeclarationError, "no system is named 'writes'; there are write_scratch, read_scratch"):
-        schedule.with_system(add_scratch, after="writes")
-
-
 def test_explain_shows_phases_systems_and_access() -> None:
     """The table of a small schedule, to the letter."""
     schedule = Schedule(Phase("first", write_scratch, add_scratch), Phase("second", read_scratch, repeat=lambda w: 2))

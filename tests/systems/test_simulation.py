@@ -1,16 +1,16 @@
-"""The simulation as a whole: its response, its clock, and what happens when a number is none."""
+"""The simulation as a whole: its response, its schedule, and what happens when a number is none."""
 
 from __future__ import annotations
 
 import math
 import re
-from itertools import cycle
 
 import numpy as np
 import pytest
 
-from carom.ecs import NonFiniteError, Transform, state_hash
+from carom.ecs import Force, NonFiniteError, RigidBody, System, Transform, World, system
 from carom.ecs.relations.impact import Impact
+from carom.ecs.timings import Timings
 from carom.systems.progress import Progress
 from carom.systems.simulation import Simulation
 
@@ -43,34 +43,28 @@ def test_reflect_leaves_no_resting_contact() -> None:
     assert ended == {"reflect": (False, True), "full": (True, True)}
 
 
-@pytest.mark.parametrize("rate", [30, 60, 144])
-def test_the_frame_rate_changes_no_bit(rate: int) -> None:
-    """Frames of 30, 60 or 144 per second, each up to 40 % early or late, lead to the arc of plain steps."""
-    plain, shown = thrown(dt=1 / 120), thrown(dt=1 / 120)
-    hashes = {0: state_hash(plain.world)}
-    while plain.frame < 250:
-        plain.step()
-        hashes[plain.frame] = state_hash(plain.world)
-    jitter = np.random.default_rng(rate).uniform(0.6, 1.4, 1000)
-    passed = 0.0
-    for late in cycle(jitter.tolist()):
-        if passed > 2.0:
-            break
-        passed += late / rate
-        part = shown.advance(late / rate)
-        assert 0.0 <= part < 1.0
-        assert (shown.frame + part) / 120 == pytest.approx(passed, abs=1e-9)
-        assert state_hash(shown.world) == hashes[shown.frame]
-    assert shown.frame >= 239
+def test_a_system_of_ones_own_is_one_line() -> None:
+    """Inserted by name it acts in every substep, replaced it acts otherwise, removed it is gone."""
 
+    def wind(strength: float) -> System:
+        @system(reads=(RigidBody,), adds=(Force,))
+        def blow(world: World, dt: float) -> None:
+            world[Force].force[world.rows(RigidBody)] += (strength, 0.0, 0.0)
 
-def test_a_slow_machine_falls_behind() -> None:
-    """A frame of a second asks for 120 steps but gets 8; what is over is forgotten but for its part of a step."""
-    simulation = thrown(dt=1 / 120)
-    assert simulation.advance(1.0 + 0.25 / 120) == pytest.approx(0.25, abs=1e-9)
-    assert simulation.frame == 8
-    assert simulation.advance(0.5 / 120) == pytest.approx(0.75, abs=1e-9)
-    assert simulation.frame == 8
+        return blow
+
+    simulation = Simulation(gravity=(0.0, 0.0, 0.0))
+    ball = simulation.add(collider=BALL, body={"mass": 2.0})
+    simulation.schedule = simulation.schedule.insert(wind(12.0), after="apply_gravity")
+    simulation.step(60)
+    assert simulation[ball].motion.linear == pytest.approx([6.0, 0.0, 0.0])
+    simulation.schedule = simulation.schedule.replace("blow", wind(-12.0))
+    simulation.step(60)
+    assert simulation[ball].motion.linear == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
+    simulation.schedule = simulation.schedule.remove("blow")
+    simulation.step(60)
+    assert simulation[ball].motion.linear == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
+    assert simulation[Timings]["apply_gravity"].calls == 180 * 4
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,8 @@ from typing import Any
 import numba
 import numpy as np
 
+from carom.ecs.access import GUARDED
 from carom.ecs.errors import AccessError
-from carom.ecs.system import GUARDED
 
 ROOM = Path(__file__).parents[1]
 PLAIN = ("scalars.py", "trigonometry.py")  # whose functions kernels compile as they stand
