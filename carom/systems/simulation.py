@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -27,11 +26,13 @@ from carom.ecs.components.motion import Motion
 from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
 from carom.systems.assembly import Materials, add_entities, add_entity
+from carom.systems.clock import Clock
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.finish import find_not_finite
 from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
+from carom.systems.interpolation import EarlierPoses
 from carom.systems.layers import Layers
 from carom.systems.observer import Observer
 from carom.systems.places import extended
@@ -40,7 +41,6 @@ from carom.systems.settings import Random, Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.step import STEP
 
-CATCH_UP_LIMIT = 8  # steps per call of advance: beyond it a slow machine would fall behind ever further
 CHECK_VARIABLE = "CAROM_CHECK"
 
 
@@ -58,7 +58,8 @@ class Simulation:
         self.checked = bool(os.environ.get(CHECK_VARIABLE)) if checked is None else checked
         self.watched = False
         self.observers: list[Observer] = []
-        self._owed = 0.0
+        self.clock = Clock()
+        self._earlier = EarlierPoses()
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), Forces(), Commands())
         for resource in (self.settings, *made, Progress(), Answered(), FclObjects()):
             self.world.add(resource)
@@ -129,15 +130,25 @@ class Simulation:
         self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=after)
 
     def advance(self, seconds: float) -> float:
-        """Take as many steps as ``seconds`` of real time ask for; return how far (0 to 1) time is into the next one.
+        """Take the steps that ``seconds`` of real time ask for; return how far (0 to 1) time is into the next one.
 
-        What a frame leaves over is kept for the next; more than 8 steps are never taken at once, the rest is dropped.
+        What a frame leaves over is kept for the next, to the last bit: the steps taken do not depend on how time is cut
+        into frames. A frame asks for at most ``clock.catch_up`` seconds, the rest is in ``clock.dropped``.
         """
-        self._owed += seconds
-        steps = math.floor(self._owed / self.settings.dt)
-        self.step(min(steps, CATCH_UP_LIMIT))
-        self._owed -= steps * self.settings.dt
-        return self._owed / self.settings.dt
+        steps = self.clock.steps(seconds, self.settings.dt)
+        if steps:
+            self.step(steps - 1)
+            self._earlier.keep(self.world)
+            self.step()
+        return self.clock.part(self.settings.dt)
+
+    def between(self, part: float) -> Transform:
+        """Return poses to draw, ``part`` (what `advance` returned) of the way from the step before to the last one.
+
+        Arrays over rows like ``world[Transform]``, copied: ``between(part).position[rows]``. Without `advance` they are
+        those of the last step. What is drawn is up to one step late, and as smooth as the frames.
+        """
+        return self._earlier.between(self.world, part)
 
     def __getitem__(self, key: Any) -> Any:
         """Return ``world[key]``; a text finds an entity by name."""
