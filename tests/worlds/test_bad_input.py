@@ -319,8 +319,8 @@ def test_files_that_are_not_there(tmp_path: Path) -> None:
     assert refusal("nowhere.yaml") == f"nowhere.yaml: does not exist; accepted: {accepted}"
     assert refusal(tmp_path) == f"{tmp_path}: is a folder; accepted: {accepted}"
     assert refusal("mirror_rom") == (
-        "mirror_rom: no world of this name; accepted: billiards, bounce, cannon, falling_ball, head_on, mirror_room, orbit; "
-        "did you mean 'mirror_room'?"
+        "mirror_rom: no world of this name; accepted: billiards, bounce, cannon, falling_ball, head_on, jump, "
+        "mirror_room, orbit; did you mean 'mirror_room'?"
     )
     (tmp_path / "latin.yaml").write_bytes(b"carom: 1\nname: caf\xe9\n")
     assert refusal(tmp_path / "latin.yaml") == f"{tmp_path}/latin.yaml: is not text in UTF-8: byte 18 is 0xe9"

@@ -57,6 +57,9 @@ def test_expectations_hold(name: str, collision: str) -> None:
         ("head_on", r"plastic: {restitution: (0)", 1.0, 0.1),
         *[("head_on", rf"name: {group}_right_{mass}, .*body: {{mass: ({mass})}}", 1.05, 0.0)
           for group in ("elastic", "half", "plastic") for mass in (1, 10, 1000)],
+        ("jump", r"gravity: \[0, (-20), 0\]", 1.01, 0.0),
+        ("jump", r"material: {restitution: (0), friction: 1}\n", 1.0, 0.1),
+        ("jump", r"stone: {restitution: (0)", 1.0, 0.1),
         ("orbit", r"mass: (100)\b", 1.05, 0.0),
         ("orbit", r"mass: (1)\b", 1.05, 0.0),
         ("orbit", r"constant: ([\d.]+)", 1.01, 0.0),
