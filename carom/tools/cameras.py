@@ -12,6 +12,8 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.errors import CaromError
+from carom.ecs.spatial import affine, quaternion
+from carom.ecs.spatial.projection import perspective
 
 Vector = tuple[float, float, float]
 NEAR_PER_DISTANCE = 1.0 / 50.0  # with 24 bits of depth this resolves 3e-6 of the distance to the target
@@ -63,31 +65,13 @@ class Camera:
 
     def pose(self) -> Floats:
         """Return ``world_from_camera`` (4, 4)."""
-        return look_at(self.position, self.target, self.up)
+        return standing(self.position, self.target, self.up)
 
     def projection(self, aspect: float) -> Floats:
         """Return the OpenGL projection (4, 4) for pictures of width over height ``aspect``."""
-        near, far = self.planes
-        scale = 1.0 / math.tan(self.fov / 2.0)
-        matrix = np.zeros((4, 4))
-        matrix[0, 0], matrix[1, 1] = scale / aspect, scale
-        matrix[2, 2], matrix[2, 3] = (far + near) / (near - far), 2.0 * far * near / (near - far)
-        matrix[3, 2] = -1.0
-        return matrix
+        return perspective(self.fov, aspect, *self.planes)
 
 
-def look_at(position: Vector, target: Vector, up: Vector) -> Floats:
-    """Return the pose (4, 4) at ``position`` whose -z points at ``target`` and whose y is as near to ``up`` as can be.
-
-    An ``up`` along the line of sight says nothing; then the next axis of the world takes its place.
-    """
-    pose = np.eye(4)
-    pose[:3, 3] = position
-    back = np.subtract(position, target)
-    back = back / np.linalg.norm(back)
-    right = np.cross(up, back)
-    if np.linalg.norm(right) < 1e-6 * np.linalg.norm(up):  # below this the direction would be rounding
-        right = np.cross(np.roll(up, 1), back)
-    right = right / np.linalg.norm(right)
-    pose[:3, 0], pose[:3, 1], pose[:3, 2] = right, np.cross(back, right), back
-    return pose
+def standing(position: Vector, target: Vector, up: Vector) -> Floats:
+    """Return the pose (4, 4) at ``position`` that looks at ``target``, with y as near to ``up`` as can be."""
+    return affine.compose(position, quaternion.look_at(np.subtract(target, position), up))

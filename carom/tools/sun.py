@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.ecs.column import Floats
-from carom.tools.cameras import Camera, look_at
+from carom.tools.cameras import Camera, standing
 
 DIRECTION = (-0.75, 1.3, 0.35)  # towards the sun, in the camera's right, the world's up, and away from the target
 REACH = 1.5  # half edge of the largest cube over half the width of the picture at the target
@@ -49,4 +49,4 @@ def sun_for(camera: Camera, aspect: float, spread: float) -> Sun:
     towards = np.column_stack([right, up, np.cross(right, up)]) @ DIRECTION
     target = np.array(camera.target)
     position = target + DISTANCE * reach / float(np.linalg.norm(towards)) * towards
-    return Sun(look_at(tuple(position), tuple(target), tuple(right)), reach)
+    return Sun(standing(tuple(position), tuple(target), tuple(right)), reach)
