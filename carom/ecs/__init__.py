@@ -29,8 +29,9 @@ from carom.ecs.schedule import Phase, Schedule
 from carom.ecs.snapshot import Snapshot, restore_snapshot, state_hash, take_snapshot
 from carom.ecs.snapshot_bytes import bytes_from_snapshot, snapshot_from_bytes
 from carom.ecs.snapshot_file import load_snapshot, save_snapshot
-from carom.ecs.system import System, system
+from carom.ecs.system import System, every, system
 from carom.ecs.tags import Tag, tag
+from carom.ecs.timings import Timings
 from carom.ecs.world import World
 
 __all__ = [
@@ -65,11 +66,13 @@ __all__ = [
     "SnapshotError",
     "System",
     "Tag",
+    "Timings",
     "Transform",
     "Visual",
     "World",
     "bytes_from_snapshot",
     "column",
+    "every",
     "first_difference",
     "load_snapshot",
     "restore_snapshot",
