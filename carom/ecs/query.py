@@ -62,7 +62,11 @@ class Query(Dataframe):
 
     @property
     def numbers(self) -> Integers:
-        """The rows always as an array (n,), as kernels take them."""
+        """The rows always as an array (n,), as kernels take them.
+
+        A kernel is fastest on any rows when it runs from the first to the last where these are contiguous, and else
+        over the rows one by one: ``carom/tools/bench/table_loops.py`` shows how.
+        """
         if self.structure != self.world.structure:
             self._find()
         return self._numbers

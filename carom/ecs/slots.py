@@ -92,8 +92,9 @@ class Slots:
         self.alive[rows] = False
         self.generations[ids] += 1
         self.died_at[ids] = frame
-        last = self.alive[: self.used][::-1]
-        self.used = self.used - int(last.argmax()) if last.any() else 0
+        while self.used and not self.alive[self.used - 1]:
+            block = self.alive[max(self.used - 4096, 0) : self.used]
+            self.used -= int(block[::-1].argmax()) if block.any() else len(block)
         self._free = None
 
     def compact(self) -> Integers:

@@ -109,7 +109,7 @@ def look_at(world: World, roles: Collection[str] = SAVED) -> Snapshot:
             continue
         rows = rows_of(world, kind)  # who has a component is state, also where its columns are not
         if rows.stop if isinstance(rows, slice) else len(rows):
-            tables[kind] = (rows, {name: world.tables[kind].arrays[name][rows] for name in names})
+            tables[kind] = (rows, {name: world.tables[kind].read(name, rows) for name in names})
     resources = {k: s for k, r in world.resources.items() if (s := r.state()) is not None}
     return Snapshot(world.frame, world.slots.state(), tables, resources)
 
@@ -179,7 +179,7 @@ def state_hash(world: World) -> str:
             digest.update(kind.key.encode())
             add(held)
             for name in saved_columns(kind):
-                add(world.table(kind).arrays[name][rows])
+                add(world.table(kind).read(name, rows))
     given_back = np.nonzero(world.slots.generations)[0]
     add(given_back)
     add(world.slots.generations[given_back])

@@ -19,6 +19,12 @@ def by_row(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return array.view(np.dtype((np.void, size))).reshape(len(array)) if array.ndim > 1 else array
 
 
+def anything(array: npt.NDArray[Any], rows: Integers) -> bool:
+    """Tell whether any of ``rows`` holds anything but zeros; read in parts that fit into the processor's cache."""
+    parts = range(0, len(rows), 4096)
+    return any(array.take(rows[first : first + 4096]).view(np.uint8).any() for first in parts)
+
+
 class Table:
     """Structure of arrays for one kind: ``arrays[name]`` has shape (capacity, *column shape), C-contiguous.
 
@@ -76,7 +82,7 @@ class Table:
         self.present[rows] = False
         for name, column in self.kind.columns.items():
             array = by_row(self.arrays[name])
-            if column.zero and not array.take(rows).view(np.uint8).any():
+            if column.zero and not anything(array, rows):
                 continue  # what was never written takes no memory, and zeros would
             array[rows] = np.zeros((), array.dtype)
 
@@ -92,14 +98,22 @@ class Table:
                 self.clear(np.nonzero(gone)[0])
             self.present[rows] = True
         for name, column in self.kind.columns.items():
-            self.arrays[name][rows] = values.get(name, column.default)
+            if name in values:
+                by_row(self.arrays[name])[rows] = by_row(np.ascontiguousarray(values[name]))
+            else:
+                self.arrays[name][rows] = column.default
+
+    def read(self, name: str, rows: Rows) -> npt.NDArray[Any]:
+        """Return these rows of a column: a view of a slice, a copy of others."""
+        array = self.arrays[name]
+        return array[rows] if isinstance(rows, slice) else array.take(rows, axis=0)
 
     def gather(self, rows: Integers, used: int) -> None:
         """Move ``rows`` (sorted) to the front in their order and zero the other rows below ``used``."""
         if len(rows) == used:
             return
         for array in (*self.arrays.values(), self.present):
-            array[: len(rows)] = array[rows]
+            array[: len(rows)] = array.take(rows, axis=0)
             array[len(rows) : used] = np.zeros((), array.dtype)
 
     def renumber(self, new_rows: Integers) -> None:

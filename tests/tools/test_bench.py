@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from types import ModuleType
 
+import numpy as np
 import pytest
 
+from carom.ecs import Motion, RigidBody, Transform, World
 from carom.tools.bench import BENCHES
-from carom.tools.bench.measure import Figure, timed, timed_process
+from carom.tools.bench.measure import Figure, compared, timed, timed_process
+from carom.tools.bench.table_loops import by_numba, by_numpy, columns, scheduled
+from carom.tools.bench.table_worlds import contiguous, fragmented
 from carom.tools.cli import main
 
 
@@ -77,6 +81,41 @@ def test_the_benches_of_this_issue_are_there() -> None:
     """Each file of the registry is importable and has figures."""
     from importlib import import_module
 
-    assert {"start", "break"} <= BENCHES.keys()
+    assert {"start", "break", "ecs"} <= BENCHES.keys()
     for module in BENCHES.values():
         assert callable(import_module(f"carom.tools.bench.{module}").figures)
+
+
+def test_two_are_compared_in_turns() -> None:
+    """What the machine does meanwhile meets both; the first calls do not count."""
+    order: list[str] = []
+    ours, theirs = compared(lambda: order.append("ours"), lambda: order.append("theirs"), 3)
+    assert order == ["ours", "theirs"] * 4
+    assert ours.repeats == theirs.repeats == 3
+
+
+@pytest.mark.parametrize("make", [contiguous, fragmented])
+def test_what_the_table_is_compared_with_does_the_same(make: Callable[[int], World]) -> None:
+    """The system and the loops by hand move the same rows by the same numbers, and nobody else."""
+    results = []
+    for loop in (scheduled, by_numba, by_numpy):
+        world = make(1000)
+        before, (position, velocity) = columns(world)[0].copy(), columns(world)
+        step = loop(world)
+        step(), step()
+        results.append((position.copy(), velocity.copy()))
+        moved = np.nonzero((position != before).any(axis=1))[0]
+        assert moved.tolist() == world.row_numbers(Transform, Motion).tolist()
+    for other in results[1:]:
+        np.testing.assert_allclose(other[0], results[0][0], rtol=1e-14, atol=1e-15)
+        np.testing.assert_allclose(other[1], results[0][1], rtol=1e-14, atol=1e-15)
+
+
+def test_rows_with_gaps_are_those_of_three_sets_less_a_tenth() -> None:
+    """As many move as in the contiguous world, and no two rows in three stand next to each other for long."""
+    world = fragmented(9000)
+    assert 8800 < world.count(Motion) < 9200
+    assert world.count(Transform) == 13500
+    assert 0.45 < world.count(RigidBody) / world.count(Motion) < 0.55
+    assert len(world.query(Transform, Motion).spans) > 4000
+    assert contiguous(9000).rows(Transform, Motion, RigidBody) == slice(0, 9000)

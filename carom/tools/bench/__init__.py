@@ -1,3 +1,3 @@
 """Benches, one file each: ``figures()`` yields what it measured, ``PEERS`` lists modules it compares with."""
 
-BENCHES = {"start": "starting", "break": "break_of_pool"}  # name on the command line: module
+BENCHES = {"start": "starting", "break": "break_of_pool", "ecs": "table"}  # name on the command line: module

@@ -83,6 +83,17 @@ def timed(function: Callable[[], object], repeats: int) -> Timing:
     return Timing(median(walls), median(cpus), repeats)
 
 
+def compared(ours: Callable[[], object], theirs: Callable[[], object], repeats: int) -> tuple[Timing, Timing]:
+    """Time two functions in turns, so that what else the machine does meets both alike; first calls do not count."""
+    ours(), theirs()
+    taken = [(timed(ours, 1), timed(theirs, 1)) for _ in range(repeats)]
+    first, second = (
+        Timing(median(timing.wall for timing in side), median(timing.cpu for timing in side), repeats)
+        for side in zip(*taken, strict=True)
+    )
+    return first, second
+
+
 def timed_process(command: Sequence[str], repeats: int, environment: dict[str, str] | None = None) -> Timing:
     """Time a command from its start to its end; raise CaromError with its last words when it fails."""
     walls, cpus = [], []
