@@ -96,14 +96,9 @@ class World(Structure):
         finally:
             self.entity_names.stale |= kind is Name
 
-    @contextmanager
-    def faces(self, faces: dict[Any, Any] | None) -> Iterator[None]:
-        """Show ``faces`` (None: everything writable) as ``world[Kind]`` while a system runs."""
-        before, self._current = self._current, self._live if faces is None else faces
-        try:
-            yield
-        finally:
-            self._current = before
+    def faces(self, faces: dict[Any, Any] | None) -> Faces:
+        """Show ``faces`` (None: everything writable) as ``world[Kind]`` while a system runs: a context."""
+        return Faces(self, self._live if faces is None else faces)
 
     # Single entities and names ----------------------------------------------------------------------------------------
     def locate(self, entity: int, key: str) -> tuple[type[Component], int]:
@@ -251,3 +246,18 @@ class World(Structure):
         if self._current is not self._live and self._current.get(kind) is not self.table(kind).live:
             raise AccessError(f"only a system that writes {kind.__name__} may resize it")
         self.table(kind).resize(count)
+
+
+class Faces:
+    """What `World.faces` shows, until the context ends; a class, since a generator takes a microsecond."""
+
+    __slots__ = ("before", "faces", "world")
+
+    def __init__(self, world: World, faces: dict[Any, Any]) -> None:
+        self.world, self.faces = world, faces
+
+    def __enter__(self) -> None:
+        self.before, self.world._current = self.world._current, self.faces
+
+    def __exit__(self, *fault: object) -> None:
+        self.world._current = self.before

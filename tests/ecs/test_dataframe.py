@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
-import time
-import timeit
 from typing import Any
 
 import numpy as np
@@ -231,12 +229,3 @@ def test_arrow_is_loaded_when_it_is_asked_for() -> None:
     """`import carom` stays quick."""
     code = "import sys, carom.ecs; sys.exit(any(name in sys.modules for name in ('pyarrow', 'pandas', 'polars')))"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
-
-
-def test_a_hundred_thousand_rows_take_a_moment() -> None:
-    """No loop per row: 0.04 s for Transform and Motion with names, counted on this thread since machines are shared."""
-    world, count = World(), 100_000
-    positions: Any = np.random.default_rng(2).normal(size=(count, 3))
-    world.spawn_many(count, Transform(position=positions), Motion(), names=[f"rain[{i}]" for i in range(count)])
-    flatten = world.query(Transform, Motion).arrow
-    assert min(timeit.repeat(flatten, timer=time.thread_time, number=1, repeat=5)) < 0.2
