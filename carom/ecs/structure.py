@@ -153,7 +153,7 @@ class Structure:
                 column.fit(value, count, f"{type(part).__name__}.{name}")
                 if column.holds == "entities":
                     self.slots.rows(value[value >= 0])
-            if isinstance(part, Name):
+            if isinstance(part, Name) and "text" in vars(part):
                 self.names_now().refuse_taken(np.broadcast_to(part.text, count).tolist(), entity)
 
     def _fill(self, rows: slice, parts: list[Component]) -> None:

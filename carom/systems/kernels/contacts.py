@@ -135,7 +135,7 @@ def renew_contacts(
 
     Both lists are sorted by rows and feature, so that one pass matches them.
     """
-    count = len(found_a)
+    count, used = len(found_a), len(handles)
     kept = np.zeros((count, 11))
     rested, counted = np.zeros(count, np.bool_), np.zeros((count, 2), np.int64)
     o = 0
@@ -144,7 +144,8 @@ def renew_contacts(
         while o < old_count:
             p, q = a[o] & INDEX_MASK, b[o] & INDEX_MASK  # ids, then the rows of those ids
             p, q = p + row_shift[p], q + row_shift[q]
-            if p > x or (p == x and (q > y or (q == y and feature[o] >= f))):
+            living = p < used and q < used and handles[p] == a[o] and handles[q] == b[o]  # others have lost their order
+            if living and (p > x or (p == x and (q > y or (q == y and feature[o] >= f)))):
                 break
             o += 1
         if o == old_count or feature[o] != f:
