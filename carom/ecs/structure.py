@@ -18,7 +18,7 @@ from carom.ecs.hierarchy import descendants
 from carom.ecs.names import NOBODY, Names
 from carom.ecs.prefab import Prefab, merge
 from carom.ecs.query import Query
-from carom.ecs.slots import Slots
+from carom.ecs.slots import Rows, Slots
 from carom.ecs.table import Table
 
 if TYPE_CHECKING:
@@ -74,8 +74,7 @@ class Structure:
         Their handles are stale from now on.
         """
         self._refuse_inside("despawn")
-        groups = [group.entities if isinstance(group, Query) else np.atleast_1d(group) for group in entities]
-        named = np.concatenate([np.zeros(0, np.int64), *groups]).astype(np.int64, copy=False)
+        named = np.concatenate([np.zeros(0, np.int64), *map(_handles, entities)])
         rows = self.slots.rows(named)  # raises before anything has changed
         family = descendants(self, named)
         rows = self._sorted(rows if family is named else self.slots.rows(family))
@@ -94,23 +93,27 @@ class Structure:
         mask[rows] = True
         return np.nonzero(mask)[0]
 
-    def attach(self, entity: int, *bundles: Component | Prefab) -> None:
-        """Give a living entity further components, or others in the place of those it has."""
-        self._refuse_inside("attach")
-        row, parts = self.row(entity), merge(bundles)
-        self._check(parts, 1, entity)
-        if any(isinstance(part, Name) for part in parts):
-            self._forget_names(np.array([row]))
-        self._fill(slice(row, row + 1), parts)
+    def attach(self, entities: int | Integers | Query, *bundles: Component | Prefab) -> None:
+        """Give one entity, or all of an array of handles or a query, further components in the place of those it has.
 
-    def detach(self, entity: int, *kinds: type[Component]) -> None:
-        """Take components from a living entity; those it does not have are no fault."""
+        A bundle's arrays hold one value for all, or one per entity along the first axis, as in `spawn_many`.
+        """
+        self._refuse_inside("attach")
+        handles, parts = _handles(entities), merge(bundles)
+        rows = self.slots.rows(handles)
+        self._check(parts, len(rows), int(handles[0]) if len(rows) == 1 else NOBODY)
+        if any(isinstance(part, Name) for part in parts):
+            self._forget_names(rows)
+        self._fill(rows, parts)
+
+    def detach(self, entities: int | Integers | Query, *kinds: type[Component]) -> None:
+        """Take components from one entity, or from all of an array of handles or a query; to have none is no fault."""
         self._refuse_inside("detach")
-        row = self.row(entity)
+        rows = self.slots.rows(_handles(entities))
         if Name in kinds:
-            self._forget_names(np.array([row]))
+            self._forget_names(rows)
         for kind in kinds:
-            self.table(kind).clear(np.array([row]))
+            self.table(kind).clear(rows)
         self.structure += 1
 
     def compact(self) -> None:
@@ -156,7 +159,7 @@ class Structure:
             if isinstance(part, Name) and "text" in vars(part):
                 self.names_now().refuse_taken(np.broadcast_to(part.text, count).tolist(), entity)
 
-    def _fill(self, rows: slice, parts: list[Component]) -> None:
+    def _fill(self, rows: Rows, parts: list[Component]) -> None:
         for part in parts:
             self.table(type(part)).fill(rows, part)
             if isinstance(part, Name):
@@ -219,3 +222,7 @@ class Structure:
         table = self.table(Name)
         for text in table.arrays["text"][rows[table.present[rows]]].tolist():
             self.entity_names.entities.pop(text, None)
+
+
+def _handles(entities: int | Integers | Query) -> Integers:
+    return entities.entities if isinstance(entities, Query) else np.atleast_1d(np.asarray(entities, np.int64))

@@ -27,6 +27,7 @@ from carom.ecs import (
     restore_snapshot,
     state_hash,
     system,
+    tag,
     take_snapshot,
 )
 from carom.ecs.commands import Commands
@@ -369,3 +370,15 @@ def test_a_stale_view_neither_reads_nor_writes() -> None:
         with error(EntityError, "entity 0, generation 0, was despawned in frame 2"):
             use()
     assert world[Transform].position[0].tolist() == [1.0, 1.0, 1.0]
+
+
+def test_many_are_given_and_lose_components_at_once() -> None:
+    """An array of handles in any order, or a query; values follow the order in which the entities are named."""
+    world = World()
+    balls = world.spawn_many(4, Transform())
+    world.attach(balls[[3, 1]], Motion(linear=[(3.0, 0.0, 0.0), (1.0, 0.0, 0.0)]), tag("fast")())
+    assert world.row_numbers(Motion, tag("fast")).tolist() == [1, 3]
+    assert world[Motion].linear[:4, 0].tolist() == [0.0, 1.0, 0.0, 3.0]
+    world.detach(world.query(tag("fast")), Motion, tag("fast"))
+    assert not len(world.query(any_of=(Motion, tag("fast"))))
+    assert not world[Motion].linear.any()
