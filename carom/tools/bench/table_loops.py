@@ -137,15 +137,14 @@ def by_esper(count: int, gaps: bool) -> Callable[[], None]:
 
     x, y, z = GRAVITY
 
-    class Fall(esper.Processor):
-        def process(self) -> None:
-            for _, (position, velocity) in esper.get_components(Position, Velocity):
-                velocity.x += x * DT
-                velocity.y += y * DT
-                velocity.z += z * DT
-                position.x += velocity.x * DT
-                position.y += velocity.y * DT
-                position.z += velocity.z * DT
+    def fall(_: object) -> None:
+        for _, (position, velocity) in esper.get_components(Position, Velocity):
+            velocity.x += x * DT
+            velocity.y += y * DT
+            velocity.z += z * DT
+            position.x += velocity.x * DT
+            position.y += velocity.y * DT
+            position.z += velocity.z * DT
 
-    esper.add_processor(Fall())
+    esper.add_processor(type("Fall", (esper.Processor,), {"process": fall})())
     return lambda: esper.process()
