@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -124,10 +125,15 @@ def shape_of(words: Words) -> Shape:
         found = f"received {', '.join(keys)}" if keys else "received none"
         raise DeclarationError(f"state exactly one shape of {', '.join(sorted(SHAPES))}; {found}")
     value = words[keys[0]]
+    if isinstance(value, Shape):
+        return value
     try:
-        return value if isinstance(value, Shape) else SHAPES[keys[0]](**value)
+        shape = SHAPES[keys[0]].stated(**value)
     except TypeError as fault:
-        raise DeclarationError(f"{keys[0]}: {str(fault).partition('__init__() ')[2] or fault}") from None
+        raise DeclarationError(f"{keys[0]}: {str(fault).partition('() ')[2] or fault}") from None
+    for note in getattr(getattr(shape, "geometry", None), "notes", ()):
+        warnings.warn(note, stacklevel=2)
+    return shape
 
 
 def material_of(world: World, material: str | Words | None) -> Material:

@@ -53,3 +53,11 @@ PUSH_OUT = 0.2
 
 # rad. Closest to zero a squared angle may come before the quaternion exponential uses its limit.
 SMALL_ANGLE = 1e-12
+
+# Height over longest edge below which a triangle has no area: corners on a line, up to the rounding of doubles. Larger
+# would drop thin triangles of real models; smaller leaves some whose normal is noise.
+NO_AREA = 1e-10
+
+# Most triangles of a mesh or height field. FCL needs 12 us for each to build its tree, so that one of this many takes
+# 15 s to load; larger ones look like a program that hangs.
+MOST_TRIANGLES = 1_000_000

@@ -29,7 +29,10 @@ UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 @dataclass
 class LoadedWorld:
-    """A world file ready to run; ``document`` is its plain data and ``up`` the direction pictures keep upright."""
+    """A world file ready to run; ``document`` is its plain data and ``up`` the direction pictures keep upright.
+
+    ``warnings`` are lines for the user on what the file can be used without, such as triangles without area.
+    """
 
     simulation: Simulation
     document: dict[str, Any]
@@ -42,6 +45,7 @@ class LoadedWorld:
     up: tuple[float, float, float] = UP["y"]
     cameras: dict[str, Camera] = field(default_factory=dict)
     render: Render = field(default_factory=lambda: Render.model_validate({}))
+    warnings: list[str] = field(default_factory=list)
 
 
 def load_world(world: str | Path, *, checked: bool | None = None, **options: Any) -> LoadedWorld:
@@ -83,7 +87,7 @@ def load_text(
     render = values["render"] or Render.model_validate({})
     return LoadedWorld(
         simulation, data, name, text, plan(values["run"], simulation.settings.dt), expectations,
-        values["name"], values["description"], UP[values["up"]], values["cameras"], render,
+        values["name"], values["description"], UP[values["up"]], values["cameras"], render, source.warnings,
     )  # fmt: skip
 
 

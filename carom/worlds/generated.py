@@ -139,7 +139,8 @@ def _hinted(hint: Any, unit: str, above: float | None = None, least: int = 0) ->
 
 def shape_fields() -> Fields:
     """Return one optional field per shape."""
-    return {key: (parameter_model(kind), Field(None, description=_first_line(kind))) for key, kind in SHAPES.items()}
+    kinds = sorted(SHAPES.items())
+    return {key: (parameter_model(kind), Field(None, description=_first_line(kind))) for key, kind in kinds}
 
 
 def law_fields() -> Fields:

@@ -1,47 +1,84 @@
-"""Meshes and hulls in world files: words for them, and reading them from files beside the world."""
+"""Meshes, hulls and height fields in world files: words for them, and reading them from files beside the world."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 from pydantic import Field, model_validator
 
+from carom.systems.shapes import SHAPES
 from carom.systems.shapes.convex import Convex
-from carom.systems.shapes.geometry import Geometry, hull_of, load_geometry, read_triangles
+from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.mesh import Mesh
+from carom.systems.shapes.model_files import UNITS
 from carom.systems.shapes.shape import Shape
 from carom.worlds.errors import WordError
-from carom.worlds.values import In, Vector3, Words
+from carom.worlds.values import In, Vector3, Words, either, word_of
 
 Scale = Annotated[float, In("1", above=0.0)]
+Length = Annotated[float, In("m")]
+Spacing = Annotated[float, In("m", above=0.0)]
+Spacings = Annotated[tuple[float, float], In("m", above=0.0)]
+FILE = "OBJ, STL, PLY or glTF, relative to the world file"
+FILE_WORDS = ("file", "image")  # words that name files beside the world
 
 
-class MeshWords(Words):
+class ModelWords(Words):
+    """How to read a model file."""
+
+    scale: Scale = Field(1.0, description="how many times as large as in the file")
+    unit: word_of(*UNITS) = Field("m", description="unit of lengths in the file")  # type: ignore[valid-type]
+    up: word_of("y", "z") = Field("y", description="axis of the file that points up")  # type: ignore[valid-type]
+
+
+class MeshWords(ModelWords):
     """A closed mesh."""
 
-    file: str = Field(description="OBJ, STL, PLY or glTF, relative to the world file")
-    scale: Scale = Field(1.0, description="metres per unit of the file")
+    file: str = Field(description=FILE)
 
 
-class ConvexWords(Words):
-    """The hull of points, stated or those of a mesh file."""
+class ConvexWords(ModelWords):
+    """The hull of points, stated or those of a model file."""
 
     points: list[Annotated[Vector3, In("m")]] | None = Field(None, description="points (m)")
-    file: str | None = Field(None, description="OBJ, STL, PLY or glTF, relative to the world file")
-    scale: Scale = Field(1.0, description="metres per unit of the file")
+    file: str | None = Field(None, description=FILE)
 
     @model_validator(mode="after")
     def check(self) -> ConvexWords:
         """Refuse both sources and neither."""
-        if (self.points is None) is (self.file is None):
-            received = "both" if self.points else "neither"
-            raise WordError("must state one source", received=received, accepted="points or file")
+        _refuse_two_sources(self, "points", "file")
         return self
 
 
-GEOMETRY_WORDS: dict[str, type[Words]] = {Mesh.key: MeshWords, Convex.key: ConvexWords}
+class HeightFieldWords(Words):
+    """Land, by rows of heights or by a grey image, seen as on a map with -z up: the first row lies at the back."""
+
+    heights: list[list[Length]] | None = Field(None, description="rows of heights (m), each from -x to +x")
+    image: str | None = Field(None, description="grey image, PNG of 8 or 16 bits, relative to the world file")
+    spacing: either(Spacing, Spacings, list) = Field(description="distance of neighbours (m), one or along x and z")  # type: ignore[valid-type]
+    low: Length = Field(0.0, description="image: height of black (m)")
+    high: Length = Field(1.0, description="image: height of white (m)")
+
+    @model_validator(mode="after")
+    def check(self) -> HeightFieldWords:
+        """Refuse both sources and neither."""
+        _refuse_two_sources(self, "heights", "image")
+        return self
+
+
+def _refuse_two_sources(words: Any, *names: str) -> None:
+    stated = [name for name in names if getattr(words, name) is not None]
+    if len(stated) != 1:
+        received = "both" if stated else "neither"
+        raise WordError("must state one source", received=received, accepted=" or ".join(names))
+
+
+GEOMETRY_WORDS: dict[str, type[Words]] = {
+    Mesh.key: MeshWords,
+    Convex.key: ConvexWords,
+    HeightField.key: HeightFieldWords,
+}
 
 
 class GeometryReader:
@@ -49,20 +86,14 @@ class GeometryReader:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.known: dict[tuple[str, str, float], Geometry] = {}
+        self.known: dict[tuple[Any, ...], Shape] = {}
 
     def shape(self, key: str, words: dict[str, Any]) -> Shape:
-        """Return the mesh or hull of these words; raise DeclarationError."""
-        file, scale = words.get("file"), words.get("scale", 1.0)
-        if file is None:
-            return Convex(hull_of(np.array(words["points"]).reshape(-1, 3)))
-        found = self.known.get((key, file, scale))
-        if found is None:
-            read = load_geometry if key == Mesh.key else hull_of_file
-            found = self.known[key, file, scale] = read(self.folder / file, scale)
-        return Mesh(found) if key == Mesh.key else Convex(found)
-
-
-def hull_of_file(path: Path, scale: float = 1.0) -> Geometry:
-    """Return the hull of the vertices of a mesh file, which may be open; raise DeclarationError."""
-    return hull_of(np.array(read_triangles(path).vertices) * scale, str(path))
+        """Return the shape of these words; raise DeclarationError."""
+        files = {name: self.folder / words[name] for name in FILE_WORDS if name in words}
+        if not files:
+            return SHAPES[key].stated(**words)
+        known = (key, *sorted(words.items()))
+        if known not in self.known:
+            self.known[known] = SHAPES[key].stated(**words | files)
+        return self.known[known]

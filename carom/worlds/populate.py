@@ -24,6 +24,7 @@ from carom.worlds.geometry import GEOMETRY_WORDS, GeometryReader
 from carom.worlds.names import known
 from carom.worlds.reader import Source
 
+SOURCES = ("file", "image", "points", "heights")  # words that say where a geometry comes from
 SUB_PATH = re.compile(r"([a-z_]+(?:\.[a-z_]+)*): (.*)", re.DOTALL)
 
 
@@ -122,12 +123,14 @@ class Populator:
         """Put shapes in the place of the words of meshes and hulls; report files that cannot be used."""
         for key in GEOMETRY_WORDS:
             if key in words:
+                place = next(word for word in SOURCES if word in words[key])
                 try:
                     words[key] = self.geometries.shape(key, words[key])
                 except DeclarationError as fault:
-                    place = "file" if "file" in words[key] else "points"
                     self.source.report((*path, key, place), str(fault))
                     raise _ReportedError from None
+                for note in words[key].geometry.notes:
+                    self.source.warn((*path, key, place), note)
 
     def names_hold(self, path: Path, words: dict[str, Any]) -> bool:
         """Report names of materials and layers that nothing defines."""

@@ -45,6 +45,7 @@ class Source:
     data: Any = None
     positions: dict[Path, Position] = field(default_factory=dict)
     faults: list[Fault] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
     excused: set[str] = field(default_factory=set)  # names of entities that were reported and so do not exist
     inherits: dict[Path, Path] = field(default_factory=dict)  # an entity or prefab to the prefab it extends
 
@@ -54,6 +55,11 @@ class Source:
         words = ".".join(map(str, (*found, *path[len(path) - self._missing(path) :])))
         line, column = self.position(path)
         self.faults.append(Fault(self.name, line, column, words, what, received, accepted, hint))
+
+    def warn(self, path: Path, what: str) -> None:
+        """Note what a user should know although the file can be used."""
+        line, column = self.position(path)
+        self.warnings.append(str(Fault(self.name, line, column, ".".join(map(str, path)), what)))
 
     def report_value(self, path: Path, fault: WordError) -> None:
         """Note a value that could not be read, unless it only names what was itself reported."""

@@ -4,17 +4,19 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
 import trimesh
 
+from carom.tools.cli import main
 from carom.worlds import WorldError, load_text, load_world
 
 LENGTH = "a number in m, or one with a unit: m, mm, cm, km, um, in, ft, mi"
 MASS = "a number in kg, or one with a unit: kg, g, mg, t, lb, oz"
 ROTATIONS = "[x, y, z, w] of length 1 within 1 %, {axis, angle}, {euler, order} or {look_at}"
-SHAPES = "box, capsule, convex, cylinder, mesh, plane, point, sphere"
+SHAPES = "box, capsule, cone, convex, cylinder, ellipsoid, height_field, mesh, plane, point, sphere"
 BALL = "entities:\n  - {name: ball, "
 
 
@@ -251,7 +253,7 @@ def test_meshes_that_cannot_be_used(tmp_path: Path) -> None:
         f"w.yaml:3:39: entities.0.collider.mesh.file: mesh file {tmp_path}/missing.obj does not exist",
         (
             f"w.yaml:4:36: entities.1.collider.mesh.file: mesh file {tmp_path}/open.obj is open: "
-            "11 faces do not close a volume; close its holes, or use convex"
+            "3 edges do not join two faces; close its holes, or use convex"
         ),
         (
             f"w.yaml:5:40: entities.2.collider.mesh.file: mesh file {tmp_path}/inverted.obj is inverted: "
@@ -259,6 +261,66 @@ def test_meshes_that_cannot_be_used(tmp_path: Path) -> None:
         ),
     ]
     load_text("carom: 1\nentities: [{body: {}, collider: {convex: {file: open.obj}}}]\n", "w.yaml", tmp_path)
+
+
+def test_shapes_from_files_and_images(tmp_path: Path) -> None:
+    """Whatever is wrong with the words of a mesh, hull or height field, or with what they name, is told where it stands."""
+    (tmp_path / "words.png").write_text("hello")
+    lines = {
+        "mesh: {file: a.step}": (
+            f".mesh.file: mesh file {tmp_path}/a.step is of an unknown format '.step'; "
+            "write OBJ, STL, PLY or glTF (.obj, .stl, .ply, .glb, .gltf)"
+        ),
+        "mesh: {file: a.obj, unit: feet, up: x}": [
+            ".mesh.unit: unknown word; received 'feet'; accepted: m, cm, mm, km, in, ft",
+            ".mesh.up: unknown word; received 'x'; accepted: y, z",
+        ],
+        "convex: {}": ".convex: must state one source; received neither; accepted: points or file",
+        "convex: {points: [[0, 0, 0], [1, 0, 0], [0, 1]]}": (
+            ".convex.points.2: must be a list of 3 numbers; received [0, 1]; accepted: numbers in m"
+        ),
+        "height_field: {heights: [[0, 1], [0]], spacing: 1}": (
+            ".height_field.heights: heights: must be rows of as many numbers each, received rows of 1, 2"
+        ),
+        "height_field: {heights: [[0, 1], [0, .nan]], spacing: 0}": [
+            f".height_field.heights.1.1: must be finite; received nan; accepted: {LENGTH}",
+            ".height_field.spacing: must be above 0 m; received 0",
+        ],
+        "height_field: {image: words.png, heights: [[0]], spacing: 1}": (
+            ".height_field: must state one source; received both; accepted: heights or image"
+        ),
+        "height_field: {image: words.png, spacing: [1, 2]}": (
+            f".height_field.image: image file {tmp_path}/words.png cannot be read: "
+            f"cannot identify image file '{tmp_path}/words.png'"
+        ),
+        "cone: {radius: 1}": ".cone.length: is missing; accepted: height from base to apex (m)",
+        "ellipsoid: {radii: [1, 2]}": ".ellipsoid.radii: must be a list of 3 numbers; received [1, 2]; accepted: numbers in m",
+        "ellipsoid: {radii: [1, 2, -3 cm]}": ".ellipsoid.radii.2: must be above 0 m; received '-3 cm'",
+    }
+    text = "entities:\n" + "".join(f"  - {{collider: {{{words}}}}}\n" for words in lines)
+    found = [line.partition(": entities.")[2] for line in messages(text, tmp_path)]
+    wanted = [
+        f"{index}.collider{line}"
+        for index, told in enumerate(lines.values())
+        for line in ([told] if isinstance(told, str) else told)
+    ]
+    assert found == wanted
+
+
+def test_what_a_file_can_do_without_is_told_too(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Triangles without area are left out, and both commands say so where the file is named."""
+    box = trimesh.creation.box()
+    trimesh.Trimesh(box.vertices, [*box.faces.tolist(), [0, 1, 1]], process=False).export(tmp_path / "box.ply")
+    world = tmp_path / "w.yaml"
+    world.write_text("carom: 1\nentities:\n  - {name: a, collider: {mesh: {file: box.ply, unit: cm, up: z}}}\n")
+    note = f"mesh file {tmp_path}/box.ply: 1 of 13 triangles has no area and is left out"
+    line = f"{world}:3:33: entities.0.collider.mesh.file: {note}"
+    assert load_world(world).warnings == [line]
+    for command in (["check", str(world)], ["run", str(world), "--frames", "1"]):
+        assert main(command) == 0
+        assert capsys.readouterr().err == f"warning: {line}\n"
+    assert main(["check", str(world), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)[0]["warnings"] == [line]
 
 
 def test_all_faults_at_once_in_order_of_position() -> None:

@@ -16,6 +16,7 @@ from carom.systems.detection.manifolds import merge_triangles, reduce_points, un
 from carom.systems.shapes import BY_NUMBER, Shape
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
+from carom.systems.shapes.cone import Cone
 from carom.systems.shapes.cylinder import Cylinder
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.mesh import Mesh
@@ -159,7 +160,9 @@ def measure(a: Side, b: Side, reach: float) -> Points:
     if not points:
         return _apart(a, b, reach)
     smaller = min(side.width() for side in (a, b) if not isinstance(side.shape, Point))
-    if len(points) == 1 and points[0][2] < TOUCHING:
+    if len(points) == 1 and isinstance(a.shape, Cone) and isinstance(b.shape, Cone):
+        points = _parted(a, b, points[0][1] * (points[0][2] + APART)) or points  # the signed distance may hang
+    elif len(points) == 1 and points[0][2] < TOUCHING:
         points = _touching(a, b) or points
     elif len(points) == 1 and points[0][2] < SHALLOW * smaller:
         points = _refined(a, b, points, smaller)
@@ -232,7 +235,11 @@ def _touching(a: Side, b: Side) -> Points:
     length = float(np.sqrt((push**2).sum()))
     if length <= LEAST_PART:
         return []
-    push *= APART / length
+    return _parted(a, b, push * (APART / length))
+
+
+def _parted(a: Side, b: Side, push: Floats) -> Points:
+    """Measure a pair that overlaps by its nearest points once the second is moved by ``push`` (m) away from it."""
     moved = b.fcl()
     moved.setTranslation(b.position + push)
     distance, p, q = distance_of(a.fcl(), moved, signed=False)
@@ -254,17 +261,20 @@ def _refined(a: Side, b: Side, points: Points, smaller: float) -> Points:
 
 def _on_plane(plane: Side, other: Side, reach: float) -> Points:
     """Measure against a half space moved out by ``reach``, then complete the manifold from the shape's corners."""
-    points = collide(plane.fcl(reach), other.fcl())
-    if not points:
-        return []
-    normal = points[0][1]
+    shape = plane.shape
+    assert isinstance(shape, Plane)
+    if isinstance(other.shape, Cone):  # FCL sees cones where there are none, and wrongly deep: the corners say it all
+        points, normal = [], quaternion.rotate(plane.rotation, shape.normal)
+    else:
+        points = collide(plane.fcl(reach), other.fcl())
+        if not points:
+            return []
+        normal = points[0][1]
     x, y, z, w = other.rotation.tolist()
     corners, radius = other.shape.corners(turn(-x, -y, -z, w, *(-normal).tolist()))
     if len(corners) < 2:
         return [(p - normal * reach / 2.0, n, d - reach) for p, n, d in points]
     placed = other.position + quaternion.rotate(other.rotation, corners)
-    shape = plane.shape
-    assert isinstance(shape, Plane)
     origin = plane.position + shape.offset * normal
     return reduce_points(under_plane(placed, radius, normal, origin, reach))
 

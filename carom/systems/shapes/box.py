@@ -33,6 +33,10 @@ class Box(Shape):
         x, y, z = self.size
         return Bounds((0.0, 0.0, 0.0), (x / 2.0, y / 2.0, z / 2.0), 0.0)
 
+    def support(self, directions: Floats) -> Floats:
+        """Return the corner, or one of those equally far."""
+        return np.asarray(np.where(directions < 0.0, -0.5, 0.5) * self.size)
+
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return an FCL box with its faces moved out by the margin."""
         import fcl

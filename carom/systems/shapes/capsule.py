@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.systems.shapes.orientation import along_y
-from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
+from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter, unit
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,12 @@ class Capsule(Shape):
         """Return the segment widened by the radius."""
         return Bounds((0.0, 0.0, 0.0), (0.0, self.length / 2.0, 0.0), self.radius)
 
+    def support(self, directions: Floats) -> Floats:
+        """Return r d / |d| about the end of the segment that is farther, the upper for a level direction."""
+        points = self.radius * unit(directions)
+        points[:, 1] += np.where(directions[:, 1] < 0.0, -self.length / 2.0, self.length / 2.0)
+        return points
+
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return an FCL capsule, which lies along z (`Shape.along_z`)."""
         import fcl
@@ -43,7 +49,7 @@ class Capsule(Shape):
         return fcl.Capsule(self.radius + margin, self.length)
 
     def surface(self) -> Surface:
-        """Return a capsule of 32 by 32 facets."""
+        """Return a capsule of 4,096 triangles."""
         from trimesh.creation import capsule
 
         mesh = capsule(height=self.length, radius=self.radius)

@@ -9,12 +9,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
-from carom.ecs.spatial.trigonometry import sine_cosine
 from carom.systems.shapes.orientation import along_y
+from carom.systems.shapes.rim import farthest_on_rim, rim_points
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
-
-RIM_POINTS = 16  # corners that stand for each rim; the one that a half space touches first is always among them
-UPRIGHT = 1e-3  # sine of the tilt up to which an upright cylinder stands on points that stay; it misses 2e-5 radii
 
 
 @dataclass(frozen=True)
@@ -37,6 +34,12 @@ class Cylinder(Shape):
         """Return the box around it."""
         return Bounds((0.0, 0.0, 0.0), (self.radius, self.length / 2.0, self.radius), 0.0)
 
+    def support(self, directions: Floats) -> Floats:
+        """Return the point of the upper or lower rim, the upper for a level direction."""
+        points = farthest_on_rim(self.radius, directions)
+        points[:, 1] = np.where(directions[:, 1] < 0.0, -self.length / 2.0, self.length / 2.0)
+        return points
+
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return an FCL cylinder, which lies along z (`Shape.along_z`)."""
         import fcl
@@ -52,12 +55,5 @@ class Cylinder(Shape):
 
     def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return points on both rims, the first of each being its farthest ``towards``."""
-        x, _, z = towards
-        across = math.sqrt(x * x + z * z)
-        first, second = (x / across, z / across) if across > UPRIGHT else (1.0, 0.0)
-        turns = [sine_cosine(2.0 * math.pi * k / RIM_POINTS) for k in range(RIM_POINTS)]
-        rim = [
-            (self.radius * (cosine * first - sine * second), self.radius * (cosine * second + sine * first))
-            for sine, cosine in turns
-        ]
-        return np.array([[x, y, z] for y in (-self.length / 2.0, self.length / 2.0) for x, z in rim]), 0.0
+        ends = (-self.length / 2.0, self.length / 2.0)
+        return np.concatenate([rim_points(self.radius, end, towards) for end in ends]), 0.0

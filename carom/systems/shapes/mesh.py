@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from pathlib import Path
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from carom.systems.shapes.model_files import Axis, Unit, load_mesh
 from carom.systems.shapes.triangles import Triangles
 
 
@@ -17,6 +19,11 @@ class Mesh(Triangles):
     key: ClassVar[str] = "mesh"
     number: ClassVar[int] = 7
     static: ClassVar[bool] = True
+
+    @classmethod
+    def stated(cls, *, file: str | Path, scale: float = 1.0, unit: Unit = "m", up: Axis = "y") -> Self:
+        """Return the mesh of a file, read by `load_mesh`."""
+        return cls(load_mesh(file, scale=scale, unit=unit, up=up))
 
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return an FCL bounding-volume hierarchy; it cannot grow, so the margin is left out."""

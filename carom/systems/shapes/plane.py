@@ -8,9 +8,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
+from carom.ecs.column import Floats
+from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter, unit
 
 DRAWN_EXTENT = 100.0
+ALONG = 1e-12  # how far a direction may differ from the normal, both of length 1, to be along it
 
 
 @dataclass(frozen=True)
@@ -27,17 +29,17 @@ class Plane(Shape):
 
     def __post_init__(self) -> None:
         """Normalise the normal; raise DeclarationError for a zero one."""
-        length = math.sqrt(sum(c * c for c in self.normal))
-        if length > 0.0 and math.isfinite(length):
-            unit = tuple(c / length for c in self.normal)
-            object.__setattr__(self, "normal", self.normal if abs(length - 1.0) < 1e-15 else unit)
         super().__post_init__()
+        length = math.sqrt(sum(c * c for c in self.normal))
+        if abs(length - 1.0) >= 1e-15:
+            object.__setattr__(self, "normal", tuple(c / length for c in self.normal))
 
     def faults(self) -> list[tuple[str, str]]:
         """Return a fault for a normal without direction."""
-        if not any(self.normal):
-            return [("normal", "must have a direction, received a zero vector")]
-        return super().faults()
+        found = super().faults()
+        if not found and not any(self.normal):
+            found.append(("normal", "must have a direction, received a zero vector"))
+        return found
 
     def mass_properties(self) -> MassProperties:
         """Return an infinite volume: planes are static."""
@@ -46,6 +48,13 @@ class Plane(Shape):
     def bounds(self) -> Bounds:
         """Return endless bounds; the broad phase tests planes against boxes instead."""
         return Bounds((0.0, 0.0, 0.0), (math.inf,) * 3, 0.0)
+
+    def support(self, directions: Floats) -> Floats:
+        """Return the foot of the origin along the normal; in any other direction there is no end."""
+        normal = np.array(self.normal)
+        along = np.abs(unit(directions) - normal).max(axis=1) < ALONG
+        endless = np.where(directions == 0.0, 0.0, np.copysign(np.inf, directions))
+        return np.where(along[:, None], self.offset * normal, endless)
 
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return an FCL half space; moving it out by the margin is exact."""

@@ -30,6 +30,10 @@ class Point(Shape):
         """Return a point."""
         return Bounds((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.0)
 
+    def support(self, directions: Floats) -> Floats:
+        """Return the point itself."""
+        return np.zeros_like(directions)
+
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return a sphere of the margin, since FCL has no points."""
         import fcl

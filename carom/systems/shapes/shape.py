@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import sys
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self
 from zlib import crc32
 
 import numpy as np
@@ -47,6 +48,11 @@ def parameter(*, unit: str, doc: str, default: Any = dataclasses.MISSING, above:
     return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, "above": above})
 
 
+def unit(vectors: Floats) -> Floats:
+    """Return vectors (n, 3) over their lengths."""
+    return np.asarray(vectors / np.sqrt((vectors * vectors).sum(axis=1, keepdims=True)))
+
+
 SHAPES: dict[str, type[Shape]] = {}
 BY_NUMBER: dict[int, type[Shape]] = {}
 FIRST_OWN_NUMBER = 1000  # carom numbers its shapes from 0; those of others come from here on
@@ -80,19 +86,50 @@ class Shape(ABC):
         faults = self.faults()
         if faults:
             raise DeclarationError("; ".join(f"{self.key}.{name}: {fault}" for name, fault in faults))
+        for field in self.parameters():
+            value = np.asarray(getattr(self, field.name), np.float64).tolist()
+            object.__setattr__(self, field.name, tuple(value) if isinstance(value, list) else value)
+        if self.parameters() and self.solid and not self.static:
+            self._refuse_volume()
+
+    def _refuse_volume(self) -> None:
+        """Refuse a solid so thin or so large that its volume is no number; raise DeclarationError."""
+        try:
+            volume = self.mass_properties().volume
+        except OverflowError:
+            volume = math.inf
+        if not sys.float_info.min <= volume < math.inf:
+            wanted = f"from {sys.float_info.min:.2g} m3 on" if volume < 1.0 else "finite"
+            raise DeclarationError(f"{self.key}: its volume must be {wanted}, received {volume:g} m3")
+
+    @classmethod
+    def stated(cls, *_: Any, **words: Any) -> Self:
+        """Return the shape that the words of a world file, in SI, state."""
+        return cls(**words)
+
+    @classmethod
+    def parameters(cls) -> list[dataclasses.Field[Any]]:
+        """Return the fields that are numbers, not a geometry."""
+        return [field for field in dataclasses.fields(cls) if "unit" in field.metadata]
 
     def faults(self) -> list[tuple[str, str]]:
-        """Return (parameter, what is wrong) for every parameter out of bounds."""
+        """Return (parameter, what is wrong) for every parameter that is no number or out of bounds."""
         found = []
-        for field in dataclasses.fields(self):
-            unit, above = field.metadata.get("unit"), field.metadata.get("above")
-            if unit is None:
-                continue  # a geometry
-            for value in np.atleast_1d(np.asarray(getattr(self, field.name))):
-                if not (math.isfinite(value) and (above is None or value > above)):
-                    wanted = "finite" if above is None else f"finite and above {above:g} {unit}"
-                    found.append((field.name, f"must be {wanted}, received {value:g}"))
-                    break
+        for field in self.parameters():
+            unit, above, width = (field.metadata.get(key) for key in ("unit", "above", "width"))
+            received = getattr(self, field.name)
+            try:
+                values = np.asarray(received)
+            except ValueError:  # lists of different lengths
+                values = np.asarray(None)
+            if values.dtype.kind not in "fiu" or values.shape != (() if width is None else (width,)):
+                wanted = "a number" if width is None else f"{width} numbers"
+                found.append((field.name, f"must be {wanted}, received {received!r}"))
+                continue
+            wrong = ~np.isfinite(values) | (False if above is None else ~(values > above))
+            if wrong.any():
+                wanted = "finite" if above is None else f"finite and above {above:g} {unit}"
+                found.append((field.name, f"must be {wanted}, received {values[wrong].flat[0]:g}"))
         return found
 
     def packed(self) -> tuple[float, ...]:
@@ -118,6 +155,10 @@ class Shape(ABC):
     @abstractmethod
     def bounds(self) -> Bounds:
         """Return the bounds in the shape frame."""
+
+    @abstractmethod
+    def support(self, directions: Floats) -> Floats:
+        """Return the points (n, 3), m, of the shape farthest along ``directions`` (n, 3) of any length but 0."""
 
     @abstractmethod
     def fcl_geometry(self, margin: float = 0.0) -> Any:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
-from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
+from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter, unit
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,10 @@ class Sphere(Shape):
     def bounds(self) -> Bounds:
         """Return a point widened by the radius."""
         return Bounds((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), self.radius)
+
+    def support(self, directions: Floats) -> Floats:
+        """Return r d / |d|."""
+        return self.radius * unit(directions)
 
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return an FCL sphere; growing it is exact."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Self
 
+import numpy as np
+
 from carom.ecs.column import Floats
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.shape import Bounds, MassProperties, Shape, Surface
@@ -33,6 +35,12 @@ class Triangles(Shape):
     def bounds(self) -> Bounds:
         """Return the box around the vertices."""
         return self.geometry.bounds()
+
+    def support(self, directions: Floats) -> Floats:
+        """Return the vertex, the first of those equally far."""
+        x, y, z = self.geometry.vertices.T
+        farthest = [int(np.argmax(a * x + b * y + c * z)) for a, b, c in directions.tolist()]
+        return self.geometry.vertices[farthest]
 
     def surface(self) -> Surface:
         """Return the triangles."""

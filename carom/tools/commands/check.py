@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from carom.tools.commands.options import print_json
+from carom.tools.commands.options import print_json, print_warnings
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -28,7 +28,9 @@ def execute(arguments: argparse.Namespace) -> int:
                 print(fault, file=sys.stderr)
             continue
         entities = int(loaded.simulation.world.slots.alive.sum())
-        results.append({"world": world, "faults": [], "entities": entities, "expectations": len(loaded.expectations)})
+        counts = {"entities": entities, "expectations": len(loaded.expectations)}
+        results.append({"world": world, "faults": [], **counts, "warnings": loaded.warnings})
+        print_warnings(loaded.warnings)
         if not arguments.json:
             print(f"ok     {world}: {entities} entities, {len(loaded.expectations)} expectations")
     if arguments.json:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 from typing import Any
 
 
@@ -39,6 +40,12 @@ def whole_number(text: str) -> int:
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"must be a whole number from 0 on, received {text!r}")
     return int(text)
+
+
+def print_warnings(warnings: list[str]) -> None:
+    """Print what a user should know although all went on, so that it does not mix with the result."""
+    for warning in warnings:
+        print(f"warning: {warning}", file=sys.stderr)
 
 
 def print_json(value: Any) -> None:

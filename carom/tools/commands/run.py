@@ -7,7 +7,7 @@ import dataclasses
 import sys
 from pathlib import Path
 
-from carom.tools.commands.options import declare_overrides, overrides, print_json, whole_number
+from carom.tools.commands.options import declare_overrides, overrides, print_json, print_warnings, whole_number
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -35,6 +35,7 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.worlds.builder import load_world
 
     loaded = load_world(arguments.world, checked=arguments.check or None, **overrides(arguments))
+    print_warnings(loaded.warnings)
     shot = shot_of(loaded, arguments.camera)
     prepare_outputs([arguments.record, arguments.film, arguments.picture])
     observers: list[Observer] = []

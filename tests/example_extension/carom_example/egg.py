@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from carom.ecs.column import Floats
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
 
@@ -26,6 +27,12 @@ class Egg(Shape):
     def bounds(self) -> Bounds:
         """Return the half axes."""
         return Bounds((0.0, 0.0, 0.0), (self.radius, self.length / 2.0, self.radius), 0.0)
+
+    def support(self, directions: Floats) -> Floats:
+        """Return R^2 d / |R d| with the half axes R."""
+        half = np.array([self.radius, self.length / 2.0, self.radius])
+        stretched = directions * half
+        return np.asarray(stretched * half / np.sqrt((stretched * stretched).sum(axis=1, keepdims=True)))
 
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return FCL's ellipsoid; it cannot grow exactly, so the margin is left out."""

@@ -1,0 +1,38 @@
+"""Rims: the round edges of cylinders and cones, as points."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from carom.ecs.column import Floats
+from carom.ecs.spatial.trigonometry import sine_cosine
+
+RIM_POINTS = 16  # corners that stand for each rim; the one that a half space touches first is always among them
+UPRIGHT = 1e-3  # sine of the tilt up to which an upright shape stands on points that stay; it misses 2e-5 radii
+
+
+def rim_points(radius: float, height: float, towards: tuple[float, float, float]) -> Floats:
+    """Return points (16, 3) of the circle about y at ``height`` (m), the first being its farthest ``towards``."""
+    x, _, z = towards
+    across = math.sqrt(x * x + z * z)
+    first, second = (x / across, z / across) if across > UPRIGHT else (1.0, 0.0)
+    turns = [sine_cosine(2.0 * math.pi * k / RIM_POINTS) for k in range(RIM_POINTS)]
+    return np.array(
+        [
+            (radius * (cosine * first - sine * second), height, radius * (cosine * second + sine * first))
+            for sine, cosine in turns
+        ]
+    )
+
+
+def farthest_on_rim(radius: float, directions: Floats) -> Floats:
+    """Return the points (n, 3) of the circle about y at height 0 farthest along directions (n, 3); x where none is."""
+    across = np.sqrt(directions[:, 0] ** 2 + directions[:, 2] ** 2)
+    points = np.zeros_like(directions)
+    upright = across == 0.0
+    length = np.where(upright, 1.0, across)
+    points[:, 0] = np.where(upright, radius, radius * directions[:, 0] / length)
+    points[:, 2] = radius * directions[:, 2] / length
+    return points
