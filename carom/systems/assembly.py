@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -28,15 +27,16 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Component, Resource
 from carom.ecs.components.collider import ColliderPose
 from carom.ecs.components.flight import Flight
-from carom.ecs.components.rigid_body import BodyType
 from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import compose
 from carom.ecs.spatial import quaternion
+from carom.systems.compound import StatedBodies, joining, weigh
 from carom.systems.layers import EVERYTHING, Layers
+from carom.systems.mass import Part, rigid_body
 from carom.systems.own_components import own_component
 from carom.systems.shapes import SHAPES, Shape
 from carom.systems.shapes.geometry import Geometries
-from carom.systems.shapes.shape import Bounds, MassProperties
+from carom.systems.shapes.shape import Bounds
 
 Words = Mapping[str, Any]
 COMBINE_QUANTITIES = ("friction", "restitution")
@@ -54,12 +54,13 @@ def add_entity(world: World, *, name: str | None = None, **words: Any) -> Entity
     """Add one entity described in the words of a world file, all numbers SI.
 
     ``body`` makes it move (an empty mapping takes its mass from the shape's volume and the material's density); without
-    one it is static. ``visual`` False hides it, ``tags`` are names, and ``parent`` names who carries it. Further words
-    are the keys of a user's own components, each with its columns: ``health={"points": 3}``. Raises DeclarationError
-    for anything a file would be refused for.
+    one it is static. ``visual`` False hides it, ``tags`` are names, and ``parent`` names who carries it: a collider
+    that is carried belongs to the nearest body above it, whose mass grows by it unless stated. Further words are the
+    keys of a user's own components, each with its columns: ``health={"points": 3}``. Raises DeclarationError for
+    anything a file would be refused for.
     """
     entity = world.spawn(*bundles_of(world, **words), name=name)
-    _carry(world, np.array([entity]), words)
+    _settle(world, np.array([entity]), words)
     return entity
 
 
@@ -67,13 +68,23 @@ def add_entities(world: World, positions: npt.ArrayLike, *, names: list[str] | N
     """Add an entity at each position (n, 3), m, all alike otherwise; ``words`` are those of `add_entity`."""
     places = np.asarray(positions, np.float64).reshape(-1, 3)
     entities = world.spawn_many(len(places), *bundles_of(world, **words), Transform(position=places), names=names)
-    _carry(world, entities, words)
+    _settle(world, entities, words)
     return entities
 
 
-def _carry(world: World, entities: Integers, words: Words) -> None:
-    if words.get("parent", {}).get("entity", -1) >= 0:
-        compose(world, world.slots.rows(entities))
+def _settle(world: World, entities: Integers, words: Words) -> None:
+    """Note what was stated of bodies; place who is carried, and let who carries them weigh as much more."""
+    if words.get("body") is not None:
+        world[StatedBodies].words.update(dict.fromkeys(entities.tolist(), words["body"]))
+    if words.get("parent", {}).get("entity", -1) < 0:
+        return
+    rows = world.slots.rows(entities)
+    compose(world, rows)
+    try:
+        weigh(world, joining(world, rows))
+    except DeclarationError:
+        world.despawn(entities)
+        raise
 
 
 def bundles_of(
@@ -192,34 +203,12 @@ def _shape_columns(world: World, shape: Shape) -> dict[str, Any]:
 
 
 def _body(words: Words, shape: Shape | None, collider: Words, material: Material) -> RigidBody:
-    kind = BodyType[words.get("type", "dynamic").upper()]
-    solid = (
-        shape.mass_properties()
-        if shape is not None
-        else MassProperties(0.0, (0.0,) * 3, (0.0,) * 3, (0.0, 0.0, 0.0, 1.0))
-    )
-    density = float(getattr(material, "density", 1000.0))
-    mass = float(words.get("mass", density * solid.volume))
-    if kind is BodyType.DYNAMIC and not (math.isfinite(mass) and mass > 0.0):
-        raise DeclarationError(
-            f"body.mass: must be finite and above 0 kg, received {mass:g}; state mass, or a shape with volume"
-        )
-    rotation = collider.get("rotation", quaternion.IDENTITY)
-    center = np.asarray(collider.get("position", (0.0, 0.0, 0.0))) + quaternion.rotate(rotation, solid.center)
-    inertia = np.asarray(words.get("inertia", [mass * moment for moment in solid.inertia]), np.float64)
-    axes = solid.axes if "inertia" in words else quaternion.multiply(rotation, solid.axes)
-    moves = kind is BodyType.DYNAMIC
-    with np.errstate(divide="ignore"):
-        inverse = np.where(inertia > 0.0, 1.0 / inertia, 0.0) if moves else np.zeros(3)
-    return RigidBody(
-        type=kind.value,
-        mass=mass,
-        inverse_mass=1.0 / mass if moves else 0.0,
-        inertia=inertia,
-        inverse_inertia=inverse,
-        center_of_mass=words.get("center_of_mass", center),
-        principal_axes=(0.0, 0.0, 0.0, 1.0) if "inertia" in words else axes,
-    )
+    if shape is None:
+        return rigid_body(words, [])
+    position = np.asarray(collider.get("position", (0.0, 0.0, 0.0)), np.float64)
+    rotation = np.asarray(collider.get("rotation", quaternion.IDENTITY), np.float64)
+    density = float(getattr(material, "density", Material.columns["density"].default))
+    return rigid_body(words, [Part(shape.mass_properties(), density, position, rotation)])
 
 
 def _visual(

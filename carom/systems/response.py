@@ -6,7 +6,7 @@ from math import sqrt
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, Material, Motion, RigidBody, Transform, World, system
+from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
 from carom.ecs.commands import Commands
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -81,7 +81,7 @@ def log_blows(world: World) -> None:
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Settings, Geometries, Progress),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress),
     writes=(Transform, Motion, Flight, Contact, Impact, ColliderPose, Enter, Inside, Answered, FclObjects, Commands),
 )
 def drift(world: World, dt: float) -> None:

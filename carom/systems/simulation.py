@@ -27,6 +27,7 @@ from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
 from carom.systems.assembly import Materials, add_entities, add_entity
 from carom.systems.clock import Clock
+from carom.systems.compound import StatedBodies
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.finish import find_not_finite
@@ -60,7 +61,7 @@ class Simulation:
         self.observers: list[Observer] = []
         self.clock = Clock()
         self._earlier = EarlierPoses()
-        made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), Forces(), Commands())
+        made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
         for resource in (self.settings, *made, Progress(), Answered(), FclObjects()):
             self.world.add(resource)
 

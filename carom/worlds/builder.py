@@ -74,6 +74,7 @@ def load_text(
     try:
         if not source.faults:
             compose(simulation.world)
+            populator.weigh_all()
     except EntityError as fault:
         source.report(("entities",), str(fault))
     _forces(source, simulation, values["forces"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from itertools import product
 from pathlib import Path as FilePath
 from typing import Any, NamedTuple
@@ -12,8 +13,10 @@ import numpy as np
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Component
 from carom.ecs.components.name import NAME_LENGTH
+from carom.ecs.components.parent import Parent
 from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import Materials
+from carom.systems.compound import StatedBodies, joining, weigh
 from carom.systems.layers import Layers
 from carom.systems.own_components import components_of_files
 from carom.systems.settings import Random
@@ -25,6 +28,7 @@ from carom.worlds.names import known
 from carom.worlds.reader import Source
 
 SOURCES = ("file", "image", "points", "heights")  # words that say where a geometry comes from
+PROVISIONAL = {"mass": 1.0}
 SUB_PATH = re.compile(r"([a-z_]+(?:\.[a-z_]+)*): (.*)", re.DOTALL)
 
 
@@ -45,12 +49,18 @@ class Populator:
         self.geometries = GeometryReader(folder)
         self.taken: dict[str, Path] = {}
         self.pointers: list[tuple[Integers, Pointer]] = []
+        self.places_in_file: dict[int, Path] = {}
+        self.carriers: set[str] = set()
+        self.unweighed: list[int] = []  # bodies whose mass depends on what they carry
 
     def add_all(self, entities: list[Any]) -> None:
         """Add the entities of a file in its order; None stands for one already reported."""
-        for index, model in enumerate(entities):
-            if model is not None:
-                self.add(("entities", index), model.model_dump(exclude_unset=True))
+        stated = [None if model is None else model.model_dump(exclude_unset=True) for model in entities]
+        parents = [words.get("parent", {}).get("entity") for words in stated if words is not None]
+        self.carriers = {name.partition("[")[0] for name in parents if name is not None}
+        for index, words in enumerate(stated):
+            if words is not None:
+                self.add(("entities", index), words)
 
     def add(self, path: Path, words: dict[str, Any]) -> None:
         """Add one entity, or the copies of its grid."""
@@ -68,6 +78,10 @@ class Populator:
         transform = words.pop("transform", {})
         jitter = transform.pop("jitter", None)
         pointers = self.take_pointers(path, words)
+        body = words.get("body")
+        waits = name in self.carriers and body is not None and "mass" not in body
+        if body is not None and waits:
+            words["body"] = body | PROVISIONAL
         try:
             for key in ("collider", "visual"):
                 if isinstance(words.get(key), dict):
@@ -79,6 +93,10 @@ class Populator:
             names = None if name is None else copies(name, grid)
             entities = self.simulation.add_many(positions, names=names, transform=transform, **words)
             self.pointers += [(entities, pointer) for pointer in pointers]
+            self.places_in_file.update(dict.fromkeys(entities.tolist(), path))
+            if waits:
+                self.simulation.world[StatedBodies].words.update(dict.fromkeys(entities.tolist(), body))
+                self.unweighed += entities.tolist()
         except _ReportedError:
             return
         except DeclarationError as fault:
@@ -108,6 +126,27 @@ class Populator:
                 continue
             with world.edit(pointer.kind) as table:
                 getattr(table, pointer.column)[world.slots.rows(entities)] = np.reshape(found, column.shape)
+
+    def weigh_all(self) -> None:
+        """Let bodies weigh what they carry, now that it is known; report what cannot be carried by a body."""
+        world = self.simulation.world
+        bodies = world.slots.rows(np.array(self.unweighed, np.int64))
+        joined = self.each(world.row_numbers(Parent), lambda rows: joining(world, rows))
+        if joined is not None:
+            self.each(np.union1d(bodies, joined), lambda rows: weigh(world, rows))
+
+    def each(self, rows: Integers, act: Callable[[Integers], Any]) -> Any:
+        """Return what ``act`` makes of all rows; where it refuses, try one by one to report whom."""
+        try:
+            return act(rows)
+        except DeclarationError:
+            pass
+        for row in rows:
+            try:
+                act(np.array([row]))
+            except DeclarationError as fault:
+                self.report(self.places_in_file[self.simulation.world.entity(row)], str(fault))
+        return None
 
     def places(self, name: str | None, grid: dict[str, Any] | None, position: Floats) -> Floats:
         """Return the position of each copy (n, 3)."""

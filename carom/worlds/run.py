@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.ecs import BodyType, Collider, Motion, RigidBody
+from carom.ecs import BodyType, Motion, RigidBody
+from carom.systems.compound import reaches
 from carom.systems.simulation import Simulation
 
 if TYPE_CHECKING:
@@ -51,7 +52,6 @@ def at_rest(simulation: Simulation, speed: float) -> bool:
     world = simulation.world
     rows = world.row_numbers(RigidBody, Motion)
     rows = rows[world[RigidBody].type[rows] == BodyType.DYNAMIC]
-    motion, collider = world[Motion], world[Collider]
-    reach = np.linalg.norm(collider.bound_half[rows], axis=1) + collider.bound_radius[rows]
-    turning = np.linalg.norm(motion.angular[rows], axis=1) * reach
+    motion = world[Motion]
+    turning = np.linalg.norm(motion.angular[rows], axis=1) * reaches(world)[rows]
     return bool(((np.linalg.norm(motion.linear[rows], axis=1) < speed) & (turning < speed)).all())

@@ -7,16 +7,15 @@ SHAPE_PARAMETERS = 4
 
 
 class Collider(Component):
-    """A shape on a body. Colliders are entities: a row may be body and collider at once, or name its body."""
+    """A shape. Colliders are entities: one that is carried is part of the nearest body above it, if there is one."""
 
     shape: Integers = column(unit="1", doc="number of the shape in the registry", dtype="int64")
     size: Floats = column(SHAPE_PARAMETERS, unit="m", doc="parameters of the shape in declared order")
     geometry: Integers = column(unit="1", doc="number in the table of meshes, -1 for none", dtype="int64", default=-1)
-    body: Integers = column(unit="1", doc="entity it belongs to; -1 for its own row", holds="entities")
-    position: Floats = column(3, unit="m", doc="position of the shape in the frame of its body")
-    rotation: Floats = column(4, unit="1", doc="unit quaternion xyzw, shape to body", default=(0.0, 0.0, 0.0, 1.0))
-    bound_center: Floats = column(3, unit="m", doc="centre of the bounds in the frame of the body")
-    bound_half: Floats = column(3, unit="m", doc="half extents of the bounds in the frame of the body")
+    position: Floats = column(3, unit="m", doc="position of the shape in the frame of its entity")
+    rotation: Floats = column(4, unit="1", doc="unit quaternion xyzw, shape to entity", default=(0.0, 0.0, 0.0, 1.0))
+    bound_center: Floats = column(3, unit="m", doc="centre of the bounds in the frame of the entity")
+    bound_half: Floats = column(3, unit="m", doc="half extents of the bounds in the frame of the entity")
     bound_radius: Floats = column(unit="m", doc="radius by which the bounds are widened")
     layer: Integers = column(unit="1", doc="bit of the layer it is on, 0 for none", dtype="int64", default=1)
     mask: Integers = column(unit="1", doc="bits of the layers it collides with", dtype="int64", default=-1)

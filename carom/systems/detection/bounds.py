@@ -4,20 +4,23 @@ from __future__ import annotations
 
 from math import sqrt
 
-from carom.ecs import Collider, ColliderPose, Motion, RigidBody, Transform, World, system
+from carom.ecs import Collider, ColliderPose, Motion, Parent, RigidBody, Transform, World, system
 from carom.ecs.components.flight import Flight
+from carom.ecs.hierarchy import compose
+from carom.systems.compound import bodies_of
 from carom.systems.kernels.broad import foresee_reach, place_bounds
 from carom.systems.settings import Settings
 
 
-@system(reads=(Transform, Motion, RigidBody, Collider, Settings), writes=(ColliderPose, Flight))
+@system(reads=(Parent, Motion, RigidBody, Collider, Settings), writes=(Transform, ColliderPose, Flight))
 def place_colliders(world: World, dt: float) -> None:
     """Place every collider and bound what it can reach within the step."""
     reach_within(world, dt)
 
 
 def reach_within(world: World, dt: float) -> None:
-    """Place every collider and bound what it can reach within the next ``dt`` seconds."""
+    """Place every collider and bound what it can reach within the next ``dt`` seconds; who is carried goes along."""
+    compose(world)
     transform, motion, body, flight = world[Transform], world[Motion], world[RigidBody], world[Flight]
     collider, pose = world[Collider], world[ColliderPose]
     gravity = world[Settings].gravity
@@ -27,7 +30,7 @@ def reach_within(world: World, dt: float) -> None:
         body.center_of_mass, motion.linear_acceleration, flight.reach, flight.detected_center,
     )  # fmt: skip
     place_bounds(
-        world.row_numbers(Collider), dt, world.table(RigidBody).present, motion.angular, flight.reach,
+        world.row_numbers(Collider), dt, bodies_of(world), motion.angular, flight.reach, flight.detected_center,
         transform.position, transform.rotation, collider.position, collider.rotation,
         collider.bound_center, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, pose.lower, pose.upper, pose.body_row,

@@ -32,10 +32,14 @@ def foresee_reach(
 
 @kernel("pose_position", "pose_rotation", "lower", "upper", "body_row")
 def place_bounds(
-    rows, dt, is_body, angular, reach, position, rotation, local_position, local_rotation,
+    rows, dt, body, angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
     bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, body_row,
 ):  # fmt: skip
-    """Place each collider in the world and bound all it can reach: |R| half extents + radius + reach + turning."""
+    """Place each collider in the world and bound all it can reach: |R| half extents + radius + reach + turning.
+
+    What reaches and turns is its ``body``, a row or -1; turning moves no point farther than twice its distance from
+    the centre of mass.
+    """
     for i in rows:
         qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
         x, y, z = turn(qx, qy, qz, qw, local_position[i, 0], local_position[i, 1], local_position[i, 2])
@@ -47,13 +51,16 @@ def place_bounds(
         )
         hx, hy, hz = bound_half[i, 0], bound_half[i, 1], bound_half[i, 2]
         wide = bound_radius[i]
-        body_row[i] = -1
-        if is_body[i]:
-            body_row[i] = i
-            spin = sqrt(angular[i, 0] ** 2 + angular[i, 1] ** 2 + angular[i, 2] ** 2)
-            wide += reach[i] + min(spin * dt, 2.0) * sqrt(hx * hx + hy * hy + hz * hz)
         cx, cy, cz = turn(qx, qy, qz, qw, bound_center[i, 0], bound_center[i, 1], bound_center[i, 2])
         center = (cx, cy, cz)
+        b = body[i]
+        body_row[i] = b
+        if b >= 0:
+            spin = sqrt(angular[b, 0] ** 2 + angular[b, 1] ** 2 + angular[b, 2] ** 2)
+            away = 0.0
+            for k in range(3):
+                away += (position[i, k] + center[k] - center_of_mass[b, k]) ** 2
+            wide += reach[b] + min(spin * dt, 2.0) * (sqrt(hx * hx + hy * hy + hz * hz) + sqrt(away))
         ax, ay, az = turn(qx, qy, qz, qw, 1.0, 0.0, 0.0)
         bx, by, bz = turn(qx, qy, qz, qw, 0.0, 1.0, 0.0)
         gx, gy, gz = turn(qx, qy, qz, qw, 0.0, 0.0, 1.0)

@@ -43,7 +43,11 @@ def solid_properties(geometry: Geometry) -> MassProperties:
 
 
 def principal(matrix: list[list[float]]) -> tuple[tuple[float, float, float], Floats]:
-    """Return a symmetric matrix's eigenvalues, rising, and a rotation with their axes as columns (Jacobi, 1846)."""
+    """Return a symmetric matrix's eigenvalues and a rotation with their axes as columns (Jacobi, 1846).
+
+    Each turn is at most an eighth, so that axes stay near those they come from and a diagonal matrix keeps its order:
+    the hull of a box's corners turns as the box does, to the last step of the integrator.
+    """
     m = [row[:] for row in matrix]
     axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]  # rows
     for _ in range(SWEEPS):
@@ -63,6 +67,4 @@ def principal(matrix: list[list[float]]) -> tuple[tuple[float, float, float], Fl
                     sine * axes[p][k] + cosine * axes[q][k],
                 )
             m[p][q] = m[q][p] = 0.0
-    first, second, third = sorted(range(3), key=lambda k: m[k][k])
-    x, y = np.array(axes[first]), np.array(axes[second])
-    return (m[first][first], m[second][second], m[third][third]), np.stack([x, y, np.cross(x, y)], axis=1)
+    return (m[0][0], m[1][1], m[2][2]), np.array(axes).T

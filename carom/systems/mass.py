@@ -1,0 +1,88 @@
+"""Mass: what a body of one or of many shapes weighs, and how that is spread."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from carom.ecs import RigidBody
+from carom.ecs.column import Floats
+from carom.ecs.components.rigid_body import BodyType
+from carom.ecs.errors import DeclarationError
+from carom.ecs.spatial import quaternion
+from carom.systems.shapes.shape import NO_AXES, MassProperties
+from carom.systems.shapes.solid import principal
+
+NOTHING = MassProperties(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), NO_AXES)
+
+
+class Part(NamedTuple):
+    """A solid of a density (kg/m3) at a pose in the frame of its body."""
+
+    solid: MassProperties
+    density: float
+    position: Floats
+    rotation: Floats
+
+
+def rigid_body(words: Mapping[str, Any], parts: Sequence[Part]) -> RigidBody:
+    """Return the body of some parts; what ``words`` state of mass (kg), inertia or centre of mass goes before.
+
+    A stated mass is shared out by volume, evenly where none has any. Raises DeclarationError for a dynamic body that
+    has no mass.
+    """
+    kind = BodyType[words.get("type", "dynamic").upper()]
+    masses, volume = [part.density * part.solid.volume for part in parts], sum(part.solid.volume for part in parts)
+    mass = float(words.get("mass", sum(masses)))
+    if kind is BodyType.DYNAMIC and not (math.isfinite(mass) and mass > 0.0):
+        raise DeclarationError(
+            f"body.mass: must be finite and above 0 kg, received {mass:g}; state mass, or a shape with volume"
+        )
+    if "mass" in words:
+        masses = [mass * (part.solid.volume / volume if volume else 1.0 / len(parts)) for part in parts]
+    solid = placed(parts[0]) if len(parts) == 1 else joined(parts, masses) if mass and parts else NOTHING
+    inertia = np.asarray(words.get("inertia", [mass * moment for moment in solid.inertia]), np.float64)
+    moves = kind is BodyType.DYNAMIC
+    with np.errstate(divide="ignore"):
+        inverse = np.where(inertia > 0.0, 1.0 / inertia, 0.0) if moves else np.zeros(3)
+    return RigidBody(
+        type=kind.value,
+        mass=mass,
+        inverse_mass=1.0 / mass if moves else 0.0,
+        inertia=inertia,
+        inverse_inertia=inverse,
+        center_of_mass=words.get("center_of_mass", solid.center),
+        principal_axes=NO_AXES if "inertia" in words else solid.axes,
+    )
+
+
+def placed(part: Part) -> MassProperties:
+    """Return a solid in the frame of its body."""
+    center = part.position + quaternion.rotate(part.rotation, part.solid.center)
+    axes = quaternion.multiply(part.rotation, part.solid.axes)
+    return part.solid._replace(center=tuple(center.tolist()), axes=tuple(axes.tolist()))
+
+
+def joined(parts: Sequence[Part], masses: Sequence[float]) -> MassProperties:
+    """Return several solids of these masses (kg) as one: moments are moved to the common centre by Steiner's theorem.
+
+    With + - * / and sqrt alone, as `solid_properties`: mass is state.
+    """
+    solids, total = [placed(part) for part in parts], math.fsum(masses)
+    center = [math.fsum(m * s.center[k] for m, s in zip(masses, solids, strict=True)) / total for k in range(3)]
+    inertia = np.zeros((3, 3))
+    for mass, solid in zip(masses, solids, strict=True):
+        x, y, z = (a - b for a, b in zip(solid.center, center, strict=True))
+        steiner = np.array(
+            [[y * y + z * z, -x * y, -x * z], [-x * y, x * x + z * z, -y * z], [-x * z, -y * z, x * x + y * y]]
+        )
+        axes = quaternion.matrix(solid.axes)
+        own = sum(moment * np.multiply.outer(axis, axis) for moment, axis in zip(solid.inertia, axes.T, strict=True))
+        inertia += mass / total * (own + steiner)
+    moments, turned = principal(inertia.tolist())
+    axes = quaternion.from_matrix(turned)
+    volume = sum(solid.volume for solid in solids)
+    return MassProperties(volume, tuple(center), moments, tuple(axes.tolist()))  # type: ignore[arg-type]
