@@ -9,7 +9,20 @@ from importlib import import_module
 
 import carom
 
-COMMANDS = ("run", "view", "render", "check", "test", "worlds", "explain", "doctor", "bench", "schema", "warm")
+COMMANDS = (
+    "run",
+    "view",
+    "render",
+    "check",
+    "test",
+    "worlds",
+    "explain",
+    "doctor",
+    "bench",
+    "schema",
+    "warm",
+    "decompose",
+)
 DONE, FAILED, WRONG, INTERRUPTED = 0, 1, 2, 130
 
 

@@ -67,7 +67,10 @@ class In:
         number = {"type": "number"} | {key: bound for key, bound in bounds.items() if bound is not None}
         text = {"type": "string", "pattern": r"^\s*[-+.0-9]", "description": "a number with a unit"}
         item = {"anyOf": [number, text], "x-unit": self.unit}
-        size = schema.get("metadata", {}).get("size")
+        inner: Any = schema
+        while "size" not in inner.get("metadata", {}) and "schema" in inner:  # inside validators that come after
+            inner = inner["schema"]
+        size = inner.get("metadata", {}).get("size")
         return {"type": "array", "items": item, "minItems": size, "maxItems": size} if size else item
 
 
