@@ -141,6 +141,8 @@ def coal_geometry(shape: Any) -> Any:
         "box": lambda: coal.Box(*shape.size),
         "capsule": lambda: coal.Capsule(shape.radius, shape.length),
         "cylinder": lambda: coal.Cylinder(shape.radius, shape.length),
+        "cone": lambda: coal.Cone(shape.radius, shape.length),
+        "ellipsoid": lambda: coal.Ellipsoid(*shape.radii),
         "plane": lambda: coal.Halfspace(np.array(shape.normal), shape.offset),
     }
     return makers[shape.key]()

@@ -180,8 +180,8 @@ def test_a_mesh_beyond_the_limit_is_refused_with_the_reason(tmp_path: Path, monk
     path = write(tmp_path / "box.stl", BOX.vertices, BOX.faces)
     refused(
         lambda: load_mesh(path),
-        f"mesh file {path} holds 12 triangles, more than the 11 a mesh may have, since FCL would take 15 s for each "
-        "million; simplify it, or use convex",
+        f"mesh file {path} holds 12 triangles, more than the 11 a mesh may have, since each million takes "
+        "some 20 s to load; simplify it, or use convex",
     )
     assert Convex.stated(file=path).mass_properties().volume == pytest.approx(6.0)
 

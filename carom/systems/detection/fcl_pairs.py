@@ -36,6 +36,7 @@ NEAR = 0.01  # m, growth of two boxes together when their manifold is measured; 
 UNIT_ERROR = 1e-6  # how far the square of a normal's length may be from 1; FCL's zero normals of concentric bodies fail
 LEAST_PART = 1e-9  # m, distance of FCL's two nearest points below which they give no direction
 TOUCHING = 1e-7  # m, overlap below which FCL's signed distance may abort the process: measured after moving apart
+CONES_APART = 5e-3  # m, likewise for two cones, whatever their overlap; nearer, FCL's normal is 3 degrees off
 APART = 1e-4  # m, how far a touching pair is moved apart; FCL's nearest points are good to 1 % of it
 BALLS = (Sphere, Point)
 # Pairs whose collide() is exact, so that no second opinion is needed.
@@ -161,7 +162,8 @@ def measure(a: Side, b: Side, reach: float) -> Points:
         return _apart(a, b, reach)
     smaller = min(side.width() for side in (a, b) if not isinstance(side.shape, Point))
     if len(points) == 1 and isinstance(a.shape, Cone) and isinstance(b.shape, Cone):
-        points = _parted(a, b, points[0][1] * (points[0][2] + APART)) or points  # the signed distance may hang
+        for _ in range(2):  # the signed distance may hang; the second time the normal is nearly right
+            points = _parted(a, b, points[0][1] * (points[0][2] + CONES_APART)) or points
     elif len(points) == 1 and points[0][2] < TOUCHING:
         points = _touching(a, b) or points
     elif len(points) == 1 and points[0][2] < SHALLOW * smaller:

@@ -35,7 +35,7 @@ def load_mesh(file: str | Path, *, scale: float = 1.0, unit: Unit = "m", up: Axi
     if len(faces) > MOST_TRIANGLES:
         raise DeclarationError(
             f"{source} holds {len(faces):,} triangles, more than the {MOST_TRIANGLES:,} a mesh may have, "
-            "since FCL would take 15 s for each million; simplify it, or use convex"
+            "since each million takes some 20 s to load; simplify it, or use convex"
         )
     total = len(faces)
     vertices, faces = weld(vertices, faces)
