@@ -19,7 +19,8 @@ from carom.ecs.spatial import quaternion
 from carom.systems.constants import IMPACTS_AT_LEAST, IMPACTS_PER_PAIR
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
-from carom.systems.detection.contacts import measure_closed, overlapping
+from carom.systems.detection.contacts import overlapping
+from carom.systems.detection.narrow import measure_pairs
 from carom.systems.layers import Layers
 from carom.systems.simulation import Simulation
 
@@ -44,8 +45,8 @@ def test_kernels_agree_with_fcl(a: str, b: str) -> None:
         poses = Poses(generator.normal(size=3), turns(generator), np.zeros(3), turns(generator))
         poses = poses._replace(position_b=poses.position_a + shift)
         points = pair.measure(poses, 0.3)
-        by_kernel, found = measure_closed(pair.world, pairs, reaches)
-        assert by_kernel.all()
+        found = measure_pairs(pair.world, pairs, reaches)
+        assert not found.by_fcl.any()
         assert len(found.depth) == len(points)
         for place, normal, depth in points:
             seen += 1

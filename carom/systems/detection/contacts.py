@@ -2,42 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
-
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, RigidBody, Transform, World, system
-from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.column import Integers
 from carom.ecs.commands import Commands
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Enter, Inside
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
-from carom.systems.detection.fcl_pairs import FclObjects, measure_by_fcl
+from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.detection.sensors import sense
 from carom.systems.kernels.broad import sweep_bounds
 from carom.systems.kernels.contacts import complete_contacts, renew_contacts
-from carom.systems.kernels.narrow import measure_balls, reach_of_pairs
+from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.plane import Plane
-
-
-class Found(NamedTuple):
-    """Contact points in order of (row a, row b, feature)."""
-
-    row_a: Integers
-    row_b: Integers
-    feature: Integers
-    normal: Floats
-    depth: Floats
-    point: Floats
-    by_fcl: Booleans
-
-    def take(self, which: Any) -> Found:
-        """Return some of the contacts, by mask or by order."""
-        return Found(*(column[which] for column in self))
 
 
 @system(
@@ -61,44 +44,10 @@ def detect_again(world: World, left: float) -> None:
 def detect(world: World) -> None:
     """Replace the contact table by one for the current poses, carrying over what known contacts hold."""
     world[Answered].detections += 1
-    found = measure_pairs(world)
-    found = sense(world, found)
-    store(world, found)
-
-
-def measure_pairs(world: World) -> Found:
-    """Return the contact points of all pairs whose bounds overlap: by kernels where one stands in, else by FCL."""
     pairs = overlapping(world)
     reaches = np.empty(len(pairs))
     reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
-    answered = world[Answered]
-    if world[Settings].collision == "fcl":
-        answered.fcl += len(pairs)
-        return measure_by_fcl(world, pairs, reaches)
-    by_kernel, closed = measure_closed(world, pairs, reaches)
-    if by_kernel.all():
-        return closed
-    others = ~by_kernel
-    answered.fcl += int(np.count_nonzero(others))
-    measured = measure_by_fcl(world, pairs[others], reaches[others])
-    joined = Found(*(np.concatenate(columns) for columns in zip(closed, measured, strict=True)))
-    return joined.take(np.lexsort((joined.feature, joined.row_b, joined.row_a)))
-
-
-def measure_closed(world: World, pairs: Integers, reaches: Floats) -> tuple[Booleans, Found]:
-    """Return which pairs have a closed form, and the contacts of those."""
-    collider, pose = world[Collider], world[ColliderPose]
-    n = len(pairs)
-    by_kernel = np.empty(n, np.bool_)
-    a, b, depth = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n)
-    normal, point = np.empty((n, 3)), np.empty((n, 3))
-    answers, count = measure_balls(
-        pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation,
-        by_kernel, a, b, normal, depth, point,
-    )  # fmt: skip
-    world[Answered].kernels += answers
-    none = np.zeros(count, np.int64)
-    return by_kernel, Found(a[:count], b[:count], none, normal[:count], depth[:count], point[:count], none != 0)
+    store(world, sense(world, measure_pairs(world, pairs, reaches)))
 
 
 def overlapping(world: World) -> Integers:

@@ -26,9 +26,9 @@ from carom.systems.shapes.point import Point
 from carom.systems.shapes.sphere import Sphere
 
 if TYPE_CHECKING:
-    from carom.systems.detection.contacts import Found
+    from carom.systems.detection.narrow import Points
 
-Points = list[tuple[Floats, Floats, float]]  # (point, unit normal from the first to the second, depth)
+Manifold = list[tuple[Floats, Floats, float]]  # (point, unit normal from the first to the second, depth)
 
 MOST_CONTACTS = 32  # points FCL may return for a pair; a mesh gives one per triangle
 SHALLOW = 0.1  # part of the smaller size up to which FCL's signed distance is safe to call (it may hang beyond)
@@ -103,27 +103,21 @@ class Side:
         return 2.0 * (min(bounds.half) + bounds.radius)
 
 
-def measure_by_fcl(world: World, pairs: Integers, reaches: Floats) -> Found:
-    """Return the contact points of ``pairs`` (n, 2) that are nearer than their ``reaches`` (m), as FCL sees them."""
-    from carom.systems.detection.contacts import Found
-
+def measure_by_fcl(world: World, which: Integers, pairs: Integers, reaches: Floats, points: Points) -> int:
+    """Measure the pairs ``which`` as FCL sees them; return how many points are taken."""
     objects = world[FclObjects]
-    rows: list[tuple[int, int, int]] = []
-    normals, depths, places = [], [], []
-    for (a, b), reach in zip(pairs.tolist(), reaches.tolist(), strict=True):
-        points = measure(Side(objects, world, a), Side(objects, world, b), reach)
-        features = corner_features([point for point, _, _ in points], objects, world, a)
-        for feature, (point, normal, depth) in sorted(zip(features, points, strict=True), key=lambda known: known[0]):
-            rows.append((a, b, feature))
-            normals.append(normal)
-            depths.append(depth)
-            places.append(point)
-    keys = np.array(rows, np.int64).reshape(-1, 3)
-    return Found(
-        np.ascontiguousarray(keys[:, 0]), np.ascontiguousarray(keys[:, 1]), np.ascontiguousarray(keys[:, 2]),
-        np.array(normals).reshape(-1, 3), np.array(depths, np.float64), np.array(places).reshape(-1, 3),
-        np.ones(len(rows), np.bool_),
-    )  # fmt: skip
+    taken = 0
+    for p in which.tolist():
+        a, b = pairs[p].tolist()
+        measured = measure(Side(objects, world, a), Side(objects, world, b), float(reaches[p]))
+        points.start[p], points.count[p] = taken, len(measured)
+        for feature, (place, normal, depth) in zip(
+            corner_features([place for place, _, _ in measured], objects, world, a), measured, strict=True
+        ):
+            points.feature[taken], points.depth[taken] = feature, depth
+            points.normal[taken], points.point[taken] = normal, place
+            taken += 1
+    return taken
 
 
 def corner_features(points: list[Floats], objects: FclObjects, world: World, row: int) -> list[int]:
@@ -141,7 +135,7 @@ def corner_features(points: list[Floats], objects: FclObjects, world: World, row
     return features
 
 
-def measure(a: Side, b: Side, reach: float) -> Points:
+def measure(a: Side, b: Side, reach: float) -> Manifold:
     """Return up to four points (point, normal from a to b, depth) of a pair nearer than ``reach``."""
     if isinstance(b.shape, Plane) or (isinstance(b.shape, Mesh) and not isinstance(a.shape, Plane)):
         return [(point, -normal, depth) for point, normal, depth in measure(b, a, reach)]
@@ -171,7 +165,7 @@ def measure(a: Side, b: Side, reach: float) -> Points:
     return reduce_points([p for p in points if _valid(p)])
 
 
-def collide(one: Any, two: Any) -> Points:
+def collide(one: Any, two: Any) -> Manifold:
     """Return FCL's contacts; normals point from one to two, depth is positive."""
     import fcl
 
@@ -194,7 +188,7 @@ def distance_of(one: Any, two: Any, *, signed: bool) -> tuple[float, Floats, Flo
     return distance, np.array(result.nearest_points[0]), np.array(result.nearest_points[1])
 
 
-def _boxes(a: Side, b: Side, reach: float) -> Points:
+def _boxes(a: Side, b: Side, reach: float) -> Manifold:
     """Measure two boxes grown by half of ``reach`` each, so that corners about to touch are points of the manifold.
 
     A corner moves out by more than a face: the growth of each box along the normal is taken out of the depth.
@@ -222,7 +216,7 @@ def _within(side: Side, place: Floats) -> Floats:
     return moved
 
 
-def _apart(a: Side, b: Side, reach: float) -> Points:
+def _apart(a: Side, b: Side, reach: float) -> Manifold:
     """Measure a pair that does not overlap by its nearest points."""
     distance, p, q = distance_of(a.fcl(), b.fcl(), signed=False)
     length = float(np.sqrt(((q - p) ** 2).sum()))
@@ -231,7 +225,7 @@ def _apart(a: Side, b: Side, reach: float) -> Points:
     return [((p + q) / 2.0, (q - p) / length, -distance)]
 
 
-def _touching(a: Side, b: Side) -> Points:
+def _touching(a: Side, b: Side) -> Manifold:
     """Measure a pair that barely overlaps by its nearest points once moved apart along the line of its centres."""
     push = b.position - a.position
     length = float(np.sqrt((push**2).sum()))
@@ -252,7 +246,7 @@ def _parted(a: Side, b: Side, push: Floats) -> Points:
     return [((p + q - push) / 2.0, normal, float((push * normal).sum()) - distance)]
 
 
-def _refined(a: Side, b: Side, points: Points, smaller: float) -> Points:
+def _refined(a: Side, b: Side, points: Manifold, smaller: float) -> Manifold:
     """Replace a portal-refinement answer, whose normal may be 30 degrees off, by that of the signed distance."""
     distance, p, q = distance_of(a.fcl(), b.fcl(), signed=True)
     length = float(np.sqrt(((p - q) ** 2).sum()))
@@ -261,7 +255,7 @@ def _refined(a: Side, b: Side, points: Points, smaller: float) -> Points:
     return points
 
 
-def _on_plane(plane: Side, other: Side, reach: float) -> Points:
+def _on_plane(plane: Side, other: Side, reach: float) -> Manifold:
     """Measure against a half space moved out by ``reach``, then complete the manifold from the shape's corners."""
     shape = plane.shape
     assert isinstance(shape, Plane)
@@ -281,7 +275,7 @@ def _on_plane(plane: Side, other: Side, reach: float) -> Points:
     return reduce_points(under_plane(placed, radius, normal, origin, reach))
 
 
-def _on_mesh(mesh: Side, other: Side, reach: float) -> Points:
+def _on_mesh(mesh: Side, other: Side, reach: float) -> Manifold:
     """Measure against a triangle mesh; balls are grown so that they are seen before they touch."""
     grown = reach if isinstance(other.shape, BALLS) else 0.0
     points = collide(mesh.fcl(), other.fcl(grown))

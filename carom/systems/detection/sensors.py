@@ -12,7 +12,7 @@ from carom.ecs.relations.enter import Enter, Inside
 from carom.systems.settings import Settings
 
 if TYPE_CHECKING:
-    from carom.systems.detection.contacts import Found
+    from carom.systems.detection.narrow import Found
 
 
 def sense(world: World, found: Found) -> Found:

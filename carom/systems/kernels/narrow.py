@@ -1,9 +1,11 @@
-"""Narrow phase of balls in closed form."""
+"""Narrow phase: pairs sorted by what measures them, and their points put in order."""
 
 from __future__ import annotations
 
+import numpy as np
+
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.balls import BALL, BOX, HALF_SPACE, gap_of_ball
+from carom.systems.kernels.balls import BALL, BOX, HALF_SPACE
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.spatial import turn
 from carom.systems.shapes.box import Box
@@ -25,51 +27,61 @@ def reach_of_pairs(pairs, body_row, reach, reaches):
                 reaches[p] += reach[body]
 
 
-@kernel("answered", "found_a", "found_b", "normal", "depth", "point")
-def measure_balls(
-    pairs, reaches, shape, size, pose_position, pose_rotation, answered, found_a, found_b, normal, depth, point
-):
-    """Measure the pairs that have a closed form and return (how many those were, how many are within reach).
+@kernel("order", "first", "second", "starts")
+def sort_by_function(pairs, shape, function_of, swaps, order, first, second, starts):
+    """Sort pairs by the number of the function that measures them, keeping their order otherwise.
 
-    These are ball or point against ball, point, box and half space. They are marked in ``answered``; those within reach
-    are written one after another.
+    ``order[k]`` is a pair and ``first[k]``, ``second[k]`` its collider rows as the function takes them; those of
+    function f are at ``starts[f]`` to ``starts[f + 1]``. Shapes beyond the table have function 0.
     """
-    answers, count = 0, 0
+    size = len(function_of)
     for p in range(len(pairs)):
-        answered[p] = False
+        one, other = shape[pairs[p, 0]], shape[pairs[p, 1]]
+        function = function_of[one, other] if one < size and other < size else 0
+        starts[function + 1] += 1
+    for function in range(1, len(starts)):
+        starts[function] += starts[function - 1]
+    for p in range(len(pairs) - 1, -1, -1):  # backwards, so that the ends counted down become the starts
         a, b = pairs[p, 0], pairs[p, 1]
-        sign = 1.0
-        i, o = a, b
-        if shape[i] != SPHERE_SHAPE and shape[i] != POINT_SHAPE:
-            i, o, sign = b, a, -1.0
-        if shape[i] != SPHERE_SHAPE and shape[i] != POINT_SHAPE:
-            continue
-        kind, ex, ey, ez = kind_and_extent(
-            shape[o], size[o, 0], size[o, 1], size[o, 2],
-            pose_rotation[o, 0], pose_rotation[o, 1], pose_rotation[o, 2], pose_rotation[o, 3],
-        )  # fmt: skip
-        if kind < 0:
-            continue
-        ox, oy, oz = pose_position[o, 0], pose_position[o, 1], pose_position[o, 2]
-        if kind == HALF_SPACE:
-            ox, oy, oz = ox + size[o, 3] * ex, oy + size[o, 3] * ey, oz + size[o, 3] * ez
-        radius = size[i, 0]
-        gap, nx, ny, nz = gap_of_ball(
-            kind, pose_position[i, 0], pose_position[i, 1], pose_position[i, 2], radius, ox, oy, oz,
-            pose_rotation[o, 0], pose_rotation[o, 1], pose_rotation[o, 2], pose_rotation[o, 3], ex, ey, ez,
-        )  # fmt: skip
-        answered[p] = True
-        answers += 1
-        if gap > reaches[p]:
-            continue
-        lever = radius + 0.5 * gap
-        found_a[count], found_b[count], depth[count] = a, b, -gap
-        normal[count, 0], normal[count, 1], normal[count, 2] = -sign * nx, -sign * ny, -sign * nz
-        point[count, 0] = pose_position[i, 0] - lever * nx
-        point[count, 1] = pose_position[i, 1] - lever * ny
-        point[count, 2] = pose_position[i, 2] - lever * nz
-        count += 1
-    return answers, count
+        one, other = shape[a], shape[b]
+        known = one < size and other < size
+        function = function_of[one, other] if known else 0
+        starts[function + 1] -= 1
+        k = starts[function + 1]
+        order[k] = p
+        swap = known and swaps[one, other]
+        first[k], second[k] = (b, a) if swap else (a, b)
+    for function in range(len(starts) - 1):
+        starts[function] = starts[function + 1]
+    starts[len(starts) - 1] = len(pairs)
+
+
+@kernel("row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl")
+def collect_points(
+    pairs, order, first, fcl_pairs, start, count, feature, normal, depth, point,
+    row_a, row_b, found_feature, found_normal, found_depth, found_point, by_fcl,
+):  # fmt: skip
+    """Put the points of all pairs in order of pair and feature, with normals from the lower row to the other."""
+    n = len(pairs)
+    sign, fcl = np.empty(n), np.zeros(n, np.bool_)
+    for k in range(n):
+        sign[order[k]] = 1.0 if first[k] == pairs[order[k], 0] else -1.0
+        fcl[order[k]] = k < fcl_pairs
+    at = 0
+    for p in range(n):
+        begin = at
+        for source in range(start[p], start[p] + count[p]):
+            c = at
+            while c > begin and found_feature[c - 1] > feature[source]:  # few: sorted as they come
+                found_feature[c], found_depth[c] = found_feature[c - 1], found_depth[c - 1]
+                for d in range(3):
+                    found_normal[c, d], found_point[c, d] = found_normal[c - 1, d], found_point[c - 1, d]
+                c -= 1
+            found_feature[c], found_depth[c] = feature[source], depth[source]
+            for d in range(3):
+                found_normal[c, d], found_point[c, d] = sign[p] * normal[source, d], point[source, d]
+            row_a[at], row_b[at], by_fcl[at] = pairs[p, 0], pairs[p, 1], fcl[p]
+            at += 1
 
 
 @inlined

@@ -1,0 +1,107 @@
+"""Narrow phase: one table from a pair of shapes to the function that measures it; FCL measures all other pairs."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from carom.ecs import Collider, ColliderPose, World
+from carom.ecs.column import Booleans, Floats, Integers
+from carom.systems.detection.answered import Answered
+from carom.systems.detection.fcl_pairs import measure_by_fcl
+from carom.systems.kernels.balls_narrow import measure_balls
+from carom.systems.kernels.kernel import Kernel
+from carom.systems.kernels.narrow import collect_points, sort_by_function
+from carom.systems.settings import Settings
+from carom.systems.shapes.box import Box
+from carom.systems.shapes.plane import Plane
+from carom.systems.shapes.point import Point
+from carom.systems.shapes.shape import Shape
+from carom.systems.shapes.sphere import Sphere
+
+MOST_POINTS = 4  # of a pair
+BY_FCL = 0  # the place in the table of what no function stands in for
+
+#: Which function measures a pair; it takes the collider of the first shape first.
+STAND_INS: dict[tuple[type[Shape], type[Shape]], Kernel] = {
+    (ball, other): measure_balls for ball in (Sphere, Point) for other in (Sphere, Point, Box, Plane)
+}
+
+
+class Found(NamedTuple):
+    """Contact points in order of (row a, row b, feature)."""
+
+    row_a: Integers
+    row_b: Integers
+    feature: Integers
+    normal: Floats
+    depth: Floats
+    point: Floats
+    by_fcl: Booleans
+
+    def take(self, which: Any) -> Found:
+        """Return some of the contacts."""
+        return Found(*(column[which] for column in self))
+
+
+class Points:
+    """Room for the points of all pairs, in the order in which they were measured.
+
+    The points of pair p are ``count[p]`` rows from ``start[p]`` on; normals point from the collider measured first.
+    """
+
+    def __init__(self, pairs: int) -> None:
+        room = MOST_POINTS * pairs
+        self.start, self.count = np.zeros(pairs, np.int64), np.zeros(pairs, np.int64)
+        self.feature, self.depth = np.empty(room, np.int64), np.empty(room)
+        self.normal, self.point = np.empty((room, 3)), np.empty((room, 3))
+
+
+def _as_arrays() -> tuple[list[Kernel], Integers, Booleans]:
+    """Return the table by shape numbers: the functions, which of them measures a pair, and whether it swaps sides."""
+    functions = list(dict.fromkeys(STAND_INS.values()))
+    size = 1 + max(shape.number for pair in STAND_INS for shape in pair)
+    function_of, swaps = np.full((size, size), BY_FCL), np.zeros((size, size), np.bool_)
+    for (one, other), function in STAND_INS.items():
+        function_of[one.number, other.number] = 1 + functions.index(function)
+        if (other, one) not in STAND_INS:
+            function_of[other.number, one.number] = 1 + functions.index(function)
+            swaps[other.number, one.number] = True
+    return functions, function_of, swaps
+
+
+FUNCTIONS, FUNCTION_OF, SWAPS = _as_arrays()
+NO_STAND_INS = np.full((1, 1), BY_FCL)
+
+
+def measure_pairs(world: World, pairs: Integers, reaches: Floats) -> Found:
+    """Return the contact points of ``pairs`` (n, 2) of collider rows that are nearer than their ``reaches`` (n,), m."""
+    collider, pose, answered = world[Collider], world[ColliderPose], world[Answered]
+    n = len(pairs)
+    points = Points(n)
+    order, first, second = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n, np.int64)
+    starts = np.zeros(len(FUNCTIONS) + 2, np.int64)
+    table = FUNCTION_OF if world[Settings].collision == "auto" else NO_STAND_INS
+    sort_by_function(pairs, collider.shape, table, SWAPS, order, first, second, starts)
+    by_fcl = int(starts[1])
+    answered.fcl += by_fcl
+    answered.kernels += n - by_fcl
+    taken = measure_by_fcl(world, order[:by_fcl], pairs, reaches, points) if by_fcl else 0
+    for number, function in enumerate(FUNCTIONS, 1):
+        bucket = slice(starts[number], starts[number + 1])
+        if bucket.stop > bucket.start:
+            taken = function(
+                order[bucket], first[bucket], second[bucket], reaches, taken,
+                collider.shape, collider.size, pose.position, pose.rotation,
+                points.start, points.count, points.feature, points.normal, points.depth, points.point,
+            )  # fmt: skip
+    found = Found(
+        np.empty(taken, np.int64), np.empty(taken, np.int64), np.empty(taken, np.int64),
+        np.empty((taken, 3)), np.empty(taken), np.empty((taken, 3)), np.empty(taken, np.bool_),
+    )  # fmt: skip
+    collect_points(
+        pairs, order, first, by_fcl, points.start, points.count,
+        points.feature, points.normal, points.depth, points.point, *found,
+    )  # fmt: skip
+    return found

@@ -1,0 +1,45 @@
+"""Narrow phase of balls and points against balls, points, boxes and half spaces, in closed form."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.kernels.balls import HALF_SPACE, gap_of_ball
+from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.narrow import kind_and_extent
+
+
+@kernel("start", "count", "feature", "normal", "depth", "point")
+def measure_balls(
+    which, first, second, reaches, taken, shape, size, position, rotation,
+    start, count, feature, normal, depth, point,
+):  # fmt: skip
+    """Measure pairs whose first collider is a ball or point; return how many points are taken now.
+
+    Every function of the narrow phase has this form: pair ``which[k]`` has the collider rows ``first[k]`` and
+    ``second[k]``; its points are written from ``taken`` on where they are nearer than ``reaches[which[k]]``.
+    """
+    for k in range(len(which)):
+        p, i, o = which[k], first[k], second[k]
+        kind, ex, ey, ez = kind_and_extent(
+            shape[o], size[o, 0], size[o, 1], size[o, 2],
+            rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3],
+        )  # fmt: skip
+        ox, oy, oz = position[o, 0], position[o, 1], position[o, 2]
+        if kind == HALF_SPACE:
+            ox, oy, oz = ox + size[o, 3] * ex, oy + size[o, 3] * ey, oz + size[o, 3] * ez
+        radius = size[i, 0]
+        gap, nx, ny, nz = gap_of_ball(
+            kind, position[i, 0], position[i, 1], position[i, 2], radius, ox, oy, oz,
+            rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3], ex, ey, ez,
+        )  # fmt: skip
+        start[p] = taken
+        if gap > reaches[p]:
+            continue
+        lever = radius + 0.5 * gap
+        count[p], feature[taken], depth[taken] = 1, 0, -gap
+        normal[taken, 0], normal[taken, 1], normal[taken, 2] = -nx, -ny, -nz
+        point[taken, 0] = position[i, 0] - lever * nx
+        point[taken, 1] = position[i, 1] - lever * ny
+        point[taken, 2] = position[i, 2] - lever * nz
+        taken += 1
+    return taken
