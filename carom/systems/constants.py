@@ -61,3 +61,21 @@ NO_AREA = 1e-10
 # Most triangles of a mesh or height field. Reading, joining and weighing one takes 6 to 11 us for each, and FCL 10 us
 # more to build its tree: this many load in 20 s. Larger ones look like a program that hangs.
 MOST_TRIANGLES = 1_000_000
+
+# m. A manifold keeps to a face, an axis, a corner or a point of its own unless another one is better by more than this.
+# Larger: depths are wrong by as much. Smaller than what rounding and the solver leave: manifolds flicker.
+BIAS = 1e-6
+
+# Cosine of 0.36 degrees. A face that is so near to the direction that parts a pair stands for it, with all its points.
+# Further from 1: normals are wrong by more than half a degree. Nearer: what lands almost flat rocks on single points.
+FACE_CONE = 0.99998
+
+# m. Distance below which the two nearest points of a pair give no direction; 1e-16 / 1e-9 is how wrong it may be.
+LEAST_PART = 1e-9
+
+# Squared sine of an angle below which two edges have no common normal of their own: other axes are as good to 1e-7 m.
+PARALLEL_EDGES = 1e-14
+
+# Squared sine of 5.7 degrees, up to which two capsules may lie along each other and have two points. Larger is of no
+# use: the points are taken only if they are as deep as the nearest ones, to BIAS.
+ALONG = 0.01

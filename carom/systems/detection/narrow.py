@@ -11,10 +11,15 @@ from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.fcl_pairs import measure_by_fcl
 from carom.systems.kernels.balls_narrow import measure_balls
+from carom.systems.kernels.boxes_narrow import measure_boxes
+from carom.systems.kernels.capsules_narrow import measure_balls_on_capsules, measure_capsules
+from carom.systems.kernels.capsules_on_boxes import measure_capsules_on_boxes
 from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.narrow import collect_points, sort_by_function
+from carom.systems.kernels.planes_narrow import measure_boxes_on_planes, measure_capsules_on_planes
 from carom.systems.settings import Settings
 from carom.systems.shapes.box import Box
+from carom.systems.shapes.capsule import Capsule
 from carom.systems.shapes.plane import Plane
 from carom.systems.shapes.point import Point
 from carom.systems.shapes.shape import Shape
@@ -25,7 +30,13 @@ BY_FCL = 0  # the place in the table of what no function stands in for
 
 #: Which function measures a pair; it takes the collider of the first shape first.
 STAND_INS: dict[tuple[type[Shape], type[Shape]], Kernel] = {
-    (ball, other): measure_balls for ball in (Sphere, Point) for other in (Sphere, Point, Box, Plane)
+    **{(ball, other): measure_balls for ball in (Sphere, Point) for other in (Sphere, Point, Box, Plane)},
+    **{(ball, Capsule): measure_balls_on_capsules for ball in (Sphere, Point)},
+    (Capsule, Capsule): measure_capsules,
+    (Capsule, Box): measure_capsules_on_boxes,
+    (Capsule, Plane): measure_capsules_on_planes,
+    (Box, Box): measure_boxes,
+    (Box, Plane): measure_boxes_on_planes,
 }
 
 

@@ -40,6 +40,11 @@ def inlined(function: Callable[..., Any]) -> Any:
     return compiled(function, no_cpython_wrapper=True)
 
 
+def woven(function: Callable[..., Any]) -> Any:
+    """Compile a function into each of its callers, where handing over its arrays would cost more than a tenth of it."""
+    return compiled(function, no_cpython_wrapper=True, forceinline=True)
+
+
 class Kernel:
     """A compiled function of one specialisation, that names the arguments it writes.
 
