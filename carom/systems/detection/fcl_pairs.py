@@ -234,7 +234,7 @@ def _touching(a: Side, b: Side) -> Manifold:
     return _parted(a, b, push * (APART / length))
 
 
-def _parted(a: Side, b: Side, push: Floats) -> Points:
+def _parted(a: Side, b: Side, push: Floats) -> Manifold:
     """Measure a pair that overlaps by its nearest points once the second is moved by ``push`` (m) away from it."""
     moved = b.fcl()
     moved.setTranslation(b.position + push)
