@@ -12,15 +12,55 @@ HEAVY = ("hold", "drift", "settle")
 def warm() -> None:
     """Compile what is not yet in the cache."""
     with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as pool:
-        list(pool.map(compile_systems, (True, False)))
+        tasks = [
+            pool.submit(compile_systems, True),
+            pool.submit(compile_systems, False),
+            pool.submit(compile_stand_ins),
+        ]
+        for task in tasks:
+            task.result()
+
+
+def look_for_no_vectors() -> None:
+    """Tell Numba that kernels are scalar code: looking for vectors finds none and takes a tenth of the time."""
+    import numba
+
+    numba.config.LOOP_VECTORIZE = numba.config.SLP_VECTORIZE = 0
+
+
+def compile_stand_ins() -> None:
+    """Measure pairs of every shape that has kernels."""
+    look_for_no_vectors()
+
+    import numpy as np
+
+    from carom.ecs import Collider
+    from carom.systems.detection.narrow import measure_pairs
+    from carom.systems.shapes.geometry import hull_of
+    from carom.systems.shapes.mesh import Mesh
+    from carom.systems.simulation import Simulation
+
+    solid = hull_of(np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]))
+    shapes = (
+        {"box": {"size": (1.0, 1.0, 1.0)}},
+        {"capsule": {"radius": 0.5, "length": 1.0}},
+        {"convex": {"points": solid.vertices}},
+    )
+    simulation = Simulation(checked=False)
+    simulation.add(collider={"plane": {}})
+    simulation.add(collider={"shape": Mesh(solid)})
+    for collider in ({"sphere": {"radius": 0.5}}, *shapes, *shapes):
+        simulation.add(collider=collider, body={"mass": 1.0})
+    world = simulation.world
+    rows = world.row_numbers(Collider)
+    pairs = np.array([(a, b) for a in rows for b in rows if a < b and b > 1])
+    with world.faces(None):
+        measure_pairs(world, pairs, np.ones(len(pairs)))
 
 
 def compile_systems(heavy: bool) -> None:
     """Run the heavy systems of the step, or all others, once on a world that makes each call its kernels."""
-    import numba
-
-    # The kernels are scalar code: looking for vectors in it finds none and takes a tenth of the time.
-    numba.config.LOOP_VECTORIZE = numba.config.SLP_VECTORIZE = 0
+    look_for_no_vectors()
 
     from carom.ecs.relations.contact import Contact
     from carom.systems.progress import Progress
