@@ -15,6 +15,7 @@ from carom.ecs.relations.impact import Impact
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.detection.hulls import PackedHulls
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly
 from carom.systems.kernels.resting import hold_contacts
 from carom.systems.kernels.settling import finish_drift
@@ -82,7 +83,20 @@ def log_blows(world: World) -> None:
 
 @system(
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress),
-    writes=(Transform, Motion, Flight, Contact, Impact, ColliderPose, Enter, Inside, Answered, FclObjects, Commands),
+    writes=(
+        Transform,
+        Motion,
+        Flight,
+        Contact,
+        Impact,
+        ColliderPose,
+        Enter,
+        Inside,
+        Answered,
+        FclObjects,
+        PackedHulls,
+        Commands,
+    ),
 )
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""

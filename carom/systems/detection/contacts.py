@@ -13,6 +13,7 @@ from carom.ecs.relations.enter import Enter, Inside
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.detection.sensors import sense
 from carom.systems.kernels.broad import sweep_bounds
@@ -25,7 +26,7 @@ from carom.systems.shapes.plane import Plane
 
 @system(
     reads=(Transform, Motion, RigidBody, Collider, Material, Settings, Geometries),
-    writes=(ColliderPose, Contact, Enter, Inside, Answered, Flight, FclObjects, Commands),
+    writes=(ColliderPose, Contact, Enter, Inside, Answered, Flight, FclObjects, PackedHulls, Commands),
 )
 def find_contacts(world: World, dt: float) -> None:
     """Fill the contact table with every pair that touches or may touch within the step; tell who entered sensors."""

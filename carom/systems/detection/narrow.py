@@ -10,16 +10,19 @@ from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.fcl_pairs import measure_by_fcl
+from carom.systems.detection.hulls import PackedHulls
 from carom.systems.kernels.balls_narrow import measure_balls
 from carom.systems.kernels.boxes_narrow import measure_boxes
 from carom.systems.kernels.capsules_narrow import measure_balls_on_capsules, measure_capsules
 from carom.systems.kernels.capsules_on_boxes import measure_capsules_on_boxes
+from carom.systems.kernels.hulls_narrow import measure_hulls, measure_hulls_on_planes
 from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.narrow import collect_points, sort_by_function
 from carom.systems.kernels.planes_narrow import measure_boxes_on_planes, measure_capsules_on_planes
 from carom.systems.settings import Settings
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
+from carom.systems.shapes.convex import Convex
 from carom.systems.shapes.plane import Plane
 from carom.systems.shapes.point import Point
 from carom.systems.shapes.shape import Shape
@@ -37,6 +40,8 @@ STAND_INS: dict[tuple[type[Shape], type[Shape]], Kernel] = {
     (Capsule, Plane): measure_capsules_on_planes,
     (Box, Box): measure_boxes,
     (Box, Plane): measure_boxes_on_planes,
+    **{(other, Convex): measure_hulls for other in (Sphere, Point, Capsule, Box, Convex)},
+    (Convex, Plane): measure_hulls_on_planes,
 }
 
 
@@ -99,12 +104,13 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats) -> Found:
     answered.fcl += by_fcl
     answered.kernels += n - by_fcl
     taken = measure_by_fcl(world, order[:by_fcl], pairs, reaches, points) if by_fcl else 0
+    hulls = world[PackedHulls].holding(world)
     for number, function in enumerate(FUNCTIONS, 1):
         bucket = slice(starts[number], starts[number + 1])
         if bucket.stop > bucket.start:
             taken = function(
                 order[bucket], first[bucket], second[bucket], reaches, taken,
-                collider.shape, collider.size, pose.position, pose.rotation,
+                collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls,
                 points.start, points.count, points.feature, points.normal, points.depth, points.point,
             )  # fmt: skip
     found = Found(

@@ -1,0 +1,70 @@
+"""Which points stand for a contact area, and writing them down."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import FLICKER
+from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.spatial import cross
+
+MOST = 4
+
+
+@inlined
+def reduce_area(place, gaps, names, count, nx, ny, nz):
+    """Keep at most four points that span the area, moved to the front: deepest, farthest from it, widest either side.
+
+    Of points equal within FLICKER the first is taken, so that noise does not change the choice. ``place`` holds three
+    numbers a point.
+    """
+    if count <= MOST:
+        return count
+    deepest = 0
+    for k in range(1, count):
+        if gaps[k] < gaps[deepest] - FLICKER:
+            deepest = k
+    ox, oy, oz = place[3 * deepest], place[3 * deepest + 1], place[3 * deepest + 2]
+    farthest, most = deepest, 0.0
+    for k in range(count):
+        x, y, z = place[3 * k] - ox, place[3 * k + 1] - oy, place[3 * k + 2] - oz
+        squared = x * x + y * y + z * z
+        if squared > most * (1.0 + FLICKER):
+            farthest, most = k, squared
+    ux, uy, uz = place[3 * farthest] - ox, place[3 * farthest + 1] - oy, place[3 * farthest + 2] - oz
+    sx, sy, sz = cross(nx, ny, nz, ux, uy, uz)
+    left, right, widest, least = -1, -1, FLICKER * most, -FLICKER * most
+    for k in range(count):
+        side = sx * (place[3 * k] - ox) + sy * (place[3 * k + 1] - oy) + sz * (place[3 * k + 2] - oz)
+        if side > widest:
+            left, widest = k, side * (1.0 + FLICKER)
+        if side < least:
+            right, least = k, side * (1.0 + FLICKER)
+    kept = 0
+    for k in range(count):
+        if k in (deepest, farthest, left, right):
+            gaps[kept], names[kept] = gaps[k], names[k]
+            for d in range(3):
+                place[3 * kept + d] = place[3 * k + d]
+            kept += 1
+    return kept
+
+
+@inlined
+def write_points(
+    place, gaps, names, count, x, y, z, nx, ny, nz, side, radius, other_radius,
+    taken, feature, normal, depth, point,
+):  # fmt: skip
+    """Write points of the first core, counted from x, and their gaps to the second as contacts; return what is taken.
+
+    n points from first to second; ``side`` is -1 where the caller counts the two the other way round.
+    """
+    for k in range(count):
+        gap = gaps[k] - radius - other_radius
+        lever = radius + 0.5 * gap
+        feature[taken], depth[taken] = names[k], -gap
+        normal[taken, 0], normal[taken, 1], normal[taken, 2] = side * nx, side * ny, side * nz
+        point[taken, 0] = x + place[3 * k] + lever * nx
+        point[taken, 1] = y + place[3 * k + 1] + lever * ny
+        point[taken, 2] = z + place[3 * k + 2] + lever * nz
+        taken += 1
+    return taken
