@@ -31,7 +31,7 @@ def points_of_area(
         elif p == SEGMENT:
             reference = split + on_q
             corners = clip_segment(hulls, face_q, v, middle, -nx, -ny, -nz, polygon, tag)
-        elif cosine_p >= cosine_q:
+        elif cosine_p >= cosine_q - FLICKER:
             reference = on_p
             corners = write_loop(hulls, face_q, v, middle, labels_q, polygon, tag)
             corners = clip_loop(hulls, face_p, v, 0, labels_p, nx, ny, nz, polygon, tag, corners)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import OVER_EDGE
 from carom.systems.kernels.areas import points_of_area
 from carom.systems.kernels.distance import APART, FAR, distance_apart
 from carom.systems.kernels.kernel import inlined, kernel
@@ -27,13 +28,16 @@ def most_of(starts):
 def comes_first(p, i, q, j, position, rotation):
     """Tell whether polyhedron p at row i is measured before q at row j, whatever the caller's order.
 
-    Swapping the two then flips normals and changes no bit else.
+    Swapping the two then flips normals and changes no bit else. Axes along which they are level to OVER_EDGE are asked
+    last, so that a trembling pair keeps its order, which its features show.
     """
     if p != q:
         return p < q
-    for d in range(3):
-        if position[i, d] != position[j, d]:
-            return position[i, d] < position[j, d]
+    for least in (OVER_EDGE, 0.0):
+        for d in range(3):
+            apart = position[j, d] - position[i, d]
+            if abs(apart) > least:
+                return apart > 0.0
     for d in range(4):
         if rotation[i, d] != rotation[j, d]:
             return rotation[i, d] < rotation[j, d]
