@@ -9,6 +9,7 @@ import numpy as np
 from carom.ecs import Collider, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
+from carom.ecs.spatial.scalars import Vector
 from carom.systems.shapes.convex import Convex
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.polyhedron import Polyhedron, from_loops, hull_faces
@@ -36,6 +37,7 @@ class Hulls(NamedTuple):
     loop_start: Integers
     vertices: Floats
     normals: Floats
+    offsets: Floats  # of the outermost vertex of all along each normal
     loop_vertex: Integers
     loop_edge: Integers
     edges: Integers
@@ -80,6 +82,7 @@ def pack(polyhedra: dict[int, Polyhedron]) -> Hulls:
         _starts([len(loop) for loop in loops]),
         np.array([vertex for one in every for vertex in one.vertices]),
         np.array([normal for one in every for normal in one.normals]),
+        np.array([_outermost(one, normal) for one in every for normal in one.normals]),
         np.array([vertex for loop in loops for vertex in loop]),
         np.array(leaving),
         np.array([edge for one in every for edge in one.edges]),
@@ -88,3 +91,8 @@ def pack(polyhedra: dict[int, Polyhedron]) -> Hulls:
 
 def _starts(counts: list[int]) -> Integers:
     return np.concatenate([[0], np.cumsum(counts)])
+
+
+def _outermost(one: Polyhedron, normal: Vector) -> float:
+    nx, ny, nz = normal
+    return max(nx * x + ny * y + nz * z for x, y, z in one.vertices)

@@ -85,10 +85,14 @@ def measure_hulls(
         state, gap, nx, ny, nz, px, py, pz = distance_apart(v, middle, end, reach, corner, name, weight)
         if state == FAR:
             continue
-        split = place_faces(hulls, p, rotation[a, 0], rotation[a, 1], rotation[a, 2], rotation[a, 3], v, 0, planes, 0)
+        split = place_faces(
+            hulls, p, ax, ay, az, 0.0, 0.0, 0.0,
+            rotation[a, 0], rotation[a, 1], rotation[a, 2], rotation[a, 3], planes, 0,
+        )  # fmt: skip
         every = place_faces(
-            hulls, q, rotation[b, 0], rotation[b, 1], rotation[b, 2], rotation[b, 3], v, middle, planes, split
-        )
+            hulls, q, bx, by, bz, position[b, 0] - x, position[b, 1] - y, position[b, 2] - z,
+            rotation[b, 0], rotation[b, 1], rotation[b, 2], rotation[b, 3], planes, split,
+        )  # fmt: skip
         edges_p, edges_q = hulls.edge_start[p], hulls.edge_start[q]
         if state != APART:
             gap, nx, ny, nz, px, py, pz = most_apart(

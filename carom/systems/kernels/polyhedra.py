@@ -39,18 +39,17 @@ def place_vertices(hulls, p, sx, sy, sz, x, y, z, qx, qy, qz, qw, v, at):
 
 
 @inlined
-def place_faces(hulls, p, qx, qy, qz, qw, v, begin, planes, at):
-    """Write the planes of polyhedron p, whose vertices are from ``begin`` on, from ``at`` on; return where they end.
+def place_faces(hulls, p, sx, sy, sz, x, y, z, qx, qy, qz, qw, planes, at):
+    """Write the planes of polyhedron p, scaled, turned and moved, from ``at`` on; return where they end.
 
-    The offset is that of the outermost vertex of the face. Only what is aligned with its axes may have been scaled.
+    Only what is aligned with its axes may be scaled: its normals stay, and its offsets grow with the axis.
     """
     for f in range(hulls.face_start[p], hulls.face_start[p + 1]):
-        x, y, z = turn(qx, qy, qz, qw, hulls.normals[f, 0], hulls.normals[f, 1], hulls.normals[f, 2])
-        offset = -1e300
-        for corner in range(hulls.loop_start[f], hulls.loop_start[f + 1]):
-            i = 3 * (begin + hulls.loop_vertex[corner])
-            offset = max(offset, x * v[i] + y * v[i + 1] + z * v[i + 2])
-        planes[4 * at], planes[4 * at + 1], planes[4 * at + 2], planes[4 * at + 3] = x, y, z, offset
+        lx, ly, lz = hulls.normals[f, 0], hulls.normals[f, 1], hulls.normals[f, 2]
+        nx, ny, nz = turn(qx, qy, qz, qw, lx, ly, lz)
+        offset = hulls.offsets[f] * (lx * lx * sx + ly * ly * sy + lz * lz * sz)
+        planes[4 * at], planes[4 * at + 1], planes[4 * at + 2] = nx, ny, nz
+        planes[4 * at + 3] = offset + nx * x + ny * y + nz * z
         at += 1
     return at
 

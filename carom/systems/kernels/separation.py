@@ -21,11 +21,21 @@ def most_apart(v, planes, middle, end, faces, all_faces, edges, a_edges, a_edges
     """
     gap = -1e300
     nx, ny, nz, px, py, pz = 0.0, 1.0, 0.0, 0.0, 0.0, 0.0
+    lowest, highest = middle, 0  # vertices of the second and first that are likely to be deep in the other
     for face in range(all_faces):
-        x, y, z = planes[4 * face], planes[4 * face + 1], planes[4 * face + 2]
-        begin, stop = (middle, end) if face < faces else (0, middle)
-        k, back = outermost(v, begin, stop, -x, -y, -z)
-        apart = -back - planes[4 * face + 3]
+        x, y, z, offset = planes[4 * face], planes[4 * face + 1], planes[4 * face + 2], planes[4 * face + 3]
+        k, begin, stop = (lowest, middle, end) if face < faces else (highest, 0, middle)
+        apart = x * v[3 * k] + y * v[3 * k + 1] + z * v[3 * k + 2] - offset
+        for i in range(begin, stop):
+            if apart <= gap:  # this vertex is as deep already as all are along the best axis
+                break
+            here = x * v[3 * i] + y * v[3 * i + 1] + z * v[3 * i + 2] - offset
+            if here < apart:
+                k, apart = i, here
+        if face < faces:
+            lowest = k
+        else:
+            highest = k
         if apart <= gap:
             continue
         gap = apart
