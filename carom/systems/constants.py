@@ -80,10 +80,6 @@ PARALLEL_EDGES = 1e-14
 # use: the points are taken only if they are as deep as the nearest ones, to BIAS.
 ALONG = 0.01
 
-# m. Between convex bodies: what may tip the choice of a contact's axis or points. Smaller: noise in poses makes
-# manifolds flicker. Larger: depths are wrong by as much.
-FLICKER = 1e-6
-
 # m. How far beyond a face's edge the other body's corners still count as over it, so that bodies stacked edge on edge
 # keep their corners. Larger: points hang in the air; smaller: noise in poses swaps corners for crossings of edges.
 OVER_EDGE = 1e-5
@@ -91,9 +87,6 @@ OVER_EDGE = 1e-5
 # Cosine of 5.7 degrees: a contact whose normal is nearer than this to that of a face is that of the face's area, else
 # one point. Beyond it the points of an area only press when the bodies are about to turn by as much.
 FLAT_COSINE = 0.995
-
-# Sine below which two edges are parallel and span no axis; the faces beside them do.
-PARALLEL = 1e-7
 
 # m. Polyhedra nearer than this are parted along their faces' and edges' normals; their distance has no direction that
 # rounding leaves alone.

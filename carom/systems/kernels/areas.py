@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FLAT_COSINE, FLICKER
+from carom.systems.constants import BIAS, FLAT_COSINE
 from carom.systems.kernels.clipping import clip_loop, clip_segment, write_loop
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.polyhedra import POINT, SEGMENT, face_towards
@@ -31,7 +31,7 @@ def points_of_area(
         elif p == SEGMENT:
             reference = split + on_q
             corners = clip_segment(hulls, face_q, v, middle, -nx, -ny, -nz, polygon, tag)
-        elif cosine_p >= cosine_q - FLICKER:
+        elif cosine_p >= cosine_q - BIAS:
             reference = on_p
             corners = write_loop(hulls, face_q, v, middle, labels_q, polygon, tag)
             corners = clip_loop(hulls, face_p, v, 0, labels_p, nx, ny, nz, polygon, tag, corners)
@@ -55,7 +55,7 @@ def points_of_area(
         place[3 * found + 2] = polygon[i + 2] - back * nz
         least = min(least, gaps[found])
         found += 1
-    if least > gap + 2.0 * FLICKER:
+    if least > gap + 2.0 * BIAS:
         gaps[found], names[found] = gap, 0
         place[3 * found], place[3 * found + 1], place[3 * found + 2] = px, py, pz
         found += 1

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FLICKER
+from carom.systems.constants import BIAS
 from carom.systems.kernels.distance import outermost
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.narrow import BOX_SHAPE, POINT_SHAPE, SPHERE_SHAPE
@@ -70,7 +70,7 @@ def face_towards(hulls, p, v, begin, end, planes, faces, x, y, z):
             continue
         for corner in range(hulls.loop_start[first + f], hulls.loop_start[first + f + 1]):
             i = 3 * (begin + hulls.loop_vertex[corner])
-            if v[i] * x + v[i + 1] * y + v[i + 2] * z >= most - FLICKER:
+            if v[i] * x + v[i + 1] * y + v[i + 2] * z >= most - BIAS:
                 best, cosine = f, turned
                 break
     return best, cosine

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FLICKER, PARALLEL
+from carom.systems.constants import BIAS, PARALLEL_EDGES
 from carom.systems.kernels.distance import outermost
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.spatial import cross
@@ -15,7 +15,7 @@ from carom.systems.kernels.spatial import cross
 def most_apart(v, planes, middle, end, faces, all_faces, edges, a_edges, a_edges_end, b_edges, b_edges_end, near):
     """Return (gap, unit normal, point of the first) along the axis that parts two polyhedra most; a gap < 0 overlaps.
 
-    Axes are the faces' normals and, where it is less deep by FLICKER, the normals of pairs of edges that are on the
+    Axes are the faces' normals and, where it is less deep by BIAS, the normals of pairs of edges that are on the
     surface of the Minkowski difference, which their arcs on the Gauss map tell (Gregorius, The Separating Axis Test,
     GDC 2013). The first may be a point or a segment. ``planes`` holds four numbers per face: normal, offset.
     """
@@ -55,7 +55,7 @@ def most_apart(v, planes, middle, end, faces, all_faces, edges, a_edges, a_edges
         if least <= front + slack:
             near[count] = e
             count += 1
-    fx, fy, fz, least_gap = nx, ny, nz, gap + FLICKER
+    fx, fy, fz, least_gap = nx, ny, nz, gap + BIAS
     for e in range(a_edges, a_edges_end):
         i, j = 3 * edges[e, 0], 3 * edges[e, 1]
         ax, ay, az, ux, uy, uz = v[i], v[i + 1], v[i + 2], v[j] - v[i], v[j + 1] - v[i + 1], v[j + 2] - v[i + 2]
@@ -83,7 +83,7 @@ def most_apart(v, planes, middle, end, faces, all_faces, edges, a_edges, a_edges
                     continue
             x, y, z = cross(ux, uy, uz, wx, wy, wz)
             squared = x * x + y * y + z * z
-            if squared <= PARALLEL * PARALLEL * length * (wx * wx + wy * wy + wz * wz):
+            if squared <= PARALLEL_EDGES * length * (wx * wx + wy * wy + wz * wz):
                 continue
             ox, oy, oz = cross(wx, wy, wz, mx - planes[g], my - planes[g + 1], mz - planes[g + 2])
             scale = 1.0 / sqrt(squared)

@@ -11,10 +11,13 @@ import numpy as np
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.spatial import quaternion
+from carom.systems.detection.hulls import pack
 from carom.systems.detection.narrow import MOST_POINTS, STAND_INS
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
+from carom.systems.shapes.convex import Convex
 from carom.systems.shapes.orientation import Z_TO_Y, wxyz_from_xyzw
+from carom.systems.shapes.polyhedron import hull_faces
 from carom.systems.shapes.shape import Shape
 from carom.systems.shapes.sphere import Sphere
 from carom.tools.bench.measure import Figure, timed
@@ -39,14 +42,18 @@ def figures() -> Iterator[Figure]:
     """Yield how many times faster each kernel is; FCL's call counts alone, with its result, not what reads it."""
     for name, (a, b) in PAIRS.items():
         position, rotation = stacked(a, b) if name == MANIFOLD else touching(a, b)
-        by_kernel, by_fcl = kernel_call(a, b, position, rotation)[0], fcl_call(a, b, position, rotation)
-        ratios = []
-        for _ in range(REPEATS):
-            theirs, ours = timed(by_fcl, 1), timed(by_kernel, CALLS)
-            ratios.append((theirs.wall / ours.wall, theirs.cpu / ours.cpu))
-        wall, cpu = (median(column) for column in zip(*ratios, strict=True))
-        bound = BOUNDS.get(name, 30.0)
-        yield Figure(f"{name}, {POSES} touching", "x faster than FCL", wall, cpu, bound, "cpu", True, REPEATS)
+        yield compared(f"{name}, {POSES} touching", a, b, position, rotation, BOUNDS.get(name, 30.0))
+
+
+def compared(name: str, a: Shape, b: Shape, position: Floats, rotation: Floats, bound: float) -> Figure:
+    """Time both sides over the same poses, in alternation."""
+    by_kernel, by_fcl = kernel_call(a, b, position, rotation)[0], fcl_call(a, b, position, rotation)
+    ratios = []
+    for _ in range(REPEATS):
+        theirs, ours = timed(by_fcl, 1), timed(by_kernel, CALLS)
+        ratios.append((theirs.wall / ours.wall, theirs.cpu / ours.cpu))
+    wall, cpu = (median(column) for column in zip(*ratios, strict=True))
+    return Figure(name, "x faster than FCL", wall, cpu, bound, "cpu", True, REPEATS)
 
 
 def stacked(a: Shape, b: Shape) -> tuple[Floats, Floats]:
@@ -84,9 +91,11 @@ def kernel_call(a: Shape, b: Shape, position: Floats, rotation: Floats) -> tuple
     which, start, count = np.arange(n), np.zeros(n, np.int64), np.zeros(n, np.int64)
     room = MOST_POINTS * n
     feature, depth, normal, point = np.zeros(room, np.int64), np.zeros(room), np.zeros((room, 3)), np.zeros((room, 3))
+    hulls = [hull_faces(b.geometry)] if isinstance(b, Convex) else []
     inputs = (
         which, which, which + n, np.zeros(n), 0,
         shape, size.reshape(2 * n, -1), position.reshape(2 * n, 3), rotation.reshape(2 * n, 4),
+        np.zeros(2 * n, np.int64), pack(dict(enumerate(hulls))),
     )  # fmt: skip
     kernel = STAND_INS[type(a), type(b)]
     return lambda: kernel(*inputs, start, count, feature, normal, depth, point), count, depth
