@@ -7,6 +7,23 @@ REACH_SLACK = 5e-3
 # Factor on the motion foreseen within a step. Below 1 a falling body leaves its bounds in every step.
 REACH_FACTOR = 1.25
 
+# Part of a bound's smallest half extent by which the pair cache sees it wider. Larger: more pairs are kept in vain, as
+# the cube of it. Smaller: bodies leave their fat bounds sooner and are looked up anew.
+FAT = 0.05
+
+# Sizes that share a grid, as powers of two: within a factor of four. More: small bodies crowd in cells made for large
+# ones. Fewer: more bodies are in the tree, which is slower.
+SIZE_CLASS_OCTAVES = 2
+
+# Part by which a cell of the grid is larger than the largest bounds in it, and how many cells may be along an axis. The
+# rounding of a cell's number, a few times 2**-53 of it, must be less, or neighbours would be overlooked.
+CELL_SLACK = 2.0**-20
+MOST_CELLS_ALONG = 2.0**30
+
+# Part of all rows that may have left their place in grid and tree before both are built anew, which costs as much as
+# looking up about a fifth of the rows.
+MOST_ASTRAY = 0.125
+
 # m. A pair nearer than this, not parting and not closing fast, rests: contact and friction act on it as a constraint.
 # Larger: bodies are held before they touch. Smaller than what the solver leaves open: resting pairs fall apart.
 TOUCH = 1e-4

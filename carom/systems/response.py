@@ -13,6 +13,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Enter, Inside
 from carom.ecs.relations.impact import Impact
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.detection.hulls import PackedHulls
@@ -84,20 +85,10 @@ def log_blows(world: World) -> None:
 @system(
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress),
     writes=(
-        Transform,
-        Motion,
-        Flight,
-        Contact,
-        Impact,
-        ColliderPose,
-        Enter,
-        Inside,
-        Answered,
-        FclObjects,
-        PackedHulls,
-        Commands,
+        Transform, Motion, Flight, Contact, Impact, ColliderPose, Enter, Inside, Answered, BroadPhase, FclObjects,
+        PackedHulls, Commands,
     ),
-)
+)  # fmt: skip
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""
     contact = world[Contact]

@@ -29,6 +29,7 @@ from carom.systems.assembly import Materials, add_entities, add_entity
 from carom.systems.clock import Clock
 from carom.systems.compound import StatedBodies
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.finish import find_not_finite
@@ -63,7 +64,7 @@ class Simulation:
         self.clock = Clock()
         self._earlier = EarlierPoses()
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
-        for resource in (self.settings, *made, Progress(), Answered(), FclObjects(), PackedHulls()):
+        for resource in (self.settings, *made, Progress(), Answered(), BroadPhase(), FclObjects(), PackedHulls()):
             self.world.add(resource)
 
     # Building: the words are those of world files, numbers are SI.

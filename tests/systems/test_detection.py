@@ -19,7 +19,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.constants import IMPACTS_AT_LEAST, IMPACTS_PER_PAIR
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
-from carom.systems.detection.contacts import overlapping
+from carom.systems.detection.broad import overlapping
 from carom.systems.detection.narrow import measure_pairs
 from carom.systems.layers import Layers
 from carom.systems.simulation import Simulation

@@ -81,7 +81,7 @@ def test_the_benches_of_this_issue_are_there() -> None:
     """Each file of the registry is importable and has figures."""
     from importlib import import_module
 
-    assert {"start", "break", "ecs"} <= BENCHES.keys()
+    assert {"start", "break", "ecs", "detect"} <= BENCHES.keys()
     for module in BENCHES.values():
         assert callable(import_module(f"carom.tools.bench.{module}").figures)
 

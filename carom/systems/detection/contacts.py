@@ -5,28 +5,26 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, RigidBody, Transform, World, system
-from carom.ecs.column import Integers
 from carom.ecs.commands import Commands
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Enter, Inside
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
+from carom.systems.detection.broad import BroadPhase, overlapping
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.detection.sensors import sense
-from carom.systems.kernels.broad import sweep_bounds
 from carom.systems.kernels.contacts import complete_contacts, renew_contacts
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
-from carom.systems.shapes.plane import Plane
 
 
 @system(
     reads=(Transform, Motion, RigidBody, Collider, Material, Settings, Geometries),
-    writes=(ColliderPose, Contact, Enter, Inside, Answered, Flight, FclObjects, PackedHulls, Commands),
+    writes=(ColliderPose, Contact, Enter, Inside, Answered, Flight, BroadPhase, FclObjects, PackedHulls, Commands),
 )
 def find_contacts(world: World, dt: float) -> None:
     """Fill the contact table with every pair that touches or may touch within the step; tell who entered sensors."""
@@ -49,25 +47,6 @@ def detect(world: World) -> None:
     reaches = np.empty(len(pairs))
     reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
     store(world, sense(world, measure_pairs(world, pairs, reaches)))
-
-
-def overlapping(world: World) -> Integers:
-    """Return the pairs (n, 2) of collider rows whose bounds overlap, sorted."""
-    collider, pose = world[Collider], world[ColliderPose]
-    rows = world.row_numbers(Collider)
-    flat = collider.shape[rows] == Plane.number
-    finite = rows[~flat]
-    finite = finite[np.argsort(pose.lower[finite, 0], kind="stable")]
-    found: Integers = np.empty((8 * len(rows), 2), np.int64)
-    while True:
-        count = sweep_bounds(
-            finite, rows[flat], collider.size, pose.lower, pose.upper, pose.body_row,
-            collider.layer, collider.mask, collider.sensor, pose.position, pose.rotation, found,
-        )  # fmt: skip
-        if count <= len(found):
-            break
-        found = np.empty((count, 2), np.int64)
-    return found[np.argsort(found[:count, 0] * world.capacity + found[:count, 1])]
 
 
 def store(world: World, found: Found) -> None:

@@ -1,4 +1,4 @@
-"""Broad phase: where colliders are, how far they reach within the step, and which bounds overlap."""
+"""Broad phase: where colliders are, and how far they reach within the step."""
 
 from __future__ import annotations
 
@@ -72,52 +72,3 @@ def place_bounds(
         for k in range(3):
             lower[i, k] = position[i, k] + center[k] - half[k] - wide
             upper[i, k] = position[i, k] + center[k] + half[k] + wide
-
-
-@kernel("found")
-def sweep_bounds(
-    finite, planes, size, lower, upper, body_row, layer, mask, sensor, pose_position, pose_rotation, found
-):
-    """Write pairs of collider rows, lower first, whose bounds overlap and whose layers both accept; return their count.
-
-    Where the count exceeds the rows of ``found`` (n, 2), the caller must call again with more room.
-
-    ``finite`` are the rows with finite bounds in order of their lower x: sort and sweep. Half spaces are tested against
-    every box. Pairs without a moving body, within one body, or of two sensors are left out.
-    """
-    n = len(finite)
-    count = 0
-    for s in range(n + len(planes)):
-        i = finite[s] if s < n else planes[s - n]
-        nx, ny, nz = 0.0, 0.0, 0.0
-        if s >= n:
-            nx, ny, nz = turn(
-                pose_rotation[i, 0], pose_rotation[i, 1], pose_rotation[i, 2], pose_rotation[i, 3],
-                size[i, 0], size[i, 1], size[i, 2],
-            )  # fmt: skip
-        for t in range(s + 1 if s < n else 0, n):
-            j = finite[t]
-            if s < n:
-                if lower[j, 0] > upper[i, 0]:
-                    break
-                if (
-                    lower[j, 1] > upper[i, 1] or lower[i, 1] > upper[j, 1]
-                    or lower[j, 2] > upper[i, 2] or lower[i, 2] > upper[j, 2]
-                ):  # fmt: skip
-                    continue
-            else:
-                x = lower[j, 0] if nx > 0.0 else upper[j, 0]
-                y = lower[j, 1] if ny > 0.0 else upper[j, 1]
-                z = lower[j, 2] if nz > 0.0 else upper[j, 2]
-                x, y, z = x - pose_position[i, 0], y - pose_position[i, 1], z - pose_position[i, 2]
-                if nx * x + ny * y + nz * z > size[i, 3]:
-                    continue
-            if body_row[i] == body_row[j]:
-                continue
-            if (mask[i] & layer[j]) == 0 or (mask[j] & layer[i]) == 0 or (sensor[i] and sensor[j]):
-                continue
-            if count < len(found):
-                found[count, 0] = i if i < j else j
-                found[count, 1] = j if i < j else i
-            count += 1
-    return count

@@ -1,3 +1,8 @@
 """Benches, one file each: ``figures()`` yields what it measured, ``PEERS`` lists modules it compares with."""
 
-BENCHES = {"start": "starting", "break": "break_of_pool", "ecs": "table"}  # name on the command line: module
+BENCHES = {  # name on the command line: module
+    "start": "starting",
+    "break": "break_of_pool",
+    "ecs": "table",
+    "detect": "detect",
+}

@@ -1,0 +1,89 @@
+"""Broad phase: which colliders have bounds that overlap."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs import Collider, ColliderPose, World
+from carom.ecs.column import Integers
+from carom.ecs.component import Resource
+from carom.systems.constants import MOST_ASTRAY
+from carom.systems.detection.broad_index import Index
+from carom.systems.kernels.broad_cache import REBUILD, find_leavers, keep_overlapping
+from carom.systems.kernels.broad_pairs import renew_pairs
+
+
+def overlapping(world: World) -> Integers:
+    """Return the pairs (n, 2) of collider rows whose bounds overlap, lower row first, sorted.
+
+    One of a pair moves, each is on a layer that the other accepts, and they are of two bodies and not both sensors.
+    """
+    pairs = world[BroadPhase].renewed(world)
+    collider, pose = world[Collider], world[ColliderPose]
+    found: Integers = np.empty_like(pairs)
+    count = keep_overlapping(
+        pairs, collider.shape, collider.size, pose.position, pose.rotation, pose.lower, pose.upper, found
+    )
+    return found[:count]
+
+
+class BroadPhase(Resource):
+    """The pairs whose fat bounds overlap, found anew for those that left theirs; a cache, droppable at any time.
+
+    Rows are compared with what they were when they were looked up, so nobody has to tell it of a change.
+    """
+
+    def __init__(self) -> None:
+        self.pairs: Integers = np.empty((0, 2), np.int64)
+        self._make_room(0)
+        self.drop()
+
+    def drop(self) -> None:
+        """Forget everything; the next detection finds the same pairs from nothing."""
+        self.rows: Integers = np.empty(0, np.int64)
+
+    def _make_room(self, used: int) -> None:
+        self.fat_lower, self.fat_upper = np.zeros((used, 3)), np.zeros((used, 3))
+        self.known = np.zeros((used, 4), np.int64)  # row of the body, layer, mask; 1 for sensor + 2 for half space
+        self.seat = np.zeros((used, 11))  # of half spaces: position, rotation, size
+
+    def renewed(self, world: World) -> Integers:
+        """Return the pairs (n, 2) whose fat bounds overlap, sorted."""
+        rows = world.row_numbers(Collider)
+        if not np.array_equal(rows, self.rows):
+            if len(rows) and rows[-1] >= len(self.known):
+                self._make_room(world.capacity)
+            self.rows = rows.copy()
+            return self._found_anew(world)
+        leavers = self._leavers(world)
+        if leavers is None or len(leavers) + len(self.index.strays) > MOST_ASTRAY * len(rows):
+            return self._found_anew(world)
+        if len(leavers):
+            self._replace(world, leavers)
+        return self.pairs
+
+    def _replace(self, world: World, leavers: Integers) -> None:
+        """Look up only those that left their fat bounds."""
+        self.index.lead_astray(leavers)
+        new = self.index.pairs_of(world, leavers)
+        leaves = np.zeros(len(self.known), np.bool_)
+        leaves[leavers] = True
+        pairs: Integers = np.empty((len(self.pairs) + len(new), 2), np.int64)
+        self.pairs = pairs[: renew_pairs(self.pairs, new, leaves, pairs)]
+
+    def _found_anew(self, world: World) -> Integers:
+        self._leavers(world, anew=True)
+        self.index = Index(world, self.rows, self.fat_lower, self.fat_upper, self.known)
+        self.pairs = self.index.all_pairs(world)
+        return self.pairs
+
+    def _leavers(self, world: World, *, anew: bool = False) -> Integers | None:
+        """Give those new fat bounds who need them and return their rows; None where everyone is to be found anew."""
+        collider, pose = world[Collider], world[ColliderPose]
+        leavers: Integers = np.empty(len(self.rows), np.int64)
+        count = find_leavers(
+            anew, self.rows, collider.shape, collider.size, pose.body_row,
+            collider.layer, collider.mask, collider.sensor, pose.position, pose.rotation, pose.lower, pose.upper,
+            self.fat_lower, self.fat_upper, self.known, self.seat, leavers,
+        )  # fmt: skip
+        return None if count == REBUILD else leavers[:count]

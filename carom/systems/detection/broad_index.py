@@ -1,0 +1,133 @@
+"""Index: the grid and the tree in which the broad phase looks up neighbours."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from carom.ecs import Collider, ColliderPose, World
+from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.slots import as_rows
+from carom.systems.constants import CELL_SLACK, MOST_CELLS_ALONG, SIZE_CLASS_OCTAVES
+from carom.systems.kernels.broad_lookup import look_up
+from carom.systems.kernels.broad_pairs import order_pairs
+from carom.systems.kernels.grid import AGAINST_ALL, ASTRAY, IN_GRID, IN_TREE, pairs_in_cells, sort_into_cells
+from carom.systems.kernels.kernel import Kernel
+from carom.systems.kernels.tree import grow_tree
+from carom.systems.shapes.plane import Plane
+
+ROOM_PER_ROW = 16  # candidates there is room for at first; what is not written costs address space only
+EXPONENT = 52  # bits before the exponent of a float64
+MOST_CELLS = 2.0**62  # whose numbers fit into 64 bits
+
+
+class Index:
+    """Who is where: moving bodies of one size in a grid, others in a tree, endless bounds and strays in neither.
+
+    ``fat_lower`` and ``fat_upper`` (m) are the bounds by which rows are placed and found, ``known`` is what else says
+    whose pairs they may be: row of the body, layer, mask, and flags (1 sensor, 2 half space).
+    """
+
+    def __init__(self, world: World, rows: Integers, fat_lower: Floats, fat_upper: Floats, known: Integers) -> None:
+        self.rows, self.fat_lower, self.fat_upper, self.known = rows, fat_lower, fat_upper, known
+        self.place = np.zeros(len(known), np.int64)
+        self.cell = np.zeros((3, 3))  # origin, edges and counts along the axes
+        moves, ends, octave = self._sizes(world)
+        in_grid = self._most_alike(moves & ends, octave)
+        if not self._cells_for(rows[in_grid]):
+            in_grid[:] = False
+        in_tree = ends & ~in_grid
+        self.place[rows] = np.where(in_grid, IN_GRID, np.where(ends, IN_TREE, AGAINST_ALL))
+        self.apart = self.against_all = rows[~ends]
+        self.strays: Integers = np.empty(0, np.int64)
+        self.outside_grid = rows[~in_grid]
+        self._fill_grid(rows[in_grid])
+        self._grow_tree(world, rows[in_tree], octave[in_tree] // SIZE_CLASS_OCTAVES)
+        self._room = ROOM_PER_ROW * len(rows)
+
+    def _sizes(self, world: World) -> tuple[Booleans, Booleans, Integers]:
+        """Return which rows move, which have bounds that end, and the octave of their longest edge."""
+        rows = as_rows(self.rows)
+        with np.errstate(invalid="ignore", over="ignore"):
+            x, y, z = (self.fat_upper[rows] - self.fat_lower[rows]).T
+        longest = np.maximum(np.maximum(x, y), z)
+        ends = np.isfinite(longest) & (world[Collider].shape[rows] != Plane.number)
+        return self.known[rows, 0] >= 0, ends, longest.view(np.int64) >> EXPONENT
+
+    def _most_alike(self, which: Booleans, octave: Integers) -> Booleans:
+        """Return the most frequent sizes within a factor of four, as a mask."""
+        if not which.any():
+            return which
+        least = int(octave[which].min())
+        counts = np.bincount(octave[which] - least, minlength=SIZE_CLASS_OCTAVES)
+        first = least + int(np.argmax(np.convolve(counts, np.ones(SIZE_CLASS_OCTAVES, np.int64), "valid")))
+        return which & (octave >= first) & (octave < first + SIZE_CLASS_OCTAVES)
+
+    def _cells_for(self, rows: Integers) -> bool:
+        """Lay out the cells; False where they are too many to be numbered, by bodies far out in all directions."""
+        if not len(rows):
+            return False
+        lower, upper = self.fat_lower[rows].T.copy(), self.fat_upper[rows].T.copy()
+        origin = lower.min(axis=1)
+        edge = (upper - lower).max(axis=1) * (1.0 + CELL_SLACK)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            along = (lower.max(axis=1) - origin) / edge
+        self.cell[:] = origin, edge, np.floor(along) + 4.0  # empty ones at both ends, so that no neighbours wrap round
+        return bool((along < MOST_CELLS_ALONG).all() and self.cell[2].prod() < MOST_CELLS)
+
+    def _fill_grid(self, rows: Integers) -> None:
+        self.grid_rows, self.grid_cells, self.boxes = rows, np.empty(len(rows), np.int64), np.empty((len(rows), 6))
+        sort_into_cells(self.cell, self.fat_lower, self.fat_upper, self.grid_rows, self.grid_cells, self.boxes)
+
+    def _grow_tree(self, world: World, rows: Integers, size: Integers) -> None:
+        order = np.argsort(size, kind="stable")
+        self.members = rows[order]
+        most = 2 * len(rows)
+        bounds, span = np.empty((most, 6)), np.empty((most, 2), np.int64)
+        skip, moves = np.empty(most, np.int64), np.empty(most, np.bool_)
+        count = grow_tree(
+            size[order], world[ColliderPose].body_row, self.fat_lower, self.fat_upper,
+            self.members, bounds, span, skip, moves,
+        )  # fmt: skip
+        self.nodes = bounds[:count], span[:count], skip[:count], moves[:count]
+
+    def all_pairs(self, world: World) -> Integers:
+        """Return all pairs (n, 2), sorted, whose fat bounds overlap."""
+        alike = self._filled(pairs_in_cells, self.grid_rows, self.grid_cells, self.boxes, self.cell)
+        if len(self.outside_grid):
+            alike = np.concatenate((alike, self._looked_up(world, self.outside_grid)))
+        return self._ordered(alike)
+
+    def pairs_of(self, world: World, rows: Integers) -> Integers:
+        """Return the pairs (n, 2), sorted, that some rows are in."""
+        return self._ordered(self._looked_up(world, rows))
+
+    def lead_astray(self, rows: Integers) -> None:
+        """Take rows out of grid and tree: from now on they are tested one by one."""
+        self.strays = np.union1d(self.strays, rows)
+        self.place[rows] = ASTRAY
+        self.apart = np.concatenate((self.against_all, self.strays))
+
+    def _looked_up(self, world: World, asking: Integers) -> Integers:
+        collider, pose = world[Collider], world[ColliderPose]
+        asks: Booleans = np.zeros(len(self.place), np.bool_)
+        asks[asking] = True
+        return self._filled(
+            look_up, asking, asks, self.rows, self.apart, self.place, collider.shape, collider.size, pose.body_row,
+            pose.position, pose.rotation, self.fat_lower, self.fat_upper,
+            self.cell, self.grid_rows, self.grid_cells, self.members, *self.nodes,
+        )  # fmt: skip
+
+    def _filled(self, fill: Kernel, *arguments: Any) -> Integers:
+        """Return what ``fill`` writes and counts, given room enough; it returns -1 as long as there is too little."""
+        while True:
+            found: Integers = np.empty((self._room, 2), np.int64)
+            count = fill(*arguments, found)
+            if count >= 0:
+                return found[:count]
+            self._room *= 2
+
+    def _ordered(self, candidates: Integers) -> Integers:
+        scratch, pairs = np.empty_like(candidates), np.empty_like(candidates)
+        return pairs[: order_pairs(candidates, len(self.place), self.known, scratch, pairs)]

@@ -1,0 +1,110 @@
+"""Broad phase: what of the pair cache still holds, and which of its pairs have bounds that overlap now."""
+
+from __future__ import annotations
+
+import numpy as np
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import FAT
+from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.spatial import turn
+from carom.systems.shapes.plane import Plane
+
+HALF_SPACE = Plane.number
+REBUILD = -1  # what `find_leavers` returns where the whole structure must be built anew
+ENDLESS = 1e300  # m; a bound beyond this is taken for infinite
+
+
+@inlined
+def below_half_space(nx, ny, nz, ox, oy, oz, offset, lx, ly, lz, ux, uy, uz):
+    """Tell whether the deepest corner of a box from l to u lies in the half space through ``offset`` beyond o.
+
+    An axis along the surface counts for nothing, also where the box has no end along it.
+    """
+    x = lx - ox if nx > 0.0 else ux - ox if nx < 0.0 else 0.0
+    y = ly - oy if ny > 0.0 else uy - oy if ny < 0.0 else 0.0
+    z = lz - oz if nz > 0.0 else uz - oz if nz < 0.0 else 0.0
+    return nx * x + ny * y + nz * z <= offset
+
+
+@kernel("fat_lower", "fat_upper", "known", "seat", "leavers")
+def find_leavers(
+    anew, rows, shape, size, body_row, layer, mask, sensor, pose_position, pose_rotation, lower, upper,
+    fat_lower, fat_upper, known, seat, leavers,
+):  # fmt: skip
+    """Write the rows that left their fat bounds or whose pairs others may be now, with new fat bounds; count them.
+
+    Returns REBUILD where that is not enough: a half space moved, or a row became one, or bounds have no end. ``anew``
+    takes every row for a leaver.
+    """
+    count = 0
+    for i in rows:
+        flags = (1 if sensor[i] else 0) + (2 if shape[i] == HALF_SPACE else 0)
+        flat = flags >= 2
+        same = (
+            (known[i, 0] == body_row[i]) & (known[i, 1] == layer[i]) & (known[i, 2] == mask[i]) & (known[i, 3] == flags)
+        )
+        ends = not flat and known[i, 3] < 2
+        least = np.inf
+        for k in range(3):
+            if flat:
+                same &= pose_position[i, k] == seat[i, k]
+            else:
+                same &= (fat_lower[i, k] <= lower[i, k]) & (upper[i, k] <= fat_upper[i, k])
+                ends &= (fat_lower[i, k] > -ENDLESS) & (fat_upper[i, k] < ENDLESS)
+                ends &= (lower[i, k] > -ENDLESS) & (upper[i, k] < ENDLESS)
+                least = min(least, upper[i, k] - lower[i, k])
+        if flat:
+            for k in range(4):
+                same &= (pose_rotation[i, k] == seat[i, 3 + k]) & (size[i, k] == seat[i, 7 + k])
+        if same and not anew:
+            continue
+        if not (ends or anew):
+            return REBUILD
+        margin = 0.5 * FAT * least if ends else 0.0
+        for k in range(3):
+            fat_lower[i, k], fat_upper[i, k] = lower[i, k] - margin, upper[i, k] + margin
+            if flat:
+                seat[i, k] = pose_position[i, k]
+        if flat:
+            for k in range(4):
+                seat[i, 3 + k], seat[i, 7 + k] = pose_rotation[i, k], size[i, k]
+        known[i, 0], known[i, 1], known[i, 2], known[i, 3] = body_row[i], layer[i], mask[i], flags
+        leavers[count] = i
+        count += 1
+    return count
+
+
+@kernel("found")
+def keep_overlapping(pairs, shape, size, pose_position, pose_rotation, lower, upper, found):
+    """Write the pairs whose bounds overlap now, in their order, and return their count."""
+    count, p, n = 0, 0, len(pairs)
+    while p < n:
+        i = pairs[p, 0]
+        flat = shape[i] == HALF_SPACE
+        lx, ly, lz = lower[i, 0], lower[i, 1], lower[i, 2]
+        ux, uy, uz = upper[i, 0], upper[i, 1], upper[i, 2]
+        while p < n and pairs[p, 0] == i:
+            j = pairs[p, 1]
+            p += 1
+            found[count, 0], found[count, 1] = i, j
+            if flat or shape[j] == HALF_SPACE:
+                plane, box = (i, j) if flat else (j, i)
+                nx, ny, nz = turn(
+                    pose_rotation[plane, 0], pose_rotation[plane, 1], pose_rotation[plane, 2], pose_rotation[plane, 3],
+                    size[plane, 0], size[plane, 1], size[plane, 2],
+                )  # fmt: skip
+                meets = below_half_space(
+                    nx, ny, nz, pose_position[plane, 0], pose_position[plane, 1], pose_position[plane, 2],
+                    size[plane, 3], lower[box, 0], lower[box, 1], lower[box, 2],
+                    upper[box, 0], upper[box, 1], upper[box, 2],
+                )  # fmt: skip
+                count += 1 if meets else 0
+                continue
+            # No branch: which of these bounds overlap is past foreseeing, and a wrong guess costs more than the test.
+            meets = (
+                (lx <= upper[j, 0]) & (lower[j, 0] <= ux) & (ly <= upper[j, 1]) & (lower[j, 1] <= uy)
+                & (lz <= upper[j, 2]) & (lower[j, 2] <= uz)
+            )  # fmt: skip
+            count += 1 if meets else 0
+    return count
