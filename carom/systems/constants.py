@@ -11,9 +11,9 @@ REACH_FACTOR = 1.25
 # the cube of it. Smaller: bodies leave their fat bounds sooner and are looked up anew.
 FAT = 0.05
 
-# Sizes that share a grid, as powers of two: within a factor of four. More: small bodies crowd in cells made for large
-# ones. Fewer: more bodies are in the tree, which is slower.
-SIZE_CLASS_OCTAVES = 2
+# Sizes that may share a grid, in quarters of a power of two: within a factor of four. More: small bodies crowd in cells
+# made for large ones. Fewer: more bodies are in the tree, which is slower.
+SIZE_CLASS = 8
 
 # Part by which a cell of the grid is larger than the largest bounds in it, and how many cells may be along an axis. The
 # rounding of a cell's number, a few times 2**-53 of it, must be less, or neighbours would be overlooked.

@@ -40,7 +40,7 @@ class BroadPhase(Resource):
 
     def drop(self) -> None:
         """Forget everything; the next detection finds the same pairs from nothing."""
-        self.rows: Integers = np.empty(0, np.int64)
+        self.rows: Integers = np.array([-1])  # nobody's; also a world without colliders is new
 
     def _make_room(self, used: int) -> None:
         self.fat_lower, self.fat_upper = np.zeros((used, 3)), np.zeros((used, 3))

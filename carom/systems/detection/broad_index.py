@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
 from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.slots import as_rows
-from carom.systems.constants import CELL_SLACK, MOST_CELLS_ALONG, SIZE_CLASS_OCTAVES
+from carom.systems.constants import CELL_SLACK, MOST_CELLS_ALONG, SIZE_CLASS
 from carom.systems.kernels.broad_lookup import look_up
 from carom.systems.kernels.broad_pairs import order_pairs
 from carom.systems.kernels.grid import AGAINST_ALL, ASTRAY, IN_GRID, IN_TREE, pairs_in_cells, sort_into_cells
@@ -18,7 +19,11 @@ from carom.systems.kernels.tree import grow_tree
 from carom.systems.shapes.plane import Plane
 
 ROOM_PER_ROW = 16  # candidates there is room for at first; what is not written costs address space only
-EXPONENT = 52  # bits before the exponent of a float64
+QUARTER = 50  # bits of a float64 behind those that tell quarters of an octave
+VOLUMES = 2.0 ** (0.75 * np.arange(1 - SIZE_CLASS, 1))  # of members by their size, as part of the largest's
+NEAR_CELLS = 13.5  # that a member of the grid is tested against: half of all 27
+TREE_TESTS = 100.0  # what a look-up in the tree costs, in tests of two bounds
+CELLS_AROUND = 2.0**19  # the middle body, in which bodies stay in the grid where others are too far out
 MOST_CELLS = 2.0**62  # whose numbers fit into 64 bits
 
 
@@ -33,48 +38,61 @@ class Index:
         self.rows, self.fat_lower, self.fat_upper, self.known = rows, fat_lower, fat_upper, known
         self.place = np.zeros(len(known), np.int64)
         self.cell = np.zeros((3, 3))  # origin, edges and counts along the axes
-        moves, ends, octave = self._sizes(world)
-        in_grid = self._most_alike(moves & ends, octave)
-        if not self._cells_for(rows[in_grid]):
-            in_grid[:] = False
+        moves, ends, size = self._sizes(world)
+        in_grid = self._lay_out_cells(self._most_alike(moves & ends, size))
         in_tree = ends & ~in_grid
         self.place[rows] = np.where(in_grid, IN_GRID, np.where(ends, IN_TREE, AGAINST_ALL))
         self.apart = self.against_all = rows[~ends]
         self.strays: Integers = np.empty(0, np.int64)
         self.outside_grid = rows[~in_grid]
         self._fill_grid(rows[in_grid])
-        self._grow_tree(world, rows[in_tree], octave[in_tree] // SIZE_CLASS_OCTAVES)
+        self._grow_tree(world, rows[in_tree], size[in_tree] // SIZE_CLASS)
         self._room = ROOM_PER_ROW * len(rows)
 
     def _sizes(self, world: World) -> tuple[Booleans, Booleans, Integers]:
-        """Return which rows move, which have bounds that end, and the octave of their longest edge."""
+        """Return which rows move, which have bounds that end, and sizes in quarter octaves."""
         rows = as_rows(self.rows)
         with np.errstate(invalid="ignore", over="ignore"):
             x, y, z = (self.fat_upper[rows] - self.fat_lower[rows]).T
         longest = np.maximum(np.maximum(x, y), z)
         ends = np.isfinite(longest) & (world[Collider].shape[rows] != Plane.number)
-        return self.known[rows, 0] >= 0, ends, longest.view(np.int64) >> EXPONENT
+        return self.known[rows, 0] >= 0, ends, longest.view(np.int64) >> QUARTER
 
-    def _most_alike(self, which: Booleans, octave: Integers) -> Booleans:
-        """Return the most frequent sizes within a factor of four, as a mask."""
+    def _most_alike(self, which: Booleans, size: Integers) -> Booleans:
+        """Return those within a factor of four in size for which a grid pays most, as a mask.
+
+        Cells must be as large as their largest member, and are crowded where most are smaller.
+        """
         if not which.any():
             return which
-        least = int(octave[which].min())
-        counts = np.bincount(octave[which] - least, minlength=SIZE_CLASS_OCTAVES)
-        first = least + int(np.argmax(np.convolve(counts, np.ones(SIZE_CLASS_OCTAVES, np.int64), "valid")))
-        return which & (octave >= first) & (octave < first + SIZE_CLASS_OCTAVES)
+        least = int(size[which].min())
+        counts = np.bincount(size[which] - least)
+        windows = sliding_window_view(np.pad(counts, (SIZE_CLASS - 1, 0)), SIZE_CLASS)  # by their largest size
+        inside = windows.sum(axis=1)
+        crowd = inside / np.maximum((windows * VOLUMES).sum(axis=1), VOLUMES[0])  # in a cell, of members packed densely
+        cost = NEAR_CELLS * crowd * inside + TREE_TESTS * (counts.sum() - inside)
+        largest = least + int(np.argmin(cost))
+        return which & (size <= largest) & (size > largest - SIZE_CLASS)
 
-    def _cells_for(self, rows: Integers) -> bool:
-        """Lay out the cells; False where they are too many to be numbered, by bodies far out in all directions."""
-        if not len(rows):
-            return False
-        lower, upper = self.fat_lower[rows].T.copy(), self.fat_upper[rows].T.copy()
-        origin = lower.min(axis=1)
-        edge = (upper - lower).max(axis=1) * (1.0 + CELL_SLACK)
-        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-            along = (lower.max(axis=1) - origin) / edge
-        self.cell[:] = origin, edge, np.floor(along) + 4.0  # empty ones at both ends, so that no neighbours wrap round
-        return bool((along < MOST_CELLS_ALONG).all() and self.cell[2].prod() < MOST_CELLS)
+    def _lay_out_cells(self, which: Booleans) -> Booleans:
+        """Lay out the cells for these rows and return which of them are in.
+
+        That is all of them, but where some are so far out that the cells between could not be numbered.
+        """
+        while which.any():
+            lower, upper = self.fat_lower[self.rows[which]].T.copy(), self.fat_upper[self.rows[which]].T.copy()
+            origin = lower.min(axis=1)
+            edge = (upper - lower).max(axis=1) * (1.0 + CELL_SLACK)
+            with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+                along = (lower.max(axis=1) - origin) / edge
+            count = np.floor(along) + 4.0  # empty ones at both ends, so that no neighbours wrap round
+            if (along < MOST_CELLS_ALONG).all() and count.prod() < MOST_CELLS:
+                self.cell[:] = origin, edge, count
+                break
+            middle = np.sort(lower, axis=1)[:, lower.shape[1] // 2]
+            which = which.copy()
+            which[which] = (np.abs(lower.T - middle) < CELLS_AROUND * edge).all(axis=1)
+        return which
 
     def _fill_grid(self, rows: Integers) -> None:
         self.grid_rows, self.grid_cells, self.boxes = rows, np.empty(len(rows), np.int64), np.empty((len(rows), 6))

@@ -47,6 +47,10 @@ def look_up(
                 x0, x1 = max(cell_along(lx, 0, cell) - 1, 0), cell_along(ux, 0, cell)
                 y0, y1 = max(cell_along(ly, 1, cell) - 1, 0), cell_along(uy, 1, cell)
                 z0, z1 = max(cell_along(lz, 2, cell) - 1, 0), cell_along(uz, 2, cell)
+                outside = x1 < 1 or y1 < 1 or z1 < 1
+                outside |= x0 > cell[2, 0] - 3.0 or y0 > cell[2, 1] - 3.0 or z0 > cell[2, 2] - 3.0
+                if outside:
+                    x1 = x0 - 1
                 whole = (x1 - x0 + 1.0) * (y1 - y0 + 1.0) > len(grid_rows)
                 if whole:  # fewer members than rows of cells
                     x1, y1 = x0, y0
