@@ -10,7 +10,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pairs import turns
 
-from carom.ecs import Collider, ColliderPose, Motion, Transform, World, restore_snapshot, state_hash, take_snapshot
+from carom.ecs import (
+    Collider,
+    ColliderPose,
+    Motion,
+    RigidBody,
+    Transform,
+    World,
+    restore_snapshot,
+    state_hash,
+    take_snapshot,
+)
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.bounds import reach_within
@@ -275,6 +285,20 @@ def test_a_plane_that_moves_is_noticed() -> None:
     with simulation.world.edit(Collider) as collider:
         collider.size[row, 3] = 100.0
     assert len(agree(simulation.world)) == 30
+
+
+def test_a_body_that_stands_still_from_now_on_is_noticed() -> None:
+    """Two that overlap are no pair once neither is a body, and are again when one becomes one."""
+    simulation = crowd(2, spread=0.5)
+    world = simulation.world
+    one, other = world.entities(world.row_numbers(Collider)).tolist()
+    assert len(agree(world)) == 1
+    world.detach(one, RigidBody)
+    assert len(agree(world)) == 1
+    world.detach(other, RigidBody)
+    assert len(agree(world)) == 0
+    world.attach(one, RigidBody())
+    assert len(agree(world)) == 1
 
 
 @pytest.mark.parametrize("seed", range(3))

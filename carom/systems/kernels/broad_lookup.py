@@ -28,12 +28,6 @@ def look_up(
         lx, ly, lz = fat_lower[i, 0], fat_lower[i, 1], fat_lower[i, 2]
         ux, uy, uz = fat_upper[i, 0], fat_upper[i, 1], fat_upper[i, 2]
         flat = shape[i] == HALF_SPACE
-        nx, ny, nz = 0.0, 0.0, 0.0
-        if flat:
-            nx, ny, nz = turn(
-                pose_rotation[i, 0], pose_rotation[i, 1], pose_rotation[i, 2], pose_rotation[i, 3],
-                size[i, 0], size[i, 1], size[i, 2],
-            )  # fmt: skip
         if place[i] == AGAINST_ALL:
             for j in rows:
                 near[nearby] = j
@@ -93,11 +87,10 @@ def look_up(
                 continue
             if flat or shape[j] == HALF_SPACE:
                 plane, box = (i, j) if flat else (j, i)
-                if not flat:
-                    nx, ny, nz = turn(
-                        pose_rotation[j, 0], pose_rotation[j, 1], pose_rotation[j, 2], pose_rotation[j, 3],
-                        size[j, 0], size[j, 1], size[j, 2],
-                    )  # fmt: skip
+                nx, ny, nz = turn(
+                    pose_rotation[plane, 0], pose_rotation[plane, 1], pose_rotation[plane, 2], pose_rotation[plane, 3],
+                    size[plane, 0], size[plane, 1], size[plane, 2],
+                )  # fmt: skip
                 meets = below_half_space(
                     nx, ny, nz, pose_position[plane, 0], pose_position[plane, 1], pose_position[plane, 2],
                     size[plane, 3], fat_lower[box, 0], fat_lower[box, 1], fat_lower[box, 2],
