@@ -149,3 +149,15 @@ def test_asking_changes_nothing() -> None:
     assert state_hash(world) == before[0]
     assert np.array_equal(world[ColliderPose].upper, before[1]) and np.array_equal(world[Flight].reach, before[2])
     assert vars(world[Answered]) == before[3]
+
+
+def test_asking_leaves_the_carried_where_they_are() -> None:
+    """Who is carried is looked at where it will be, and stays where it is."""
+    simulation = two({"collider": BOX}, moving(), 3.0)
+    carrier = simulation.add(name="carrier", transform={"position": (0.0, 0.0, 0.0)})
+    simulation.add(name="lamp", collider=BOX, parent={"entity": carrier}, visual=False)
+    with simulation.world.edit(Transform) as transform:
+        transform.position[simulation.world.row(carrier)] = (3.0, 0.5, 0.0)
+    before = simulation.world[Transform].position.copy()
+    assert why_no_contact(simulation, "second", "lamp") == "they are in contact: 1 point, deepest 0.5 m"
+    assert np.array_equal(simulation.world[Transform].position, before)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, World
+from carom.ecs import Collider, ColliderPose, Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.spatial import quaternion
@@ -48,10 +48,11 @@ def why_no_contact(of: World | Simulation, a: int | str, b: int | str) -> str:
 @contextmanager
 def _placed(world: World) -> Iterator[None]:
     """Place all colliders as the next step will, and put everything back."""
+    written = (Transform, "position rotation"), (ColliderPose, " ".join(ColliderPose.columns))
     kept = [
         (kind, name, getattr(world[kind], name).copy())
-        for kind, names in ((ColliderPose, ColliderPose.columns), (Flight, ("reach", "detected_center")))
-        for name in names
+        for kind, names in (*written, (Flight, "reach detected_center"))
+        for name in names.split()
     ]
     answered = world[Answered]
     counts = dict(vars(answered))
