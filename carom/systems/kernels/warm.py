@@ -29,13 +29,14 @@ def look_for_no_vectors() -> None:
 
 
 def compile_stand_ins() -> None:
-    """Measure pairs of every shape that has kernels."""
+    """Measure pairs of every shape that has kernels, and renew some."""
     look_for_no_vectors()
 
     import numpy as np
 
     from carom.ecs import Collider
     from carom.systems.detection.narrow import measure_pairs
+    from carom.systems.kernels.broad_pairs import renew_pairs
     from carom.systems.shapes.geometry import hull_of
     from carom.systems.shapes.mesh import Mesh
     from carom.systems.simulation import Simulation
@@ -56,6 +57,8 @@ def compile_stand_ins() -> None:
     pairs = np.array([(a, b) for a in rows for b in rows if a < b and b > 1])
     with world.faces(None):
         measure_pairs(world, pairs, np.ones(len(pairs)))
+    room = np.empty((2 * len(pairs), 2), np.int64)
+    renew_pairs(pairs, pairs, np.zeros(world.capacity, np.bool_), room)  # of bodies that leave their fat bounds
 
 
 def compile_systems(heavy: bool) -> None:
