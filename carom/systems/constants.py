@@ -114,3 +114,10 @@ APART_ERROR = 1e-9
 
 # Steps to the distance of two polyhedra; 5 are usual, 15 between round ones. Fewer: distances are not believed.
 APART_STEPS = 64
+
+# How far the length of a contact's normal may be from 1; quaternions and FCL leave 1e-15. Larger: impulses as wrong.
+UNIT_NORMAL = 1e-6
+
+# m, and part of the length: how exactly a contact must keep to the sizes of its pair. FCL gives points 1 nm of extent.
+# Smaller: contacts at the very edge of what is accepted are dropped by rounding.
+MEASURED = 1e-6

@@ -54,6 +54,7 @@ class Summary:
     deepest_overlap: float = 0.0
     pairs_by_fcl: int = 0
     pairs_by_kernels: int = 0
+    points_refused: int = 0
     impacts_cut: int = 0
     expectations: int = 0
     judged: bool = True
@@ -73,6 +74,11 @@ class Summary:
             f"  expectations  {held if self.judged else 'not asked of a run that is cut short'}",
             *(f"    {failure}" for failure in self.failures),
         ]
+        if self.points_refused:
+            lines.append(
+                f"  warning       {self.points_refused} contact points were impossible and left out; "
+                "--check names their pair"
+            )
         if self.impacts_cut:
             lines.append(
                 f"  warning       {self.impacts_cut} impacts beyond the limit of a step were put off to the next"
@@ -117,7 +123,7 @@ def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None)
     summary.deepest_overlap = watch.deepest
     answered = simulation.world[Answered]
     summary.pairs_by_fcl, summary.pairs_by_kernels = answered.fcl, answered.kernels
-    summary.impacts_cut = answered.impacts_cut
+    summary.points_refused, summary.impacts_cut = answered.refused, answered.impacts_cut
     summary.expectations = len(expectations)
     summary.failures = [str(outcome) for item in expectations if not (outcome := item.outcome()).held]
     return summary

@@ -9,9 +9,10 @@ from carom.ecs.component import Resource
 
 @dataclass
 class Answered(Resource):
-    """Counts since the start: pairs answered by FCL and by array kernels, detections, impacts beyond the cap."""
+    """Counts since the start: pairs by FCL and by array kernels, points no contact can be, detections, impacts cut."""
 
     fcl: int = 0
     kernels: int = 0
+    refused: int = 0
     detections: int = 0
     impacts_cut: int = 0

@@ -11,6 +11,7 @@ from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.fcl_pairs import measure_by_fcl
 from carom.systems.detection.hulls import PackedHulls
+from carom.systems.detection.validity import keep_sound
 from carom.systems.kernels.balls_narrow import measure_balls
 from carom.systems.kernels.boxes_narrow import measure_boxes
 from carom.systems.kernels.capsules_narrow import measure_balls_on_capsules, measure_capsules
@@ -91,14 +92,17 @@ FUNCTIONS, FUNCTION_OF, SWAPS = _as_arrays()
 NO_STAND_INS = np.full((1, 1), BY_FCL)
 
 
-def measure_pairs(world: World, pairs: Integers, reaches: Floats) -> Found:
-    """Return the contact points of ``pairs`` (n, 2) of collider rows that are nearer than their ``reaches`` (n,), m."""
+def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str | None = None) -> Found:
+    """Return the contact points of ``pairs`` (n, 2) of collider rows that are nearer than their ``reaches`` (n,), m.
+
+    They are measured as the world's setting says, unless ``collision`` says otherwise.
+    """
     collider, pose, answered = world[Collider], world[ColliderPose], world[Answered]
     n = len(pairs)
     points = Points(n)
     order, first, second = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n, np.int64)
     starts = np.zeros(len(FUNCTIONS) + 2, np.int64)
-    table = FUNCTION_OF if world[Settings].collision == "auto" else NO_STAND_INS
+    table = FUNCTION_OF if (collision or world[Settings].collision) == "auto" else NO_STAND_INS
     sort_by_function(pairs, collider.shape, table, SWAPS, order, first, second, starts)
     by_fcl = int(starts[1])
     answered.fcl += by_fcl
@@ -113,6 +117,7 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats) -> Found:
                 collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls,
                 points.start, points.count, points.feature, points.normal, points.depth, points.point,
             )  # fmt: skip
+    taken = keep_sound(world, pairs, reaches, points)
     found = Found(
         np.empty(taken, np.int64), np.empty(taken, np.int64), np.empty(taken, np.int64),
         np.empty((taken, 3)), np.empty(taken), np.empty((taken, 3)), np.empty(taken, np.bool_),
