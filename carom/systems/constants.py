@@ -121,3 +121,8 @@ UNIT_NORMAL = 1e-6
 # m, and part of the length: how exactly a contact must keep to the sizes of its pair. FCL gives points 1 nm of extent.
 # Smaller: contacts at the very edge of what is accepted are dropped by rounding.
 MEASURED = 1e-6
+
+# Degrees, part of the smaller size, and likewise: a stand-in whose deepest point differs from FCL's by a larger turn or
+# depth disagrees with it; pairs that overlap by a larger part are not judged, FCL being off there by degrees. Larger
+# would pass faults that show in rolling; smaller, what FCL's own tolerance leaves.
+AUDITED_TURN, AUDITED_DEPTH, AUDITED_OVERLAP = 0.5, 3e-6, 0.05

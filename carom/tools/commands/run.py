@@ -21,13 +21,17 @@ def declare(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--camera", metavar="NAME", help="camera of film and picture; the world's 'main' by default")
     parser.add_argument("--check", action="store_true", help="let every system touch only what it declares")
+    parser.add_argument(
+        "--audit", action="store_true", help="measure every contact by FCL as well, and tell where kernels disagree"
+    )
     declare_overrides(parser)
 
 
 def execute(arguments: argparse.Namespace) -> int:
-    """Run the world and print the summary; 1 when an expectation failed or a number became infinite."""
+    """Run the world and print the summary; 1 when an expectation or the audit failed or a number became infinite."""
     from carom.ecs.errors import NonFiniteError
     from carom.systems.observer import Observer
+    from carom.tools.auditing import Auditing
     from carom.tools.filming import Filming, photograph, shot_of
     from carom.tools.outputs import prepare_outputs
     from carom.tools.recorder import Recorder
@@ -44,6 +48,9 @@ def execute(arguments: argparse.Namespace) -> int:
         observers.append(Recorder(arguments.record, title=title, source=loaded.source_text, camera=shot.camera))
     if arguments.film:
         observers.append(Filming(shot, arguments.film))
+    auditing = Auditing()
+    if arguments.audit:
+        observers.append(auditing)
     kept = f"; the recording up to there: carom view {arguments.record}" if arguments.record else ""
     try:
         summary = run(loaded, observers, frames=arguments.frames)
@@ -58,7 +65,9 @@ def execute(arguments: argparse.Namespace) -> int:
     written = {"recording": arguments.record, "film": arguments.film, "picture": arguments.picture}
     summary.outputs = {kind: str(path) for kind, path in written.items() if path}
     if arguments.json:
-        print_json(dataclasses.asdict(summary))
+        print_json(dataclasses.asdict(summary) | ({"audit": auditing.rows()} if arguments.audit else {}))
     else:
         print(summary.text())
-    return 1 if summary.failures else 0
+        if arguments.audit:
+            print(auditing.text())
+    return 1 if summary.failures or auditing.failed else 0
