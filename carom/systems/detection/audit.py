@@ -1,6 +1,6 @@
 """Audit: each contact measured by its stand-in and by FCL at the same poses, and where the two disagree.
 
-Compared are the deepest points: flat areas may be spanned by other corners and be as right.
+Compared are the deepest points of pairs that overlap: flat areas may be spanned by other corners and be as right.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.fcl_pairs import EXACT, FclObjects
 from carom.systems.detection.narrow import BY_FCL, FUNCTION_OF, Found, measure_pairs
 from carom.systems.kernels.narrow import reach_of_pairs
+from carom.systems.shapes.box import Box
 from carom.systems.shapes.cone import Cone
 from carom.systems.shapes.plane import Plane
 from carom.systems.shapes.shape import Shape
@@ -105,7 +106,9 @@ def compare(
     fcl: tuple[float, Floats],
     report: dict[tuple[str, str], Compared],
 ) -> None:
-    """Add one pair of colliders to the report."""
+    """Add one pair of colliders to the report, if it overlaps: FCL's gaps are not exact, and boxes have none by it."""
+    if max(kernel[0], fcl[0]) < 0.0:
+        return
     shapes = [world[FclObjects].shape(world, int(row)) for row in pair]
     one, other = sorted(shape.key for shape in shapes)
     compared = report.setdefault((one, other), Compared(is_exact(shapes)))
@@ -114,7 +117,7 @@ def compare(
     if max(kernel[0], fcl[0]) > AUDITED_OVERLAP * size:
         compared.deep += 1
         return
-    apart, degrees, within = max(kernel[0], fcl[0], 0.0), 0.0, AUDITED_DEPTH * size  # where only one way sees it
+    apart, degrees, within = max(kernel[0], fcl[0]), 0.0, AUDITED_DEPTH * size  # where only one way sees it
     if min(kernel[0], fcl[0]) > -np.inf:
         apart, degrees = abs(kernel[0] - fcl[0]), float(np.rad2deg(vector.angle(kernel[1], fcl[1])))
         if degrees > AUDITED_TURN and all(
@@ -133,9 +136,9 @@ def compare(
 
 
 def is_exact(shapes: list[Shape]) -> bool:
-    """Tell whether FCL has a closed form for two shapes."""
+    """Tell whether FCL has a closed form for two shapes; boxes it sees grown, which turns some normals by degrees."""
     kinds = frozenset(type(shape) for shape in shapes)
-    return kinds in EXACT or (Plane in kinds and Cone not in kinds)
+    return (kinds in EXACT and kinds != {Box}) or (Plane in kinds and Cone not in kinds)
 
 
 def smaller_size(shapes: list[Shape]) -> float:
