@@ -11,10 +11,10 @@ import pytest
 from heaps import stack_of_boxes
 
 from carom.ecs import (
-    Collider,
     Difference,
     Motion,
     Name,
+    Parent,
     Snapshot,
     Transform,
     World,
@@ -163,13 +163,13 @@ def test_nameless_and_nobody() -> None:
     """An entity without a name is shown by its number, and no entity as none."""
     worlds = World(), World()
     for k, world in enumerate(worlds):
-        entities = world.spawn_many(2, Transform(position=(float(k), 0.0, 0.0)), Collider(body=-1))
+        entities = world.spawn_many(2, Transform(position=(float(k), 0.0, 0.0)), Parent(entity=-1))
         if k:
-            with world.edit(Transform) as transform, world.edit(Collider) as collider:
+            with world.edit(Transform) as transform, world.edit(Parent) as parent:
                 transform.position[:] = 0.0
-                collider.body[1] = entities[0]
+                parent.entity[1] = entities[0]
     assert str(first_difference(*worlds)) == (
-        "frame 0: Collider.body of entity '[1]' is 'none' in the first and '[0]' in the second"
+        "frame 0: Parent.entity of entity '[1]' is 'none' in the first and '[0]' in the second"
     )
 
 
