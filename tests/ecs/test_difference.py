@@ -11,6 +11,7 @@ import pytest
 from heaps import stack_of_boxes
 
 from carom.ecs import (
+    Collider,
     Difference,
     Motion,
     Name,
