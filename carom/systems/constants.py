@@ -126,3 +126,23 @@ MEASURED = 1e-6
 # depth disagrees with it; pairs that overlap by a larger part are not judged, FCL being off there by degrees. Larger
 # would pass faults that show in rolling; smaller, what FCL's own tolerance leaves.
 AUDITED_TURN, AUDITED_DEPTH, AUDITED_OVERLAP = 0.5, 3e-6, 0.05
+
+# Sine of the angle below which two triangles of a mesh lie in one plane: their common edge never touches for itself.
+# Larger: corners of bodies sink into slight ridges; smaller: noise in vertices (float32 in STL files) makes ridges.
+COPLANAR = 1e-4
+
+# Sine of the angle by which a mesh may rise about an edge or corner and still be touched there: rounding. Larger: edges
+# within flat areas give normals of their own.
+LEANING = 1e-7
+
+# Cosine of 10 degrees: a body has one manifold with all triangles of a mesh whose normals are within it. Larger angles
+# lose points on bent land; smaller ones give more points than it takes.
+SAME_NORMAL = 0.985
+
+# Part of a body's width within which two points of a manifold are one, and how far it may sink into edges of triangles
+# that face away from its middle. Larger: points are lost; smaller: twins of triangles that meet in a corner stay.
+SAME_PLACE = 1e-3
+
+# Part by which a point on a mesh must be deeper or farther out than one found before to be taken instead. Smaller:
+# noise changes the choice.
+BETTER = 1e-3

@@ -17,6 +17,7 @@ from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.detection.hulls import PackedHulls
+from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly
 from carom.systems.kernels.resting import hold_contacts
 from carom.systems.kernels.settling import finish_drift
@@ -86,7 +87,7 @@ def log_blows(world: World) -> None:
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress),
     writes=(
         Transform, Motion, Flight, Contact, Impact, ColliderPose, Enter, Inside, Answered, BroadPhase, FclObjects,
-        PackedHulls, Commands,
+        PackedHulls, PackedMeshes, Commands,
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:

@@ -32,6 +32,7 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.detection.hulls import PackedHulls
+from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.finish import find_not_finite
 from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
@@ -64,7 +65,8 @@ class Simulation:
         self.clock = Clock()
         self._earlier = EarlierPoses()
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
-        for resource in (self.settings, *made, Progress(), Answered(), BroadPhase(), FclObjects(), PackedHulls()):
+        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
+        for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 
     # Building: the words are those of world files, numbers are SI.

@@ -14,6 +14,7 @@ from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import BroadPhase, overlapping
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.detection.hulls import PackedHulls
+from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.detection.sensors import sense
 from carom.systems.kernels.contacts import complete_contacts, renew_contacts
@@ -24,8 +25,11 @@ from carom.systems.shapes.geometry import Geometries
 
 @system(
     reads=(Transform, Motion, RigidBody, Collider, Material, Settings, Geometries),
-    writes=(ColliderPose, Contact, Enter, Inside, Answered, Flight, BroadPhase, FclObjects, PackedHulls, Commands),
-)
+    writes=(
+        ColliderPose, Contact, Enter, Inside, Answered, Flight, BroadPhase, FclObjects, PackedHulls, PackedMeshes,
+        Commands,
+    ),
+)  # fmt: skip
 def find_contacts(world: World, dt: float) -> None:
     """Fill the contact table with every pair that touches or may touch within the step; tell who entered sensors."""
     contact = world[Contact]

@@ -11,25 +11,31 @@ from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.fcl_pairs import measure_by_fcl
 from carom.systems.detection.hulls import PackedHulls
+from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.validity import keep_sound
 from carom.systems.kernels.balls_narrow import measure_balls
+from carom.systems.kernels.balls_on_meshes import measure_balls_on_meshes
 from carom.systems.kernels.boxes_narrow import measure_boxes
 from carom.systems.kernels.capsules_narrow import measure_balls_on_capsules, measure_capsules
 from carom.systems.kernels.capsules_on_boxes import measure_capsules_on_boxes
 from carom.systems.kernels.hulls_narrow import measure_hulls, measure_hulls_on_planes
 from carom.systems.kernels.kernel import Kernel
+from carom.systems.kernels.mesh_points import MOST_MESH_POINTS
 from carom.systems.kernels.narrow import collect_points, sort_by_function
 from carom.systems.kernels.planes_narrow import measure_boxes_on_planes, measure_capsules_on_planes
+from carom.systems.kernels.solids_on_meshes import measure_solids_on_meshes
 from carom.systems.settings import Settings
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
 from carom.systems.shapes.convex import Convex
+from carom.systems.shapes.height_field import HeightField
+from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.plane import Plane
 from carom.systems.shapes.point import Point
 from carom.systems.shapes.shape import Shape
 from carom.systems.shapes.sphere import Sphere
 
-MOST_POINTS = 4  # of a pair
+MOST_POINTS = 4  # of a pair, unless its function is in ROOM
 BY_FCL = 0  # the place in the table of what no function stands in for
 
 #: Which function measures a pair; it takes the collider of the first shape first.
@@ -43,7 +49,12 @@ STAND_INS: dict[tuple[type[Shape], type[Shape]], Kernel] = {
     (Box, Plane): measure_boxes_on_planes,
     **{(other, Convex): measure_hulls for other in (Sphere, Point, Capsule, Box, Convex)},
     (Convex, Plane): measure_hulls_on_planes,
+    **{(ball, land): measure_balls_on_meshes for ball in (Sphere, Point) for land in (Mesh, HeightField)},
+    **{(solid, land): measure_solids_on_meshes for solid in (Capsule, Box, Convex) for land in (Mesh, HeightField)},
 }
+
+#: How many points a pair may have that a function measures.
+ROOM = dict.fromkeys((measure_balls_on_meshes, measure_solids_on_meshes), MOST_MESH_POINTS)
 
 
 class Found(NamedTuple):
@@ -68,8 +79,7 @@ class Points:
     The points of pair p are ``count[p]`` rows from ``start[p]`` on; normals point from the collider measured first.
     """
 
-    def __init__(self, pairs: int) -> None:
-        room = MOST_POINTS * pairs
+    def __init__(self, pairs: int, room: int) -> None:
         self.start, self.count = np.zeros(pairs, np.int64), np.zeros(pairs, np.int64)
         self.feature, self.depth = np.empty(room, np.int64), np.empty(room)
         self.normal, self.point = np.empty((room, 3)), np.empty((room, 3))
@@ -89,6 +99,7 @@ def _as_arrays() -> tuple[list[Kernel], Integers, Booleans]:
 
 
 FUNCTIONS, FUNCTION_OF, SWAPS = _as_arrays()
+ROOMS = [MOST_POINTS, *(ROOM.get(function, MOST_POINTS) for function in FUNCTIONS)]
 NO_STAND_INS = np.full((1, 1), BY_FCL)
 
 
@@ -99,7 +110,6 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     """
     collider, pose, answered = world[Collider], world[ColliderPose], world[Answered]
     n = len(pairs)
-    points = Points(n)
     order, first, second = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n, np.int64)
     starts = np.zeros(len(FUNCTIONS) + 2, np.int64)
     table = FUNCTION_OF if (collision or world[Settings].collision) == "auto" else NO_STAND_INS
@@ -107,14 +117,17 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     by_fcl = int(starts[1])
     answered.fcl += by_fcl
     answered.kernels += n - by_fcl
+    sizes = np.diff(starts).tolist()
+    points = Points(n, sum(room * size for room, size in zip(ROOMS, sizes, strict=True)))
     taken = measure_by_fcl(world, order[:by_fcl], pairs, reaches, points) if by_fcl else 0
     hulls = world[PackedHulls].holding(world)
+    meshes = world[PackedMeshes].holding(world)
     for number, function in enumerate(FUNCTIONS, 1):
         bucket = slice(starts[number], starts[number + 1])
         if bucket.stop > bucket.start:
             taken = function(
                 order[bucket], first[bucket], second[bucket], reaches, taken,
-                collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls,
+                collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls, meshes,
                 points.start, points.count, points.feature, points.normal, points.depth, points.point,
             )  # fmt: skip
     taken = keep_sound(world, pairs, reaches, points)

@@ -10,14 +10,14 @@ from carom.systems.kernels.narrow import kind_and_extent
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
 def measure_balls(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls,
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs whose first collider is a ball or point; return how many points are taken now.
 
     Every function of the narrow phase has this form: pair ``which[k]`` has the collider rows ``first[k]`` and
     ``second[k]``; its points are written from ``taken`` on where they are nearer than ``reaches[which[k]]``. ``hulls``
-    are those of `PackedHulls`.
+    and ``meshes`` are those of `PackedHulls` and `PackedMeshes`.
     """
     for k in range(len(which)):
         p, i, o = which[k], first[k], second[k]

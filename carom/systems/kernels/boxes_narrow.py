@@ -29,7 +29,7 @@ CORNERS_FROM = EDGES_FROM + EDGE_FEATURES
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
 def measure_boxes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls,
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of boxes; return how many points are taken now (`measure_balls` says what the arguments are).

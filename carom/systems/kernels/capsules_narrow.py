@@ -16,7 +16,7 @@ ALONE = 2  # feature; points of capsules side by side are 0 and 1 along the firs
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
 def measure_balls_on_capsules(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls,
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a ball or point and a capsule; return how many points are taken now.
@@ -51,7 +51,7 @@ def measure_balls_on_capsules(
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
 def measure_capsules(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls,
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of capsules; return how many points are taken now.

@@ -18,7 +18,7 @@ MIDDLE, ALONG, HALF, WAY = 0, 3, 6, 9  # of the scratch: the segment's middle an
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
 def measure_capsules_on_boxes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls,
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a capsule and a box; return how many points are taken now.

@@ -46,7 +46,7 @@ def comes_first(p, i, q, j, position, rotation):
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
 def measure_hulls(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls,
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs whose second collider is a hull, in the form of `measure_balls`.
@@ -122,7 +122,7 @@ def measure_hulls(
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
 def measure_hulls_on_planes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls,
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a hull and a half space, in the form of `measure_balls`; points are the hull's vertices."""

@@ -19,7 +19,7 @@ def plane_of(size, position, rotation, row):
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
 def measure_boxes_on_planes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls,
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a box and a half space; return how many points are taken now.
@@ -62,7 +62,7 @@ def measure_boxes_on_planes(
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
 def measure_capsules_on_planes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls,
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a capsule and a half space; return how many points are taken now.

@@ -1,0 +1,99 @@
+"""Narrow phase of balls and points against meshes."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import LEAST_PART, SAME_PLACE
+from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.mesh_points import (
+    MOST_MESH_POINTS,
+    WIDTH,
+    add_point,
+    choose_points,
+    grown,
+    write_chosen,
+)
+from carom.systems.kernels.mesh_surface import FACE, falls_away, nearest_on_triangle, on_rim
+from carom.systems.kernels.mesh_tree import TRIANGLE, find_triangles
+from carom.systems.kernels.spatial import turn
+
+
+@kernel("start", "count", "feature", "normal", "depth", "point")
+def measure_balls_on_meshes(
+    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    start, count, feature, normal, depth, point,
+):  # fmt: skip
+    """Measure pairs of a ball or point and a mesh, in the form of `measure_balls`.
+
+    There is a point wherever the distance to the mesh is least among the places around: on a face, or on an edge or
+    corner that the mesh falls away from. The nearest of them says on which side the ball's centre is, by the triangle
+    there that faces it most. Behind, which only a ball driven in beyond its middle is, it is pushed out to the front by
+    way of that place alone.
+    """
+    triangles, links, vertices, fan_start, fan = (
+        meshes.triangles, meshes.links, meshes.vertices, meshes.fan_start, meshes.fan,
+    )  # fmt: skip
+    root, bounds, nodes = meshes.root, meshes.bounds, meshes.nodes  # taken out once: each time counts references
+    found = np.empty(256, np.int64)
+    points, names, kept = np.empty(WIDTH * 256), np.empty(256, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
+    for k in range(len(which)):
+        p, i, m = which[k], first[k], second[k]
+        start[p] = taken
+        qx, qy, qz, qw = rotation[m, 0], rotation[m, 1], rotation[m, 2], rotation[m, 3]
+        px, py, pz = position[m, 0], position[m, 1], position[m, 2]
+        x, y, z = turn(-qx, -qy, -qz, qw, position[i, 0] - px, position[i, 1] - py, position[i, 2] - pz)
+        radius = size[i, 0]
+        far = radius + reaches[p]
+        while True:
+            near = find_triangles(
+                root[geometry[m]], bounds, nodes, triangles,
+                x - far, y - far, z - far, x + far, y + far, z + far, found,
+            )  # fmt: skip
+            if near <= len(found):
+                break
+            found = grown(found)
+        while near > len(names):
+            names, points = grown(names), grown(points)
+        nearest, side, behind = 1e300, 0.0, 0
+        bx, by, bz = 0.0, 0.0, 0.0
+        touching = 0
+        for c in range(near):
+            t = found[c]
+            cx, cy, cz, part = nearest_on_triangle(triangles, t, x, y, z)
+            dx, dy, dz = x - cx, y - cy, z - cz
+            distance = sqrt(dx * dx + dy * dy + dz * dz)
+            if distance > far:
+                continue
+            nx, ny, nz = triangles[TRIANGLE * t + 9], triangles[TRIANGLE * t + 10], triangles[TRIANGLE * t + 11]
+            above = distance if on_rim(links, t, part) else nx * dx + ny * dy + nz * dz
+            if distance < nearest + LEAST_PART:
+                if distance < nearest - LEAST_PART:
+                    nearest, side, behind, bx, by, bz = distance, 0.0, t, cx, cy, cz
+                side = above if abs(above) > abs(side) else side
+            if above < 0.0 or not falls_away(links, vertices, fan_start, fan, t, part, dx, dy, dz):
+                continue
+            if part != FACE and distance > LEAST_PART:
+                nx, ny, nz = dx / distance, dy / distance, dz / distance
+            half = 0.5 * (distance - radius)
+            touching = add_point(
+                points, names, touching, nx, ny, nz, cx + half * nx, cy + half * ny, cz + half * nz, 2.0 * half, 0
+            )
+        if side < 0.0:
+            t = TRIANGLE * behind + 9
+            nx, ny, nz = triangles[t], triangles[t + 1], triangles[t + 2]
+            if nearest > LEAST_PART:
+                nx, ny, nz = (bx - x) / nearest, (by - y) / nearest, (bz - z) / nearest
+            half = -0.5 * (nearest + radius)
+            touching = add_point(
+                points, names, 0, nx, ny, nz, bx + half * nx, by + half * ny, bz + half * nz, 2.0 * half, 0
+            )
+        chosen = choose_points(points, names, touching, SAME_PLACE * radius + LEAST_PART, kept)
+        count[p] = chosen
+        taken = write_chosen(
+            points, names, kept, chosen, px, py, pz, qx, qy, qz, qw, taken, feature, normal, depth, point
+        )
+    return taken
