@@ -12,6 +12,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import pack
+from carom.systems.detection.meshes import joined
 from carom.systems.detection.narrow import MOST_POINTS, STAND_INS
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
@@ -95,7 +96,7 @@ def kernel_call(a: Shape, b: Shape, position: Floats, rotation: Floats) -> tuple
     inputs = (
         which, which, which + n, np.zeros(n), 0,
         shape, size.reshape(2 * n, -1), position.reshape(2 * n, 3), rotation.reshape(2 * n, 4),
-        np.zeros(2 * n, np.int64), pack(dict(enumerate(hulls))),
+        np.zeros(2 * n, np.int64), pack(dict(enumerate(hulls))), joined({}),
     )  # fmt: skip
     kernel = STAND_INS[type(a), type(b)]
     return lambda: kernel(*inputs, start, count, feature, normal, depth, point), count, depth
