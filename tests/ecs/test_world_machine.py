@@ -46,7 +46,7 @@ NAMES = st.sampled_from(["", "ball", "wall", "rain[0]", "rain[1]", "rain[1,2]", 
 PICK = st.integers(0, 10**6)  # whom of those there are, by the rest of a division
 KIND = st.sampled_from(KINDS)
 STEPS = 10_000
-EXAMPLES = 270
+EXAMPLES = 340
 
 
 class Machine(RuleBasedStateMachine):

@@ -10,6 +10,7 @@ from pairs import coal_geometry
 from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import pack
+from carom.systems.detection.meshes import joined
 from carom.systems.detection.narrow import STAND_INS
 from carom.systems.shapes import Shape
 from carom.systems.shapes.box import Box
@@ -44,6 +45,7 @@ HULLS = {
 }
 NUMBERS = {key: number for number, key in enumerate(HULLS)}
 PACKED = pack({NUMBERS[key]: hull_faces(geometry) for key, geometry in HULLS.items()})
+NO_MESHES = joined({})
 SHAPES: dict[str, Shape] = {
     "sphere": Sphere(0.3),
     "capsule": Capsule(0.2, 0.7),
@@ -96,7 +98,7 @@ def measure(a: str, b: str, placed: Placed, reach: float = 0.0) -> Measured:
         np.repeat([SHAPES[a].packed(), SHAPES[b].packed()], n, axis=0),
         np.concatenate([placed.position_a, placed.position_b]),
         np.concatenate([placed.rotation_a, placed.rotation_b]),
-        np.repeat([NUMBERS.get(a, -1), NUMBERS.get(b, -1)], n), PACKED, *found,
+        np.repeat([NUMBERS.get(a, -1), NUMBERS.get(b, -1)], n), PACKED, NO_MESHES, *found,
     )  # fmt: skip
     return found
 
