@@ -11,6 +11,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import pack
+from carom.systems.detection.meshes import joined
 from carom.systems.detection.narrow import STAND_INS
 from carom.systems.shapes import Shape
 from carom.systems.shapes.orientation import Z_TO_Y
@@ -70,7 +71,7 @@ def measure_batch(
     rows = np.arange(n), np.arange(n, 2 * n)
     taken = STAND_INS[type(a), type(b)](
         np.arange(n), rows[swapped], rows[not swapped], np.full(n, reach), 0,
-        np.repeat([a.number, b.number], n), size, position, rotation, np.full(2 * n, -1), pack({}),
+        np.repeat([a.number, b.number], n), size, position, rotation, np.full(2 * n, -1), pack({}), joined({}),
         start, count, feature, normal, depth, point,
     )  # fmt: skip
     return Answer(start, count, feature[:taken], normal[:taken], depth[:taken], point[:taken])
