@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+import re
+import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -13,25 +16,53 @@ import numpy as np
 from carom.ecs.access import GUARDED
 from carom.ecs.errors import AccessError
 
-ROOM = Path(__file__).parents[1]
-PLAIN = ("scalars.py", "trigonometry.py")  # whose functions kernels compile as they stand
-FILES = [
-    *ROOM.glob("kernels/*.py"),
-    *(ROOM.parent / "ecs" / "spatial" / name for name in PLAIN),
-    ROOM / "constants.py",
-]
-SOURCES = hashlib.blake2b(b"".join(path.read_bytes() for path in sorted(FILES))).hexdigest()
+IMPORTS = re.compile(rb"^from (carom\.[\w.]+) import", re.MULTILINE)
+#: Modules whose functions kernels call; of all other modules kernels use numbers only.
+CALLED = re.compile(r"carom\.systems\.kernels\.\w+|carom\.ecs\.spatial\.(scalars|trigonometry)")
+NUMBERS = (int, float, tuple)
+
+
+@cache
+def source_of(module: str) -> bytes:
+    """Return the text of a module; of none, where it was typed."""
+    path = getattr(sys.modules[module], "__file__", None)
+    return Path(path).read_bytes() if path else b""
+
+
+@cache
+def called_from(module: str) -> list[str]:
+    """Return the other modules whose functions those of a module may call, in order of their names."""
+    called: set[str] = set()
+    for name in map(bytes.decode, IMPORTS.findall(source_of(module))):
+        if CALLED.fullmatch(name):
+            called.update((name, *called_from(name)))
+    return sorted(called)
+
+
+def digest_of(module: str) -> bytes:
+    """Return a digest of a module's text and of the numbers that it has from wherever it imports them."""
+    numbers = sorted((name, value) for name, value in vars(sys.modules[module]).items() if isinstance(value, NUMBERS))
+    return hashlib.blake2b(source_of(module) + repr(numbers).encode()).digest()
+
+
+digest_of_called = cache(digest_of)  # a module that is called has all of its numbers, unlike one being imported
+
+
+def stamp_of(module: str) -> str:
+    """Return a digest of all that code compiled from a module depends on."""
+    parts = (digest_of(module), *map(digest_of_called, called_from(module)))
+    return hashlib.blake2b(b"".join(parts)).hexdigest()
 
 
 def compiled(function: Callable[..., Any], **options: Any) -> Any:
-    """Return Numba's dispatcher of a function, cached on disk until any source of kernels changes.
+    """Return Numba's dispatcher of a function, cached on disk until something that it depends on changes.
 
     Numba itself looks at a function's own file only, and would go on using what it calls as it was.
     """
     dispatcher = numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, **options)(function)
     files = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)
     if files is not None:
-        files._source_stamp = SOURCES
+        files._source_stamp = stamp_of(function.__module__)
     return dispatcher
 
 
