@@ -14,7 +14,7 @@ from carom.ecs.describe import describe_query
 from carom.ecs.display import query_html
 from carom.ecs.entity import Entity, EntityView
 from carom.ecs.errors import AccessError
-from carom.ecs.slots import Rows, as_rows, as_spans
+from carom.ecs.slots import Rows, as_rows
 
 if TYPE_CHECKING:
     from pyarrow import Table
@@ -51,7 +51,6 @@ class Query(Dataframe):
         self.structure = -1
         self._rows: Rows
         self._numbers: Integers
-        self._spans: Integers | None = None
 
     @property
     def rows(self) -> Rows:
@@ -70,14 +69,6 @@ class Query(Dataframe):
         if self.structure != self.world.structure:
             self._find()
         return self._numbers
-
-    @property
-    def spans(self) -> Integers:
-        """The rows as runs (n, 2) from first to one past last, for kernels that loop over long stretches."""
-        rows = self.numbers
-        if self._spans is None:
-            self._spans = as_spans(rows)
-        return self._spans
 
     @property
     def entities(self) -> Integers:
@@ -125,5 +116,4 @@ class Query(Dataframe):
             match &= np.logical_or.reduce([world.table(kind).present[:used] for kind in self.any_of])
         self._numbers = np.nonzero(match)[0].astype(np.int64, copy=False)
         self._rows = as_rows(self._numbers)
-        self._spans = None
         self.structure = world.structure

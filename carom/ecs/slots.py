@@ -23,13 +23,9 @@ def as_rows(rows: Integers) -> Rows:
     return slice(first, last + 1) if last - first + 1 == len(rows) else rows
 
 
-def as_spans(rows: Integers) -> Integers:
-    """Return sorted rows as runs (n, 2) from first to one past last."""
-    if not len(rows):
-        return np.zeros((0, 2), np.int64)
-    breaks = np.nonzero(np.diff(rows) != 1)[0]
-    first, last = np.concatenate([[0], breaks + 1]), np.concatenate([breaks, [len(rows) - 1]])
-    return np.stack([rows[first], rows[last] + 1], axis=1)
+def as_numbers(rows: Rows) -> Integers:
+    """Return rows always as an array (n,); the inverse of `as_rows`."""
+    return np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
 
 
 class Slots:
@@ -132,9 +128,7 @@ class Slots:
 
     def ids(self, rows: Any) -> Integers:
         """Return the id of each row."""
-        numbers = np.arange(rows.start, rows.stop) if isinstance(rows, slice) else np.array(rows, np.int64)
-        numbers += self.id_shift[rows]
-        return numbers
+        return np.asarray(as_numbers(rows) + self.id_shift[rows], np.int64)
 
     def entities(self, rows: Any) -> Integers:
         """Return the handles of the entities in ``rows``."""

@@ -16,7 +16,7 @@ from carom.ecs.components.name import Name
 from carom.ecs.entity import INDEX_BITS, INDEX_MASK
 from carom.ecs.errors import SnapshotError
 from carom.ecs.names import NOBODY
-from carom.ecs.slots import Rows
+from carom.ecs.slots import Rows, as_numbers
 from carom.ecs.snapshot_faults import SAVED, Arrays, faults_of
 from carom.ecs.world import World
 
@@ -36,8 +36,7 @@ class Snapshot:
 
     def numbers(self, kind: type[Record]) -> Integers:
         """Return the rows of a kind as an array."""
-        rows = self.tables[kind][0] if kind in self.tables else slice(0, 0)
-        return np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
+        return as_numbers(self.tables[kind][0] if kind in self.tables else slice(0, 0))
 
     def handles(self, rows: Integers) -> Integers:
         """Return the handles of the entities in rows."""
@@ -83,8 +82,7 @@ def rows_of(world: World, kind: type[Record]) -> Rows:
 
 def row_numbers_of(world: World, kind: type[Record]) -> Integers:
     """Return the same rows always as an array."""
-    rows = rows_of(world, kind)
-    return np.arange(rows.start, rows.stop) if isinstance(rows, slice) else rows
+    return as_numbers(rows_of(world, kind))
 
 
 def saved_columns(kind: type[Record]) -> list[str]:

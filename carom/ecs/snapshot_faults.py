@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom.ecs.component import Record, Relation
 from carom.ecs.entity import INDEX_MASK
-from carom.ecs.slots import Rows
+from carom.ecs.slots import Rows, as_numbers
 
 if TYPE_CHECKING:
     from carom.ecs.snapshot import Snapshot
@@ -25,8 +25,7 @@ def faults_of(snapshot: Snapshot, world: World) -> list[str]:
     faults = list(_faults_of_slots(snapshot.slots))
     alive = snapshot.slots["alive"] if not faults else None
     for kind, (rows, arrays) in snapshot.tables.items():
-        count = rows.stop - rows.start if isinstance(rows, slice) else len(rows)
-        faults += _faults_of_columns(kind, arrays, count, len(snapshot.slots.get("generations", ())))
+        faults += _faults_of_columns(kind, arrays, len(as_numbers(rows)), len(snapshot.slots.get("generations", ())))
         if alive is not None and not _stand(kind, rows, alive):
             faults.append(f"{kind.__name__} stands in rows where nobody lives")
     savers = {kind for kind, resource in world.resources.items() if resource.state() is not None}

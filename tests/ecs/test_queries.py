@@ -63,17 +63,6 @@ def test_no_kind_at_all_means_everybody(world: World) -> None:
     assert world.row_numbers().tolist() == [0, 1, 2, 3, 4, 5, world.row(bare)]
 
 
-def test_spans_are_runs_of_rows(world: World) -> None:
-    """From first to one past last; found once until the structure changes."""
-    query = world.query(Transform, without=(RED,))
-    assert query.spans.tolist() == [[0, 3], [4, 6]]
-    assert query.spans is query.spans
-    world.detach(4, Transform)
-    assert query.spans.tolist() == [[0, 3], [5, 6]]
-    assert world.query(Material).spans.tolist() == []
-    assert world.query(Material).spans.shape == (0, 2)
-
-
 def test_one_query_is_one_object_that_stays_right(world: World) -> None:
     """However its options are written; writing values finds nothing anew, structure does."""
     query = world.query(Transform, without=Motion)

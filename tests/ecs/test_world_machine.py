@@ -280,7 +280,6 @@ class Machine(RuleBasedStateMachine):
             assert np.r_[found].tolist() == expected
             query = world.query(*kinds, without=without, any_of=any_of)
             assert query.numbers.tolist() == expected
-            assert [row for first, end in query.spans.tolist() for row in range(first, end)] == expected
             assert query.entities.tolist() == [rows[row] for row in expected]
             assert query.has(RED).tolist() == [RED in self.model.held[rows[row] or 0] for row in expected]
 
