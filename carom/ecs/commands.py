@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from carom.ecs.column import Integers
+from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Component, Resource
-from carom.ecs.prefab import Prefab
-from carom.ecs.query import Query
+from carom.ecs.prefab import Prefab, merge
+from carom.ecs.query import Query, as_handles
 
 if TYPE_CHECKING:
     from carom.ecs.world import World
@@ -35,20 +33,33 @@ class Commands(Resource):
 
     def despawn(self, *entities: int | Integers | Query) -> None:
         """Ask for entities, one by one, as arrays of handles or as queries, to be removed with those they carry."""
-        groups = [group.entities if isinstance(group, Query) else np.atleast_1d(group) for group in entities]
+        groups = [as_handles(group) for group in entities]
         self.ask(lambda world: world.despawn(*(group[world.slots.live(group)] for group in groups)))
 
-    def attach(self, entity: int, *bundles: Component | Prefab) -> None:
-        """Ask for components to be given to an entity."""
-        self.ask(lambda world: world.attach(entity, *bundles) if entity in world else None)
+    def attach(self, entities: int | Integers | Query, *bundles: Component | Prefab) -> None:
+        """Ask for components to be given to one entity, or to all of an array of handles or a query."""
+        handles, parts = as_handles(entities), merge(bundles)
 
-    def detach(self, entity: int, *kinds: type[Component]) -> None:
-        """Ask for components to be taken from an entity."""
-        self.ask(lambda world: world.detach(entity, *kinds) if entity in world else None)
+        def change(world: World) -> None:
+            live = world.slots.live(handles)
+            world.attach(handles[live], *(_of_those(live, part) for part in parts))
+
+        self.ask(change)
+
+    def detach(self, entities: int | Integers | Query, *kinds: type[Component]) -> None:
+        """Ask for components to be taken from one entity, or from all of an array of handles or a query."""
+        handles = as_handles(entities)
+        self.ask(lambda world: world.detach(handles[world.slots.live(handles)], *kinds))
 
     def ask(self, change: Callable[[World], object]) -> None:
         """Ask for any change: a function of the world."""
         self.queue.append(change)
+
+
+def _of_those(which: Booleans, part: Component) -> Component:
+    """Return a bundle with the values of some of its entities; a value for all stays as it is."""
+    each = {n: value[which] for n, value in vars(part).items() if value.shape == (len(which), *part.columns[n].shape)}
+    return type(part)(**vars(part) | each)
 
 
 def apply_commands(world: World) -> None:

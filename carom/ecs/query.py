@@ -31,6 +31,11 @@ def as_kinds(kinds: Kinds) -> tuple[type[Component], ...]:
     return (kinds,) if isinstance(kinds, type) else tuple(kinds)
 
 
+def as_handles(entities: int | Integers | Query) -> Integers:
+    """Return one entity, an array of handles or those a query finds as handles (n,)."""
+    return entities.entities if isinstance(entities, Query) else np.atleast_1d(np.asarray(entities, np.int64))
+
+
 class Query(Dataframe):
     """The entities that have all ``kinds``, none of ``without`` and, if given, at least one of ``any_of``.
 

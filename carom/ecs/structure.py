@@ -17,7 +17,7 @@ from carom.ecs.errors import AccessError, DeclarationError
 from carom.ecs.hierarchy import descendants
 from carom.ecs.names import NOBODY, Names
 from carom.ecs.prefab import Prefab, merge
-from carom.ecs.query import Query
+from carom.ecs.query import Query, as_handles
 from carom.ecs.slots import Rows, Slots
 from carom.ecs.table import Table
 
@@ -74,7 +74,7 @@ class Structure:
         Their handles are stale from now on.
         """
         self._refuse_inside("despawn")
-        named = np.concatenate([np.zeros(0, np.int64), *map(_handles, entities)])
+        named = np.concatenate([np.zeros(0, np.int64), *map(as_handles, entities)])
         rows = self.slots.rows(named)  # raises before anything has changed
         family = descendants(self, named)
         rows = self._sorted(rows if family is named else self.slots.rows(family))
@@ -99,7 +99,7 @@ class Structure:
         A bundle's arrays hold one value for all, or one per entity along the first axis, as in `spawn_many`.
         """
         self._refuse_inside("attach")
-        handles, parts = _handles(entities), merge(bundles)
+        handles, parts = as_handles(entities), merge(bundles)
         rows = self.slots.rows(handles)
         self._check(parts, len(rows), int(handles[0]) if len(rows) == 1 else NOBODY)
         if any(isinstance(part, Name) for part in parts):
@@ -109,7 +109,7 @@ class Structure:
     def detach(self, entities: int | Integers | Query, *kinds: type[Component]) -> None:
         """Take components from one entity, or from all of an array of handles or a query; to have none is no fault."""
         self._refuse_inside("detach")
-        rows = self.slots.rows(_handles(entities))
+        rows = self.slots.rows(as_handles(entities))
         if Name in kinds:
             self._forget_names(rows)
         for kind in kinds:
@@ -222,7 +222,3 @@ class Structure:
         table = self.table(Name)
         for text in table.arrays["text"][rows[table.present[rows]]].tolist():
             self.entity_names.entities.pop(text, None)
-
-
-def _handles(entities: int | Integers | Query) -> Integers:
-    return entities.entities if isinstance(entities, Query) else np.atleast_1d(np.asarray(entities, np.int64))

@@ -295,6 +295,26 @@ def test_commands_come_true_in_the_order_asked() -> None:
     assert world.query(Motion).entities.tolist() == [world.find("new"), world.find("x"), world.find("y")]
 
 
+def test_commands_take_one_many_and_queries_like_the_world() -> None:
+    """Values follow their entities, also where some of these are gone by then."""
+    world = World()
+    world.add(Commands())
+    first, second, third = world.spawn_many(3, Transform()).tolist()
+
+    def ask(world: World) -> None:
+        commands = world[Commands]
+        commands.despawn(second)
+        commands.attach(np.array([third, second, first]), Motion(linear=np.outer([3.0, 2.0, 1.0], (1.0, 0.0, 0.0))))
+        commands.attach(world.query(Transform), RigidBody(mass=[5.0, 6.0, 7.0], center_of_mass=(0.0, 1.0, 0.0)))
+        commands.detach(np.array([second, first]), Transform)
+
+    frame(world, ask)
+    assert world[Motion].linear[:3, 0].tolist() == [1.0, 0.0, 3.0]
+    assert world[RigidBody].mass[:3].tolist() == [5.0, 0.0, 7.0]
+    assert world[RigidBody].center_of_mass[:3, 1].tolist() == [1.0, 0.0, 1.0]
+    assert world.query(Transform).entities.tolist() == [third]
+
+
 # One entity like an object --------------------------------------------------------------------------------------------
 def test_values_are_written_element_by_element_and_in_place() -> None:
     """Also where the value was kept under a name; what is computed from it is an array of its own."""
