@@ -11,7 +11,7 @@ from carom.ecs.access import Kind
 from carom.ecs.commands import apply_commands
 from carom.ecs.component import Record
 from carom.ecs.errors import DeclarationError
-from carom.ecs.system import Condition, System, sight
+from carom.ecs.system import Condition, Question, System
 from carom.ecs.timings import COMMANDS, Timings
 
 if TYPE_CHECKING:
@@ -41,17 +41,13 @@ class Phase:
         self.repeat: Final = repeat
         self.when: Final = when
         self.named: Final = tuple((system, system.name) for system in systems)
-        self._sight = None if when is None else sight(when, f"phase '{name}'", "one of its systems", systems)
+        self.question: Final = (
+            None if when is None else Question(when, f"phase '{name}'", "one of its systems", systems)
+        )
 
     def holding(self, *systems: System) -> Phase:
         """Return this phase with these systems in the place of its own."""
         return Phase(self.name, *systems, repeat=self.repeat, when=self.when)
-
-    def due(self, world: World, *, checked: bool) -> bool:
-        """Ask the condition."""
-        if self.when is None or self._sight is None:
-            return True
-        return bool(self._sight.call(world, self.when) if checked else self.when(world))
 
 
 class Schedule:
@@ -76,14 +72,14 @@ class Schedule:
             with world.faces(None):
                 began = perf_counter_ns()  # one reading ends a system and begins the next: nothing is left out
                 for phase in self.phases:
-                    if phase.when is not None and not phase.due(world, checked=checked):
+                    if phase.question and not phase.question.holds(world, checked=checked):
                         continue
                     repeats = 1 if phase.repeat is None else phase.repeat(world)
                     share = dt / max(repeats, 1)
                     for _ in range(repeats):
                         for system, name in phase.named:
                             world.running = system
-                            if system.when is not None and not system.due(world, checked=checked):
+                            if system.question and not system.question.holds(world, checked=checked):
                                 continue
                             if checked:
                                 system.guarded(world, share)

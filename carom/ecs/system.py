@@ -45,12 +45,6 @@ class System:
         """Run the function seeing only what it declares: reads read-only, everything undeclared refused."""
         self._access.call(world, self.function, dt)
 
-    def due(self, world: World, *, checked: bool = False) -> bool:
-        """Ask the condition; guarded, it reads what the system declares and writes nothing."""
-        if self.when is None:
-            return True
-        return bool(self._sight.call(world, self.when) if checked else self.when(world))
-
     @cached_property
     def _access(self) -> Access:
         return Access(
@@ -62,9 +56,9 @@ class System:
         )
 
     @cached_property
-    def _sight(self) -> Access:
-        assert self.when is not None
-        return sight(self.when, f"system '{self.name}'", "the system", (self,))
+    def question(self) -> Question | None:
+        """What is asked before the system runs; None where it always does."""
+        return None if self.when is None else Question(self.when, f"system '{self.name}'", "the system", (self,))
 
 
 def system(
@@ -94,16 +88,23 @@ def every(count: int) -> Condition:
     return due
 
 
-def sight(condition: Condition, owner: str, declares: str, systems: tuple[System, ...]) -> Access:
-    """Return the access of a condition: it reads what ``systems`` declare, and ``declares`` says who that is."""
-    kinds = dict.fromkeys(kind for one in systems for kind in (*one.reads, *one.writes, *one.adds))
-    return Access(
-        f"condition '{named(condition)}' of {owner}",
-        tuple(kinds),
-        (),
-        f"reads= of {declares}",
-        "a condition only looks; write in the system",
-    )
+class Question:
+    """A condition as ``owner`` asks it: it reads what ``systems`` declare, and ``declares`` says who that is."""
+
+    def __init__(self, condition: Condition, owner: str, declares: str, systems: tuple[System, ...]) -> None:
+        kinds = dict.fromkeys(kind for one in systems for kind in (*one.reads, *one.writes, *one.adds))
+        self._condition = condition
+        self._sight = Access(
+            f"condition '{named(condition)}' of {owner}",
+            tuple(kinds),
+            (),
+            f"reads= of {declares}",
+            "a condition only looks; write in the system",
+        )
+
+    def holds(self, world: World, *, checked: bool) -> bool:
+        """Ask it; ``checked`` refuses what nobody declares, and all writing."""
+        return bool(self._sight.call(world, self._condition) if checked else self._condition(world))
 
 
 def named(condition: Condition) -> str:
