@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
+from collections.abc import Iterable
+
 
 class CaromError(Exception):
     """Base of every error carom raises on purpose; the command line prints it without a traceback and exits 2."""
@@ -30,3 +33,9 @@ class NonFiniteError(CaromError):
         by = f"written by system '{system}'" if system else "found at the end of the step"
         super().__init__(f"frame {frame}: {column} of entity '{entity}' is {value}, {by}")
         self.frame, self.column, self.entity, self.value, self.system = frame, column, entity, value, system
+
+
+def did_you_mean(word: str, choices: Iterable[str], most: int = 1) -> str:
+    """Return a question that names the ``most`` nearest choices, or nothing when none is near."""
+    near = difflib.get_close_matches(word, list(choices), most)
+    return f"did you mean {' or '.join(map(repr, near))}?" if near else ""

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable
 
 from carom.ecs.column import Integers, Texts
-from carom.ecs.errors import DeclarationError, EntityError
+from carom.ecs.errors import DeclarationError, EntityError, did_you_mean
 
 NOBODY = -1
 
@@ -42,6 +41,5 @@ class Names:
         found = self.entities.get(name)
         if found is not None:
             return found
-        near = difflib.get_close_matches(name, self.entities, 3)
-        hint = f"; did you mean {' or '.join(map(repr, near))}?" if near else ""
-        raise EntityError(f"no entity is named {name!r}{hint}")
+        parts = f"no entity is named {name!r}", did_you_mean(name, self.entities, 3)
+        raise EntityError("; ".join(filter(None, parts)))

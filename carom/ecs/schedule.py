@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Iterable, Iterator
 from time import perf_counter_ns
 from typing import TYPE_CHECKING, Final
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Final
 from carom.ecs.access import Kind
 from carom.ecs.commands import apply_commands
 from carom.ecs.component import Record
-from carom.ecs.errors import DeclarationError
+from carom.ecs.errors import DeclarationError, did_you_mean
 from carom.ecs.system import Condition, Question, System
 from carom.ecs.timings import COMMANDS, Timings
 
@@ -126,9 +125,8 @@ class Schedule:
         there = self._names[:-1]
         for name in names:
             if name not in there:
-                near = difflib.get_close_matches(name, there, 1)
-                hint = f"did you mean {near[0]!r}? " if near else ""
-                raise DeclarationError(f"no system is named {name!r}; {hint}there are {', '.join(there)}")
+                hints = " ".join(filter(None, [did_you_mean(name, there), f"there are {', '.join(there)}"]))
+                raise DeclarationError(f"no system is named {name!r}; {hints}")
         return [
             phase.holding(*(new for old, name in phase.named for new in (exchange(old) if name in names else (old,))))
             for phase in self.phases

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 
 from carom.ecs.component import Resource
-from carom.ecs.errors import DeclarationError
+from carom.ecs.errors import DeclarationError, did_you_mean
 
 EVERYTHING = -1
 MOST_LAYERS = 62
@@ -32,9 +31,8 @@ class Layers(Resource):
     def bit(self, name: str) -> int:
         """Return the bit of a layer; raise DeclarationError with near names for an unknown one."""
         if name not in self.bits:
-            near = difflib.get_close_matches(name, self.bits, 1)
-            hint = f"; did you mean {near[0]!r}?" if near else f"; the layers are {', '.join(self.bits)}"
-            raise DeclarationError(f"unknown layer {name!r}{hint}")
+            hint = did_you_mean(name, self.bits) or f"the layers are {', '.join(self.bits)}"
+            raise DeclarationError(f"unknown layer {name!r}; {hint}")
         return self.bits[name]
 
     def mask(self, names: Iterable[str]) -> int:

@@ -7,13 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carom.ecs import World
-from carom.ecs.errors import CaromError
+from carom.ecs.errors import CaromError, did_you_mean
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.film import Film, save_png
 from carom.tools.recorder.blueprint import default_camera
 from carom.worlds.builder import LoadedWorld
-from carom.worlds.errors import did_you_mean
 
 if TYPE_CHECKING:
     from carom.tools.renderer import Renderer
@@ -40,8 +39,8 @@ def shot_of(loaded: LoadedWorld, name: str | None = None) -> Shot:
     """
     known, render = loaded.cameras, loaded.render
     if name is not None and name not in known:
-        hint = f"; {did_you_mean(name, known)}" if did_you_mean(name, known) else ""
-        raise CaromError(f"{loaded.path}: no camera is named {name!r}; accepted: {', '.join(known) or 'none'}{hint}")
+        parts = f"no camera is named {name!r}", f"accepted: {', '.join(known) or 'none'}", did_you_mean(name, known)
+        raise CaromError(f"{loaded.path}: {'; '.join(filter(None, parts))}")
     chosen = name or render.camera or ("main" if "main" in known else next(iter(known), None))
     if chosen is None:
         camera = default_camera(loaded.simulation.world)

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from carom.ecs.errors import DeclarationError, EntityError
+from carom.ecs.errors import DeclarationError, EntityError, did_you_mean
 from carom.ecs.hierarchy import compose
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.worlds import library
 from carom.worlds.check import check_section, collection
-from carom.worlds.errors import Fault, WordError, WorldError, did_you_mean, shown
+from carom.worlds.errors import Fault, WordError, WorldError, shown
 from carom.worlds.expect import Expectation, read_expectations
 from carom.worlds.generated import STEP_WORDS
 from carom.worlds.names import known, matching

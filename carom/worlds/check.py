@@ -8,7 +8,8 @@ from typing import Any, get_args, get_origin
 
 from pydantic import TypeAdapter, ValidationError
 
-from carom.worlds.errors import Path, WordError, did_you_mean, shown
+from carom.ecs.errors import did_you_mean
+from carom.worlds.errors import Path, WordError, shown
 from carom.worlds.reader import Source
 from carom.worlds.schema import document
 

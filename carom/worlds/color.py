@@ -7,7 +7,8 @@ from typing import Annotated, Any
 
 from pydantic import BeforeValidator, WithJsonSchema
 
-from carom.worlds.errors import WordError, did_you_mean, shown
+from carom.ecs.errors import did_you_mean
+from carom.worlds.errors import WordError, shown
 
 Color = tuple[float, float, float, float]
 NAMED = {

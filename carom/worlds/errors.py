@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -50,12 +49,6 @@ class WorldError(CaromError):
     def __init__(self, faults: Iterable[Fault]) -> None:
         self.faults = sorted(set(faults))
         super().__init__("\n".join(map(str, self.faults)))
-
-
-def did_you_mean(word: str, choices: Iterable[str]) -> str:
-    """Return a question naming the nearest choice, or nothing when none is near."""
-    near = difflib.get_close_matches(word, list(choices), 1)
-    return f"did you mean {near[0]!r}?" if near else ""
 
 
 def shown(value: Any) -> str:

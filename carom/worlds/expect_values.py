@@ -11,10 +11,11 @@ import numpy as np
 from carom.ecs import Collider, World
 from carom.ecs.column import Floats
 from carom.ecs.component import Relation
+from carom.ecs.errors import did_you_mean
 from carom.ecs.relations.enter import Enter
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
-from carom.worlds.errors import WordError, did_you_mean, shown
+from carom.worlds.errors import WordError, shown
 from carom.worlds.expectation import Expectation
 from carom.worlds.names import matching
 from carom.worlds.terms import Term, read_term

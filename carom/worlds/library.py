@@ -5,7 +5,8 @@ from __future__ import annotations
 from importlib.resources import files
 from pathlib import Path
 
-from carom.worlds.errors import Fault, WorldError, did_you_mean
+from carom.ecs.errors import did_you_mean
+from carom.worlds.errors import Fault, WorldError
 
 SUFFIXES = (".yaml", ".yml", ".json")
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from carom.worlds.errors import WordError, did_you_mean
+from carom.ecs.errors import did_you_mean
+from carom.worlds.errors import WordError
 
 
 def known(kind: str, name: str, choices: Iterable[str]) -> str:

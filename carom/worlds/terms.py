@@ -10,9 +10,10 @@ import numpy as np
 
 from carom.ecs import Component, Entity, Material, Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats
+from carom.ecs.errors import did_you_mean
 from carom.systems.energy import kinetic_energies
 from carom.systems.own_components import is_own
-from carom.worlds.errors import WordError, did_you_mean
+from carom.worlds.errors import WordError
 from carom.worlds.names import matching
 
 NAME_PATTERN = r"[^\W\d][\w*-]*(?:\[[\d,*]*\])?"

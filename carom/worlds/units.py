@@ -9,7 +9,8 @@ from fractions import Fraction
 from functools import cache, lru_cache
 from typing import Any, NamedTuple
 
-from carom.worlds.errors import WordError, did_you_mean, shown
+from carom.ecs.errors import did_you_mean
+from carom.worlds.errors import WordError, shown
 
 Dimension = tuple[int, int, int, int]  # powers of kg, m, s, rad
 LONGEST_VALUE = 80  # characters: longer texts are no numbers, and their fractions would grow without bound
