@@ -24,7 +24,6 @@ from carom.ecs.errors import (
 )
 from carom.ecs.prefab import Prefab
 from carom.ecs.query import Query
-from carom.ecs.ring import Ring
 from carom.ecs.schedule import Phase, Schedule
 from carom.ecs.snapshot import Snapshot, restore_snapshot, state_hash, take_snapshot
 from carom.ecs.snapshot_bytes import bytes_from_snapshot, snapshot_from_bytes
@@ -60,7 +59,6 @@ __all__ = [
     "Relation",
     "Resource",
     "RigidBody",
-    "Ring",
     "Schedule",
     "Snapshot",
     "SnapshotError",

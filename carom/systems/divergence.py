@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -14,6 +14,7 @@ from carom.ecs import Component, Difference, Snapshot, System, first_difference,
 from carom.ecs.component import Relation
 from carom.ecs.snapshot import copied, look_at
 from carom.ecs.snapshot_faults import SAVED
+from carom.systems.observer import unobserved
 from carom.systems.simulation import Simulation
 
 COMPARED = (*SAVED, "derived")  # a force differs before a velocity does
@@ -89,7 +90,8 @@ def _trace(simulation: Simulation, before: Snapshot) -> list[tuple[Run, bytes]]:
 
     _start(simulation, before)
     trace.append((START, _digest(simulation)))
-    _step(simulation, note)
+    with unobserved(simulation):
+        simulation.step(after=note)
     return trace
 
 
@@ -105,7 +107,8 @@ def _state_after(simulation: Simulation, before: Snapshot, place: int) -> Snapsh
         if done == place:
             state = copied(look_at(simulation.world, COMPARED))
 
-    _step(simulation, note)
+    with unobserved(simulation):
+        simulation.step(after=note)
     return state
 
 
@@ -117,14 +120,6 @@ def _start(simulation: Simulation, before: Snapshot) -> None:
         if issubclass(kind, Relation):
             for array in table.arrays.values():
                 array[world.count(kind) :] = np.zeros((), array.dtype)
-
-
-def _step(simulation: Simulation, after: Callable[[System], None]) -> None:
-    observers, simulation.observers = simulation.observers, []
-    try:
-        simulation.step(after=after)
-    finally:
-        simulation.observers = observers
 
 
 def _digest(simulation: Simulation) -> bytes:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
@@ -19,3 +21,13 @@ class Observer(Protocol):
 
     def end(self, simulation: Simulation) -> None:
         """Finish, also after an error or an interrupt."""
+
+
+@contextmanager
+def unobserved(simulation: Simulation) -> Iterator[None]:
+    """Let nobody see the steps a simulation takes within this context."""
+    observers, simulation.observers = simulation.observers, []
+    try:
+        yield
+    finally:
+        simulation.observers = observers

@@ -7,8 +7,9 @@ from collections.abc import Callable
 import pytest
 from heaps import bin_of_balls, hashes, stack_of_boxes
 
-from carom.ecs import DeclarationError, Ring, SnapshotError, Transform, state_hash
+from carom.ecs import DeclarationError, SnapshotError, Transform, state_hash
 from carom.ecs.relations.contact import Contact
+from carom.systems.ring import Ring
 from carom.systems.simulation import Simulation
 from carom.worlds import load_world
 
@@ -66,9 +67,9 @@ def test_rewinding_is_unseen_by_observers() -> None:
     seen: list[int] = []
 
     class Watcher(Ring):
-        def observe(self, simulation: object) -> None:
+        def observe(self, simulation: Simulation) -> None:
             """Note the frame."""
-            seen.append(followed.frame)
+            seen.append(simulation.frame)
 
     followed = stack_of_boxes()
     ring = ringed(followed, Ring(3, 10))

@@ -3,21 +3,10 @@
 from __future__ import annotations
 
 from collections import deque
-from typing import Any, Protocol
 
-from carom.ecs.errors import DeclarationError, SnapshotError
-from carom.ecs.snapshot import Snapshot, restore_snapshot, take_snapshot
-from carom.ecs.world import World
-
-
-class Stepping(Protocol):
-    """A simulation, as far as the ring knows it."""
-
-    world: World
-    observers: list[Any]
-
-    def step(self, count: int = 1, /) -> None:
-        """Take ``count`` steps."""
+from carom.ecs import DeclarationError, Snapshot, SnapshotError, restore_snapshot, take_snapshot
+from carom.systems.observer import unobserved
+from carom.systems.simulation import Simulation
 
 
 class Ring:
@@ -40,11 +29,11 @@ class Ring:
         """The frames of which a snapshot is kept, the oldest first."""
         return [snapshot.frame for snapshot in self._kept]
 
-    def begin(self, simulation: Stepping) -> None:
+    def begin(self, simulation: Simulation) -> None:
         """Keep the world before its first step."""
         self.observe(simulation)
 
-    def observe(self, simulation: Stepping) -> None:
+    def observe(self, simulation: Simulation) -> None:
         """Keep the world if it is one of the frames, or nothing is kept yet."""
         world = simulation.world
         self._forget_from(world.frame)  # somebody restored an earlier state: what was kept of later ones is no past
@@ -54,14 +43,14 @@ class Ring:
             self._spare.append(self._kept.popleft())
         self._kept.append(take_snapshot(world, reuse=self._spare.pop() if self._spare else None))
 
-    def end(self, simulation: Stepping) -> None:
+    def end(self, simulation: Simulation) -> None:
         """Leave everything as it is."""
 
-    def rewind(self, simulation: Stepping, frames: int) -> None:
+    def rewind(self, simulation: Simulation, frames: int) -> None:
         """Go back by a number of frames; see `rewind_to`."""
         self.rewind_to(simulation, simulation.world.frame - frames)
 
-    def rewind_to(self, simulation: Stepping, frame: int) -> None:
+    def rewind_to(self, simulation: Simulation, frame: int) -> None:
         """Make the world what it was after ``frame``; what was kept of later frames is forgotten.
 
         Between two snapshots the simulation steps again from the earlier one, unseen by its observers: to the same
@@ -77,11 +66,8 @@ class Ring:
         self._forget_from(frame + 1)
         earlier = self._kept[-1]
         restore_snapshot(world, earlier)
-        observers, simulation.observers = simulation.observers, []
-        try:
+        with unobserved(simulation):
             simulation.step(frame - earlier.frame)
-        finally:
-            simulation.observers = observers
 
     def _forget_from(self, frame: int) -> None:
         while self._kept and self._kept[-1].frame >= frame:
