@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy.typing as npt
 from xxhash import xxh3_128
 
 from carom.ecs.column import Integers
-from carom.ecs.component import Component, Record, Relation, Resource
+from carom.ecs.component import Component, Record, Resource
 from carom.ecs.components.name import Name
 from carom.ecs.entity import INDEX_BITS, INDEX_MASK
 from carom.ecs.errors import SnapshotError
@@ -72,42 +72,23 @@ class Block:
         return part
 
 
-def rows_of(world: World, kind: type[Record]) -> Rows:
-    """Return the present rows of a component, or all rows of a relation."""
-    if issubclass(kind, Relation):
-        return slice(0, world.count(kind))
-    assert issubclass(kind, Component)
-    return world.rows(kind)
+def held_columns(world: World, roles: Collection[str] = SAVED) -> Iterator[tuple[type[Record], Rows, list[str]]]:
+    """Yield each kind that has rows, in order of name, with its rows and its columns of these roles.
 
-
-def row_numbers_of(world: World, kind: type[Record]) -> Integers:
-    """Return the same rows always as an array."""
-    return as_numbers(rows_of(world, kind))
-
-
-def saved_columns(kind: type[Record]) -> list[str]:
-    """Return the columns of a kind that are state."""
-    return [name for name, column in kind.columns.items() if column.role in SAVED]
-
-
-def saved_kinds(world: World) -> list[type[Record]]:
-    """Return the kinds that hold state, in order of name: those with a saved column, and tags."""
-    return sorted((kind for kind in world.tables if saved_columns(kind) or not kind.columns), key=lambda kind: kind.key)
+    Who has a component is state, also where its columns are not; a table that was made and never filled is none.
+    """
+    for kind in sorted(world.tables, key=lambda kind: kind.key):
+        names = [name for name, column in kind.columns.items() if column.role in roles]
+        if (names or issubclass(kind, Component)) and (count := world.count(kind)):
+            yield kind, world.rows(kind) if issubclass(kind, Component) else slice(0, count), names
 
 
 def look_at(world: World, roles: Collection[str] = SAVED) -> Snapshot:
-    """Return a snapshot with the columns of these roles that shares the world's memory: it lasts until the next change.
-
-    Kinds stand in order of name, and only those that have rows: a table that was made and never filled is no state.
-    """
-    tables: dict[type[Record], tuple[Rows, Arrays]] = {}
-    for kind in sorted(world.tables, key=lambda kind: kind.key):
-        names = [name for name, column in kind.columns.items() if column.role in roles]
-        if not names and not issubclass(kind, Component):
-            continue
-        rows = rows_of(world, kind)  # who has a component is state, also where its columns are not
-        if rows.stop if isinstance(rows, slice) else len(rows):
-            tables[kind] = (rows, {name: world.tables[kind].read(name, rows) for name in names})
+    """Return a snapshot of the columns of these roles in the world's own memory: it lasts until the next change."""
+    tables = {
+        kind: (rows, {name: world.tables[kind].read(name, rows) for name in names})
+        for kind, rows, names in held_columns(world, roles)
+    }
     resources = {k: s for k, r in world.resources.items() if (s := r.state()) is not None}
     return Snapshot(world.frame, world.slots.state(), tables, resources)
 
@@ -158,31 +139,31 @@ def _restore_resources(world: World, states: dict[type[Resource], bytes]) -> Non
         raise
 
 
-def state_hash(world: World) -> str:
+def state_hash(world: World, roles: Collection[str] = SAVED) -> str:
     """Return 32 hexadecimal digits of all state; equal on every machine for the same past.
 
-    XXH3 (Collet, xxHash, 2019), 128 bits: made to find differences, not to withstand forgery. Rows count by the handles
-    of their entities in order of rows, so that `World.compact` changes nothing.
+    They are equal where `first_difference` finds nothing, and differ where it does. XXH3 (Collet, xxHash, 2019), 128
+    bits: made to find differences, not to withstand forgery. Rows count by the handles of their entities in order of
+    rows, so that `World.compact` changes nothing. ``roles`` are those of the columns that count.
     """
-    digest = xxh3_128()
+    digest = xxh3_128(str(world.frame).encode())
 
     def add(array: npt.NDArray[Any]) -> None:
         digest.update(np.ascontiguousarray(array).data)
 
     handles = world.handles()
-    for kind in saved_kinds(world):
-        rows = rows_of(world, kind)
-        held = handles[rows] if issubclass(kind, Component) else row_numbers_of(world, kind)
-        if len(held):
-            digest.update(kind.key.encode())
-            add(held)
-            for name in saved_columns(kind):
-                add(world.table(kind).read(name, rows))
+    add(handles[world.slots.alive[: world.used()]])
+    for kind, rows, names in held_columns(world, roles):
+        digest.update(kind.key.encode())
+        add(handles[rows] if issubclass(kind, Component) else as_numbers(rows))
+        for name in names:
+            add(world.table(kind).read(name, rows))
     given_back = np.nonzero(world.slots.generations)[0]
     add(given_back)
     add(world.slots.generations[given_back])
     for resource in sorted(world.resources, key=lambda kind: kind.__name__):
         state = world.resources[resource].state()
         if state is not None:
+            digest.update(resource.__name__.encode())
             digest.update(state)
     return digest.hexdigest()

@@ -8,9 +8,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from xxhash import xxh3_128_digest
 
-from carom.ecs import Component, Difference, Snapshot, System, first_difference, restore_snapshot, take_snapshot
+from carom.ecs import Difference, Snapshot, System, first_difference, restore_snapshot, state_hash, take_snapshot
 from carom.ecs.component import Relation
 from carom.ecs.snapshot import copied, look_at
 from carom.ecs.snapshot_faults import SAVED
@@ -77,19 +76,19 @@ def _side_by_side(first: list[Run], second: list[Run]) -> Iterator[tuple[int, in
         yield i, j, x if x is not None and first[i] == x else second[j]
 
 
-def _trace(simulation: Simulation, before: Snapshot) -> list[tuple[Run, bytes]]:
-    """Run a frame; return a digest of everything compared at its start and after every run of a system."""
+def _trace(simulation: Simulation, before: Snapshot) -> list[tuple[Run, str]]:
+    """Run a frame; return a hash of everything compared at its start and after every run of a system."""
     phases = {system.name: phase.name for phase, system in simulation.schedule}
     runs: Counter[str] = Counter()
-    trace: list[tuple[Run, bytes]] = []
+    trace: list[tuple[Run, str]] = []
 
     def note(system: System) -> None:
         runs[system.name] += 1
         run = Run(phases[system.name], system.name, runs[system.name])
-        trace.append((run, _digest(simulation)))
+        trace.append((run, state_hash(simulation.world, COMPARED)))
 
     _start(simulation, before)
-    trace.append((START, _digest(simulation)))
+    trace.append((START, state_hash(simulation.world, COMPARED)))
     with unobserved(simulation):
         simulation.step(after=note)
     return trace
@@ -120,16 +119,3 @@ def _start(simulation: Simulation, before: Snapshot) -> None:
         if issubclass(kind, Relation):
             for array in table.arrays.values():
                 array[world.count(kind) :] = np.zeros((), array.dtype)
-
-
-def _digest(simulation: Simulation) -> bytes:
-    """Return a digest of everything compared, by handle and not by row."""
-    seen = look_at(simulation.world, COMPARED)
-    parts = [seen.living().tobytes()]
-    for resource in sorted(seen.resources, key=lambda kind: kind.__name__):
-        parts += [resource.__name__.encode(), seen.resources[resource]]
-    for kind, (_, arrays) in seen.tables.items():
-        rows = seen.numbers(kind)
-        held = seen.handles(rows) if issubclass(kind, Component) else rows
-        parts += [kind.key.encode(), held.tobytes(), *(array.tobytes() for array in arrays.values())]
-    return xxh3_128_digest(b"".join(parts))

@@ -14,8 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs import Component, Motion, Transform, World
-from carom.ecs.component import Record
-from carom.ecs.snapshot import row_numbers_of, saved_kinds
+from carom.ecs.column import Integers
+from carom.ecs.slots import as_numbers
+from carom.ecs.snapshot import held_columns
 
 LOOKS = ("visual.", "material.color")  # columns that change a picture but no motion
 KEY_COLUMNS: tuple[tuple[type[Component], str], ...] = (
@@ -43,7 +44,7 @@ class Machine:
 
 @dataclass(frozen=True)
 class StateGolden:
-    """Digests of every physical column, and poses and velocities by name for machines where those need not agree."""
+    """Digests of every physical state column, and poses and velocities by name for where their bits need not agree."""
 
     machine: Machine
     frame: int
@@ -73,16 +74,14 @@ def this_machine() -> Machine:
 def state_golden(world: World, driver: str | None = None) -> StateGolden:
     """Return the physical state of a world now."""
     digests = {}
-    for kind in saved_kinds(world):
-        rows = row_numbers_of(world, kind)
-        for name in kind.columns if len(rows) else ():
+    for kind, rows, names in held_columns(world):
+        for name in names:
             if not f"{kind.key}.{name}".startswith(LOOKS):
-                digests[f"{kind.key}.{name}"] = _digest(world, kind, name, rows)
+                digests[f"{kind.key}.{name}"] = _digest(as_numbers(rows), world.table(kind).read(name, rows))
     return StateGolden(this_machine(), world.frame, digests, _keys(world), driver)
 
 
-def _digest(world: World, kind: type[Record], name: str, rows: npt.NDArray[np.int64]) -> str:
-    values = np.ascontiguousarray(world.table(kind).arrays[name][rows])
+def _digest(rows: Integers, values: npt.NDArray[Any]) -> str:
     return hashlib.blake2b(rows.tobytes() + values.tobytes(), digest_size=8).hexdigest()
 
 

@@ -143,7 +143,6 @@ class PlainWorld:
         """Return everything a state hash must tell apart, and nothing else."""
         rows = [
             (handle, sorted((kind.key, [v[n].tobytes() for n in v if n != "row"]) for kind, v in held.items()))
-            for handle in self.rows
-            if handle is not None and (held := self.held[handle])
+            for handle, held in ((handle, self.held[handle]) for handle in self.rows if handle is not None)
         ]
         return repr((rows, sorted(self.generations.items()), [who for who, _ in self.bonds]))

@@ -128,6 +128,7 @@ def test_other_differences(pair: tuple[World, World], change: Callable[[World], 
     """Who lives, who has what, relations with whom they hold, resources, handles, frames."""
     change(pair[1])
     assert str(first_difference(*pair)) == f"frame 40: {message}"
+    assert state_hash(pair[0]) != state_hash(pair[1])
 
 
 def test_a_relation_with_more_rows(pair: tuple[World, World]) -> None:

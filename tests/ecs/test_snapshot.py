@@ -26,7 +26,7 @@ from carom.ecs import (
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Inside
 from carom.ecs.relations.impact import Impact
-from carom.ecs.snapshot import saved_kinds
+from carom.ecs.snapshot import held_columns
 from carom.ecs.snapshot_faults import SAVED
 from carom.systems.detection.fcl_pairs import FclObjects
 from carom.systems.settings import Random
@@ -257,18 +257,11 @@ def test_memory_of_a_snapshot_nobody_needs_is_taken_over() -> None:
     assert take_snapshot(simulation.world, reuse=old).memory is not old.memory
 
 
-def columns_of(simulation: Simulation) -> list[tuple[Any, str]]:
-    """Return every saved column of a world that has rows."""
-    world = simulation.world
-    kinds = [kind for kind in saved_kinds(world) if world.count(kind)]
-    return [(k, name) for k in kinds for name, column in k.columns.items() if column.role in SAVED]
-
-
 def test_the_hash_changes_with_every_state_column() -> None:
     """One bit of one row of any saved column makes another hash, and undoing it the old one."""
     simulation = bouncing_and_resting()
     simulation.step(60)
-    columns = columns_of(simulation)
+    columns = [(kind, name) for kind, _, names in held_columns(simulation.world) for name in names]
     assert {kind for kind, _ in columns} >= {Transform, Motion, Material, Contact, Inside}
     before = state_hash(simulation.world)
     for kind, name in columns:
@@ -282,15 +275,17 @@ def test_the_hash_changes_with_every_state_column() -> None:
 
 
 def test_the_hash_changes_with_who_has_what() -> None:
-    """A component more, an entity more or the draw of a number make another hash."""
+    """A component more, an entity more, even with no component, another frame or the draw of a number."""
     found = {state_hash(bouncing_and_resting().world)}
     for change in (
         lambda s: s.world.attach(s.world.find("floor"), Motion()),
         lambda s: s.world.spawn(Transform()),
+        lambda s: s.world.spawn(),
+        lambda s: setattr(s.world, "frame", 1),
         lambda s: s.world.despawn(s.world.find("ball7")),
         lambda s: s.world[Random].generator.normal(),
     ):
         simulation = bouncing_and_resting()
         change(simulation)
         found.add(state_hash(simulation.world))
-    assert len(found) == 5
+    assert len(found) == 7

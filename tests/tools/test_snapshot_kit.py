@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from carom.ecs.component import Record
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
-from carom.tools.goldens import write_picture
+from carom.tools.goldens import state_golden, write_picture
 from carom.tools.renderer import Renderer
 from carom.tools.scene import Scene
 
@@ -141,6 +142,18 @@ def test_an_accepted_change_passes_again(kit: pytest.Pytester) -> None:
     kit.runpytest_inprocess("--carom-update").assert_outcomes(passed=1)
     kit.runpytest_inprocess().assert_outcomes(passed=1)
     assert not golden(kit, "falling.actual.png").exists()
+
+
+def test_only_state_is_held() -> None:
+    """What every step derives anew is no state, also where it stands beside what is: a contact's rows, for one."""
+    simulation = Simulation()
+    simulation.add(collider={"plane": {}})
+    simulation.add(collider={"sphere": {"radius": 0.3}}, body={}, transform={"position": (0.0, 0.3, 0.0)})
+    simulation.step()
+    digests = state_golden(simulation.world).digests
+    roles = {Record.registry[key].columns[name].role for key, _, name in (path.partition(".") for path in digests)}
+    assert {"contact.normal", "transform.position"} <= digests.keys()
+    assert roles == {"state", "input"}
 
 
 def test_the_plugin_imports_nothing_of_weight() -> None:
