@@ -113,8 +113,7 @@ def random_batch(a: Shape, b: Shape, count: int, seed: int) -> tuple[Batch, Floa
 
 def smaller(a: Shape, b: Shape) -> float:
     """Return the least width of the smaller shape."""
-    bounds = [shape.bounds() for shape in (a, b) if not isinstance(shape, Point | Plane)]
-    return min(2.0 * (min(one.half) + one.radius) for one in bounds)
+    return min(shape.bounds().width for shape in (a, b) if not isinstance(shape, Point | Plane))
 
 
 def separation(a: Shape, b: Shape, batch: Batch, normal: Floats) -> Floats:

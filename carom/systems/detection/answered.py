@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
+from carom.ecs import World
 from carom.ecs.component import Resource
 
 
@@ -16,3 +19,13 @@ class Answered(Resource):
     refused: int = 0
     detections: int = 0
     impacts_cut: int = 0
+
+
+@contextmanager
+def uncounted(world: World) -> Iterator[None]:
+    """Measure pairs within this context without a trace in the counts: looking on must not show in the summary."""
+    counts = vars(world[Answered]).copy()
+    try:
+        yield
+    finally:
+        vars(world[Answered]).update(counts)

@@ -15,7 +15,7 @@ from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion, vector
 from carom.systems.constants import AUDITED_DEPTH, AUDITED_OVERLAP, AUDITED_TURN
-from carom.systems.detection.answered import Answered
+from carom.systems.detection.answered import uncounted
 from carom.systems.detection.fcl_pairs import EXACT, FclObjects
 from carom.systems.detection.narrow import BY_FCL, FUNCTION_OF, Found, measure_pairs
 from carom.systems.kernels.narrow import reach_of_pairs
@@ -69,9 +69,8 @@ def audit(world: World, report: dict[tuple[str, str], Compared]) -> None:
     pairs = audited_pairs(world)
     reaches = np.empty(len(pairs))
     reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
-    counted = vars(world[Answered]).copy()
-    ways = [deepest(measure_pairs(world, pairs, reaches, way), pairs) for way in ("auto", "fcl")]
-    vars(world[Answered]).update(counted)  # looking on must not show in the summary
+    with uncounted(world):
+        ways = [deepest(measure_pairs(world, pairs, reaches, way), pairs) for way in ("auto", "fcl")]
     for p in range(len(pairs)):
         sides = [(depth[p], normal[p]) for depth, normal in ways]
         compare(world, pairs[p], sides[0], sides[1], report)
@@ -150,9 +149,7 @@ def is_exact(shapes: list[Shape]) -> bool:
 
 def smaller_size(shapes: list[Shape]) -> float:
     """Return the smallest edge of the bounds of two shapes (m), 1 m where neither has one."""
-    edges = [2.0 * (min(shape.bounds().half) + shape.bounds().radius) for shape in shapes]
-    finite = [edge for edge in edges if 0.0 < edge < np.inf]
-    return min(finite, default=1.0)
+    return min((width for shape in shapes if 0.0 < (width := shape.bounds().width) < np.inf), default=1.0)
 
 
 def overlap_along(world: World, pair: Integers, shapes: list[Shape], normal: Floats) -> float:

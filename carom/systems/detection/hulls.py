@@ -6,12 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.ecs import Collider, World
 from carom.ecs.column import Floats, Integers
-from carom.ecs.component import Resource
 from carom.ecs.spatial.scalars import Vector
+from carom.systems.detection.packed import Packed
 from carom.systems.shapes.convex import Convex
-from carom.systems.shapes.geometry import Geometries
+from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.polyhedron import Polyhedron, from_loops, hull_faces
 
 POINT = Polyhedron([(0.0, 0.0, 0.0)], [], [], [])  # what a ball is around
@@ -43,25 +42,18 @@ class Hulls(NamedTuple):
     edges: Integers
 
 
-class PackedHulls(Resource):
-    """The polyhedra of a world's convex colliders; a cache, packed anew when a geometry has become one."""
+class PackedHulls(Packed[Polyhedron, Hulls]):
+    """The polyhedra of a world's convex colliders."""
 
-    def __init__(self) -> None:
-        self.polyhedra: dict[int, Polyhedron] = {}
-        self.packed = pack({})
+    shapes = (Convex,)
 
-    def holding(self, world: World) -> Hulls:
-        """Return the arrays, with the geometry of every convex collider in them."""
-        if not world[Geometries].items:
-            return self.packed
-        collider, rows = world[Collider], world.row_numbers(Collider)
-        numbers = collider.geometry[rows[collider.shape[rows] == Convex.number]]
-        known = len(self.packed.polyhedron)
-        if len(numbers) and (numbers.max() >= known or (self.packed.polyhedron[numbers] < 0).any()):
-            for number in sorted(set(numbers.tolist()) - self.polyhedra.keys()):
-                self.polyhedra[number] = hull_faces(world[Geometries].items[number])
-            self.packed = pack(self.polyhedra)
-        return self.packed
+    def make(self, geometry: Geometry) -> Polyhedron:
+        """Return the faces of a hull."""
+        return hull_faces(geometry)
+
+    def pack(self, made: dict[int, Polyhedron]) -> Hulls:
+        """Return all of them, after those of carom's own shapes."""
+        return pack(made)
 
 
 def pack(polyhedra: dict[int, Polyhedron]) -> Hulls:

@@ -6,12 +6,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.ecs import Collider, World
 from carom.ecs.column import Floats, Integers
-from carom.ecs.component import Resource
 from carom.systems.detection.mesh_links import Surface, linked
+from carom.systems.detection.packed import Packed
 from carom.systems.kernels.mesh_tree import TRIANGLE, build_tree
-from carom.systems.shapes.geometry import Geometries, Geometry
+from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.mesh import Mesh
 
@@ -32,26 +31,18 @@ class Meshes(NamedTuple):
     fan: Integers
 
 
-class PackedMeshes(Resource):
-    """The trees of a world's meshes; a cache, packed anew when a geometry has become one's."""
+class PackedMeshes(Packed[Meshes, Meshes]):
+    """The trees of a world's meshes and height fields."""
 
-    def __init__(self) -> None:
-        self.trees: dict[int, Meshes] = {}
-        self.packed = joined({})
+    shapes = (Mesh, HeightField)
 
-    def holding(self, world: World) -> Meshes:
-        """Return the arrays, with the geometry of every mesh collider in them."""
-        if not world[Geometries].items:
-            return self.packed
-        collider, rows = world[Collider], world.row_numbers(Collider)
-        shapes = collider.shape[rows]
-        numbers = collider.geometry[rows[(shapes == Mesh.number) | (shapes == HeightField.number)]]
-        known = len(self.packed.root)
-        if len(numbers) and (numbers.max() >= known or (self.packed.root[numbers] < 0).any()):
-            for number in sorted(set(numbers.tolist()) - self.trees.keys()):
-                self.trees[number] = tree_of(world[Geometries].items[number])
-            self.packed = joined(self.trees)
-        return self.packed
+    def make(self, geometry: Geometry) -> Meshes:
+        """Return the tree over a surface."""
+        return tree_of(geometry)
+
+    def pack(self, made: dict[int, Meshes]) -> Meshes:
+        """Return all of them as one."""
+        return joined(made)
 
 
 def tree_of(geometry: Geometry) -> Meshes:

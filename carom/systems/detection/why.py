@@ -12,7 +12,7 @@ from carom.ecs import Collider, ColliderPose, Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.spatial import quaternion
-from carom.systems.detection.answered import Answered
+from carom.systems.detection.answered import uncounted
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.narrow import measure_pairs
 from carom.systems.layers import Layers
@@ -54,16 +54,13 @@ def _placed(world: World) -> Iterator[None]:
         for kind, names in (*written, (Flight, "reach detected_center"))
         for name in names.split()
     ]
-    answered = world[Answered]
-    counts = dict(vars(answered))
-    with world.faces(None):
+    with world.faces(None), uncounted(world):
         reach_within(world, world[Settings].dt)
         try:
             yield
         finally:
             for kind, name, values in kept:
                 getattr(world[kind], name)[:] = values
-            vars(answered).update(counts)
 
 
 class _Pair:

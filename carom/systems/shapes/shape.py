@@ -25,6 +25,11 @@ class Bounds(NamedTuple):
     half: tuple[float, float, float]
     radius: float
 
+    @property
+    def width(self) -> float:
+        """Their smallest edge, m."""
+        return 2.0 * (min(self.half) + self.radius)
+
 
 class Surface(NamedTuple):
     """Triangles to draw: vertices (v, 3) in m in the shape frame, faces (f, 3), ``smooth`` where normals blend."""

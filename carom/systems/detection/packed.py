@@ -1,0 +1,52 @@
+"""Packed: what kernels read of a world's geometries, in flat arrays."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import ClassVar, Generic, TypeVar
+
+import numpy as np
+
+from carom.ecs import Collider, World
+from carom.ecs.column import Booleans
+from carom.ecs.component import Resource
+from carom.systems.shapes.geometry import Geometries, Geometry
+from carom.systems.shapes.shape import Shape
+
+One = TypeVar("One")
+Every = TypeVar("Every")
+
+
+class Packed(Resource, ABC, Generic[One, Every]):
+    """The geometries of colliders of these ``shapes``; a cache, packed anew when one of them has another geometry."""
+
+    shapes: ClassVar[tuple[type[Shape], ...]]
+
+    def __init__(self) -> None:
+        self._made: dict[int, One] = {}
+        self._known: Booleans = np.zeros(0, np.bool_)
+        self._packed = self.pack(self._made)
+
+    @abstractmethod
+    def make(self, geometry: Geometry) -> One:
+        """Return what is worked out once of a geometry."""
+
+    @abstractmethod
+    def pack(self, made: dict[int, One]) -> Every:
+        """Return the arrays of all of them by number."""
+
+    def holding(self, world: World) -> Every:
+        """Return the arrays, with the geometry of every collider of these shapes in them."""
+        items = world[Geometries].items
+        if not items:
+            return self._packed
+        self._known.resize(len(items))
+        collider, rows = world[Collider], world.row_numbers(Collider)
+        shapes = collider.shape[rows]
+        numbers = collider.geometry[rows[np.logical_or.reduce([shapes == shape.number for shape in self.shapes])]]
+        if not self._known[numbers].all():
+            for number in sorted(set(numbers[~self._known[numbers]].tolist())):
+                self._made[number] = self.make(items[number])
+            self._known[numbers] = True
+            self._packed = self.pack(self._made)
+        return self._packed
