@@ -7,8 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.ecs.column import Floats, Integers
-from carom.systems.constants import COPLANAR
+from carom.ecs.spatial.vector import cross, dot
+from carom.systems.constants import COPLANAR, NO_AREA
 from carom.systems.shapes.geometry import Geometry
+from carom.systems.shapes.welding import weld
 
 
 class Surface(NamedTuple):
@@ -30,38 +32,26 @@ class Surface(NamedTuple):
 
 def linked(geometry: Geometry) -> Surface:
     """Return the surface of a geometry; an edge of more than two triangles counts as the rim of each."""
-    vertices, names = _welded(geometry.vertices)
-    faces = names[geometry.faces]
+    vertices, faces = weld(geometry.vertices, geometry.faces)
     a, b, c = (vertices[faces[:, k]] for k in range(3))
-    spans = _cross(b - a, c - a)
-    lengths = np.sqrt(_dot(spans, spans))
-    edges = np.maximum(np.maximum(_dot(b - a, b - a), _dot(c - b, c - b)), _dot(a - c, a - c))
-    source = np.nonzero(lengths > np.finfo(np.float64).eps * edges)[0]
+    spans = cross(b - a, c - a)
+    lengths = np.sqrt(dot(spans, spans))
+    edges = np.maximum(np.maximum(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c))
+    source = np.nonzero(lengths > NO_AREA * edges)[0]
     faces, normals = faces[source], spans[source] / lengths[source, None]
     starts, ends = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     across, active = np.full(len(starts), -1), np.ones(len(starts), np.bool_)
     one, other = _partners(starts, ends, len(vertices))
     across[one], across[other] = faces[:, [2, 0, 1]].ravel()[other], faces[:, [2, 0, 1]].ravel()[one]
     along = vertices[ends[one]] - vertices[starts[one]]
-    along /= np.sqrt(_dot(along, along))[:, None]
+    along /= np.sqrt(dot(along, along))[:, None]
     m, n = normals[one // 3], normals[other // 3]
-    folded = (_dot(m, n) < 0.0) & (_dot(_cross(m, n), along) > -COPLANAR)  # back to back: a sheet's edge
-    active[one] = active[other] = (_dot(_cross(m, n), along) > COPLANAR) | folded
+    folded = (dot(m, n) < 0.0) & (dot(cross(m, n), along) > -COPLANAR)  # back to back: a sheet's edge
+    active[one] = active[other] = (dot(cross(m, n), along) > COPLANAR) | folded
     keys = np.unique(np.concatenate([starts * len(vertices) + ends, ends * len(vertices) + starts]))
     fan_start = np.searchsorted(keys, np.arange(len(vertices) + 1) * len(vertices))
     bits = active.reshape(-1, 3) @ np.array([1, 2, 4])
     return Surface(vertices, faces, source, normals, across.reshape(-1, 3), bits, fan_start, keys % len(vertices))
-
-
-def _welded(vertices: Floats) -> tuple[Floats, Integers]:
-    """Return the distinct places, and which of them each vertex is."""
-    order = np.lexsort((vertices[:, 2], vertices[:, 1], vertices[:, 0]))
-    sorted_ = vertices[order]
-    new = np.ones(len(order), np.bool_)
-    new[1:] = (sorted_[1:] != sorted_[:-1]).any(axis=1)
-    names = np.empty(len(order), np.int64)
-    names[order] = np.cumsum(new) - 1
-    return np.ascontiguousarray(sorted_[new]), names
 
 
 def _partners(starts: Integers, ends: Integers, count: int) -> tuple[Integers, Integers]:
@@ -76,13 +66,3 @@ def _partners(starts: Integers, ends: Integers, count: int) -> tuple[Integers, I
     one, other = order[first[alone]], order[first[alone] + 1]
     opposed = starts[one] == ends[other]
     return one[opposed], other[opposed]
-
-
-def _dot(a: Floats, b: Floats) -> Floats:
-    found: Floats = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1] + a[:, 2] * b[:, 2]
-    return found
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    x, y, z = (a[:, i] * b[:, j] - a[:, j] * b[:, i] for i, j in ((1, 2), (2, 0), (0, 1)))
-    return np.stack([x, y, z], axis=1)

@@ -9,8 +9,9 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.ecs.spatial.vector import normalise
 from carom.systems.shapes.orientation import along_y
-from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter, unit
+from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class Capsule(Shape):
 
     def support(self, directions: Floats) -> Floats:
         """Return r d / |d| about the end of the segment that is farther, the upper for a level direction."""
-        points = self.radius * unit(directions)
+        points = self.radius * normalise(directions)
         points[:, 1] += np.where(directions[:, 1] < 0.0, -self.length / 2.0, self.length / 2.0)
         return points
 

@@ -9,7 +9,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
-from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter, unit
+from carom.ecs.spatial.vector import normalise
+from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
 DRAWN_EXTENT = 100.0
 ALONG = 1e-12  # how far a direction may differ from the normal, both of length 1, to be along it
@@ -52,7 +53,7 @@ class Plane(Shape):
     def support(self, directions: Floats) -> Floats:
         """Return the foot of the origin along the normal; in any other direction there is no end."""
         normal = np.array(self.normal)
-        along = np.abs(unit(directions) - normal).max(axis=1) < ALONG
+        along = np.abs(normalise(directions) - normal).max(axis=1) < ALONG
         endless = np.where(directions == 0.0, 0.0, np.copysign(np.inf, directions))
         return np.where(along[:, None], self.offset * normal, endless)
 

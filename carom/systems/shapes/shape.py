@@ -53,11 +53,6 @@ def parameter(*, unit: str, doc: str, default: Any = dataclasses.MISSING, above:
     return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, "above": above})
 
 
-def unit(vectors: Floats) -> Floats:
-    """Return vectors (n, 3) over their lengths."""
-    return np.asarray(vectors / np.sqrt((vectors * vectors).sum(axis=1, keepdims=True)))
-
-
 SHAPES: dict[str, type[Shape]] = {}
 BY_NUMBER: dict[int, type[Shape]] = {}
 FIRST_OWN_NUMBER = 1000  # carom numbers its shapes from 0; those of others come from here on

@@ -9,7 +9,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
-from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter, unit
+from carom.ecs.spatial.vector import normalise
+from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
 
 @dataclass(frozen=True)
@@ -31,7 +32,7 @@ class Sphere(Shape):
 
     def support(self, directions: Floats) -> Floats:
         """Return r d / |d|."""
-        return self.radius * unit(directions)
+        return self.radius * normalise(directions)
 
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return an FCL sphere; growing it is exact."""
