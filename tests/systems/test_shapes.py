@@ -209,7 +209,8 @@ def test_the_support_point_belongs_to_the_shape(key: str) -> None:
     points = shape.support(DIRECTIONS)
     reach = (points * DIRECTIONS).sum(axis=1)
     assert (DIRECTIONS @ points.T - reach[:, None]).max() <= 1e-15
-    assert shape.support(1e3 * DIRECTIONS) == pytest.approx(points, abs=1e-15)
+    for length in (1e-200, 1e3, 1e200):
+        assert shape.support(length * DIRECTIONS) == pytest.approx(points, abs=1e-15)
 
 
 def test_support_where_many_points_are_equally_far() -> None:

@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.ecs.spatial.vector import normalise
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface
 
 
@@ -34,9 +35,7 @@ class Ellipsoid(Shape):
 
     def support(self, directions: Floats) -> Floats:
         """Return R^2 d / |R d| with the half axes R: the ball's answer in the stretched frame."""
-        stretched = directions * self.radii
-        length = np.sqrt((stretched * stretched).sum(axis=1, keepdims=True))
-        return np.asarray(stretched * self.radii / length)
+        return np.asarray(normalise(directions * self.radii) * self.radii)
 
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return FCL's ellipsoid; it cannot grow exactly, so the margin is left out."""

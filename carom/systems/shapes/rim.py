@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial.trigonometry import sine_cosine
+from carom.ecs.spatial.vector import normalise
 
 RIM_POINTS = 16  # corners that stand for each rim; the one that a half space touches first is always among them
 UPRIGHT = 1e-3  # sine of the tilt up to which an upright shape stands on points that stay; it misses 2e-5 radii
@@ -29,10 +30,4 @@ def rim_points(radius: float, height: float, towards: tuple[float, float, float]
 
 def farthest_on_rim(radius: float, directions: Floats) -> Floats:
     """Return the points (n, 3) of the circle about y at height 0 farthest along directions (n, 3); x where none is."""
-    across = np.sqrt(directions[:, 0] ** 2 + directions[:, 2] ** 2)
-    points = np.zeros_like(directions)
-    upright = across == 0.0
-    length = np.where(upright, 1.0, across)
-    points[:, 0] = np.where(upright, radius, radius * directions[:, 0] / length)
-    points[:, 2] = radius * directions[:, 2] / length
-    return points
+    return radius * normalise(directions * [1.0, 0.0, 1.0], otherwise=(1.0, 0.0, 0.0))
