@@ -5,14 +5,11 @@ from __future__ import annotations
 import math
 
 from carom.ecs.errors import DeclarationError
+from carom.systems.constants import EARLY
 
 # Time is counted in whole ticks of 2**-64 s. Every float from 0.3 ms up is a whole number of them, so that sums are
 # exact: however a stretch of time is cut into frames, the same steps come due.
 TICKS = 2**64
-
-# A step is due this part of itself early, so that 100 steps of 0.01 s fit into 1 s although the float 0.01 is more than
-# a hundredth. Smaller: sums of rounded numbers such as 1/144 s may end a step short. It is never seen: 17 ns at 60 Hz.
-EARLY = 2**20
 
 # s. One frame never asks for more: beyond it a machine too slow for its world would fall behind ever further, since
 # every late frame asks for more steps than the one before. In time, not in steps, so that a short dt drops no more.

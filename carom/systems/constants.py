@@ -4,6 +4,11 @@
 # Larger: more pairs to look at. Smaller: more detections in the middle of a step.
 REACH_SLACK = 5e-3
 
+# Part of itself, one in this many, by which a step is due early in real time, so that 100 steps of 0.01 s fit into 1 s
+# although the float 0.01 is more than a hundredth; never seen, 16 ns at 60 Hz. Larger: sums of rounded numbers such as
+# 1/144 s may end a step short.
+EARLY = 2**20
+
 # Factor on the motion foreseen within a step. Below 1 a falling body leaves its bounds in every step.
 REACH_FACTOR = 1.25
 
@@ -75,6 +80,38 @@ SMALL_ANGLE = 1e-12
 # would drop thin triangles of real models; smaller leaves some whose normal is noise.
 NO_AREA = 1e-10
 
+# Part of their width that points must leave a plane by to have a hull. Larger would refuse thin plates; smaller leaves
+# some to Qhull, which would push them about until they have a volume.
+FLATTEST_HULL = 1e-9
+
+# Part of a hull's width that corners may leave the plane of their face by, and by what it is multiplied in turn until
+# the faces close a volume. Larger: normals are off by as much over an edge. Smaller: rounding splits faces.
+FACE_FLAT = 1e-6
+FACE_COARSER = (1.0, 3.0, 10.0, 30.0)
+
+# Least cosine of two triangles of one face. Only slivers, whose normal is noise, are let off; larger would keep some of
+# them apart, smaller let thin edges of a wedge pass for flat.
+FACE_COSINE = 0.5
+
+# Sine of the tilt up to which an upright cylinder or cone stands on points of its rim that stay. Larger: it stands
+# deeper than 2e-5 radii on the side where it leans. Smaller: noise in its tilt turns the points around the rim.
+UPRIGHT = 1e-3
+
+# Sweeps of Jacobi's method to the principal axes of a solid; it converges quadratically, 6 are usual. Fewer: axes of
+# long thin bodies are not perpendicular.
+JACOBI_SWEEPS = 30
+
+# How far a direction may differ from a plane's normal, both of length 1, to be along it, where the half space has an
+# end. Larger: finite answers to directions that have none; smaller than rounding: none along the normal.
+ALONG_NORMAL = 1e-12
+
+# How far from 1 the length of a plane's normal may be to be left as it is, so that to make a plane of it again changes
+# no bit: rounding of a length. Larger: distances to the plane are off by as much.
+NORMAL_LENGTH = 1e-15
+
+# m. Radius of the ball that stands for a point in FCL, which has no points. Larger: points touch too early by as much.
+LEAST_FCL_RADIUS = 1e-9
+
 # Most triangles of a mesh or height field. Reading, joining and weighing one takes 6 to 11 us for each, and FCL 10 us
 # more to build its tree: this many load in 20 s. Larger ones look like a program that hangs.
 MOST_TRIANGLES = 1_000_000
@@ -134,6 +171,10 @@ COPLANAR = 1e-4
 # Sine of the angle by which a mesh may rise about an edge or corner and still be touched there: rounding. Larger: edges
 # within flat areas give normals of their own.
 LEANING = 1e-7
+
+# m. Points that FCL gives for triangles with one normal (SAME_NORMAL) are one where they are nearer than this. Larger:
+# corners of small bodies are lost; smaller: triangles that meet under a corner give it several times.
+SAME_SPOT = 1e-3
 
 # Cosine of 10 degrees: a body has one manifold with all triangles of a mesh whose normals are within it. Larger angles
 # lose points on bent land; smaller ones give more points than it takes.

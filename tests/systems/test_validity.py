@@ -18,8 +18,8 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"depth": np.nan}, "its numbers are not finite"),
     ({"depth": np.inf}, "its numbers are not finite"),
     ({"point": (np.inf, -np.inf, 0.0)}, "its numbers are not finite"),
-    ({"normal": (0.0, 0.0, 0.0)}, "its normal has the length 0; accepted: 1 within 1e-6"),
-    ({"normal": (0.0, 1.00001, 0.0)}, "its normal has the length 1.00001; accepted: 1 within 1e-6"),
+    ({"normal": (0.0, 0.0, 0.0)}, "its normal has the length 0; accepted: 1 within 1e-06"),
+    ({"normal": (0.0, 1.00001, 0.0)}, "its normal has the length 1.00001; accepted: 1 within 1e-06"),
     ({"depth": 1.1}, "its depth is 1.1 m; accepted: at most 0.010001 m, which the two sizes allow"),
     ({"depth": -0.4}, "its gap is 0.4 m; accepted: at most 0.00840726 m, which the step can close"),
 ]

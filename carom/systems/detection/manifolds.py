@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.systems.constants import SAME_NORMAL, SAME_SPOT
 
 Points = list[tuple[Floats, Floats, float]]
 
 MOST_POINTS = 4
-SAME_DIRECTION = 0.985  # cosine of 10 degrees: triangle contacts within it are one contact
-SAME_PLACE = 1e-3  # m
 
 
 def under_plane(corners: Floats, radius: float, normal: Floats, origin: Floats, reach: float) -> Points:
@@ -39,7 +38,7 @@ def merge_triangles(points: Points) -> Points:
     """Keep the deepest of the points that several triangles report for one contact."""
     kept: Points = []
     for point, normal, depth in sorted(points, key=lambda p: -p[2]):
-        near = any((normal * n).sum() > SAME_DIRECTION and ((point - p) ** 2).sum() < SAME_PLACE**2 for p, n, _ in kept)
+        near = any((normal * n).sum() > SAME_NORMAL and ((point - p) ** 2).sum() < SAME_SPOT**2 for p, n, _ in kept)
         if not near:
             kept.append((point, normal, depth))
     return kept

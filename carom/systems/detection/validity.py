@@ -10,6 +10,7 @@ from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.access import GUARDED
 from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import CaromError
+from carom.systems.constants import UNIT_NORMAL
 from carom.systems.detection.answered import Answered
 from carom.systems.kernels.validity import NOT_FINITE, NOT_UNIT, TOO_DEEP, TOO_FAR, refuse_points
 from carom.systems.shapes.shape import BY_NUMBER
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 FAULTS = {
     NOT_FINITE: "its numbers are not finite",
-    NOT_UNIT: "its normal has the length {value:.9g}; accepted: 1 within 1e-6",
+    NOT_UNIT: f"its normal has the length {{value:.9g}}; accepted: 1 within {UNIT_NORMAL:g}",
     TOO_DEEP: "its depth is {value:.6g} m; accepted: at most {limit:.6g} m, which the two sizes allow",
     TOO_FAR: "its gap is {value:.6g} m; accepted: at most {limit:.6g} m, which the step can close",
 }

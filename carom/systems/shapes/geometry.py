@@ -10,9 +10,8 @@ import numpy as np
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
+from carom.systems.constants import FLATTEST_HULL
 from carom.systems.shapes.shape import Bounds
-
-FLATTEST = 1e-9  # part of their width that points must leave a plane by to have a volume
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +68,7 @@ def hull_of(points: Floats, source: str = "points") -> Geometry:
         raise DeclarationError(f"{source}: points must be finite, received {points[bad].tolist()} as point {bad}")
     flat = DeclarationError(f"{source}: the points lie in one plane, so their hull has no volume")
     spread = np.linalg.svd(points - points.mean(axis=0), full_matrices=False, compute_uv=False)
-    if spread[2] <= FLATTEST * spread[0]:  # qhull would joggle them into a hull
+    if spread[2] <= FLATTEST_HULL * spread[0]:  # qhull would joggle them into a hull
         raise flat
     try:
         hull = convex_hull(points)

@@ -10,10 +10,10 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial.vector import normalise
+from carom.systems.constants import ALONG_NORMAL, NORMAL_LENGTH
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
 DRAWN_EXTENT = 100.0
-ALONG = 1e-12  # how far a direction may differ from the normal, both of length 1, to be along it
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Plane(Shape):
         """Normalise the normal; raise DeclarationError for a zero one."""
         super().__post_init__()
         length = math.sqrt(sum(c * c for c in self.normal))
-        if abs(length - 1.0) >= 1e-15:
+        if abs(length - 1.0) > NORMAL_LENGTH:
             object.__setattr__(self, "normal", tuple(c / length for c in self.normal))
 
     def faults(self) -> list[tuple[str, str]]:
@@ -53,7 +53,7 @@ class Plane(Shape):
     def support(self, directions: Floats) -> Floats:
         """Return the foot of the origin along the normal; in any other direction there is no end."""
         normal = np.array(self.normal)
-        along = np.abs(normalise(directions) - normal).max(axis=1) < ALONG
+        along = np.abs(normalise(directions) - normal).max(axis=1) < ALONG_NORMAL
         endless = np.where(directions == 0.0, 0.0, np.copysign(np.inf, directions))
         return np.where(along[:, None], self.offset * normal, endless)
 

@@ -8,10 +8,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.systems.constants import LEAST_FCL_RADIUS
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface
 
 DRAWN_RADIUS = 0.01
-LEAST_FCL_RADIUS = 1e-9
 
 
 @dataclass(frozen=True)

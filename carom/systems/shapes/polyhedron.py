@@ -7,11 +7,8 @@ from typing import NamedTuple
 
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial.scalars import Vector, cross
+from carom.systems.constants import FACE_COARSER, FACE_COSINE, FACE_FLAT
 from carom.systems.shapes.geometry import Geometry
-
-FLAT = 1e-6  # part of the body's width that corners may leave the plane of their face by
-ALONG = 0.5  # least cosine of two triangles of one face; only slivers, whose normal is noise, are let off
-COARSER = (1.0, 3.0, 10.0, 30.0)  # times FLAT: tried in turn until the faces close a volume
 
 OPTIONS = "QbB Pp Qt"  # of Qhull: scaled to a cube, silent about thin bodies, triangles only
 
@@ -60,8 +57,8 @@ def hull_faces(geometry: Geometry) -> Polyhedron:
     triangles: list[Loop] = [tuple(face) for face in ConvexHull(vertices, qhull_options=OPTIONS).simplices.tolist()]
     triangles = _wound_alike(vertices, triangles)
     width = max(max(axis) - min(axis) for axis in zip(*vertices, strict=True))
-    for times in COARSER:
-        found = from_loops(places, _joined(vertices, triangles, FLAT * times * width))
+    for times in FACE_COARSER:
+        found = from_loops(places, _joined(vertices, triangles, FACE_FLAT * times * width))
         if found.closes():
             return found
     raise DeclarationError(f"{geometry.source}: points that nearly coincide leave the faces of the hull in doubt")
@@ -111,7 +108,7 @@ def _joined(vertices: list[Vector], triangles: list[Loop], within: float) -> lis
                 other = left.get((v, u), seed)
                 x, y, z = spans[other]
                 sliver = areas[other] <= within * longest[other]
-                turned = not sliver and nx * x + ny * y + nz * z < ALONG * areas[other]
+                turned = not sliver and nx * x + ny * y + nz * z < FACE_COSINE * areas[other]
                 corners = (vertices[vertex] for vertex in triangles[other])
                 flat = all(abs(nx * (x - ox) + ny * (y - oy) + nz * (z - oz)) <= within for x, y, z in corners)
                 if other not in joined and flat and not turned:

@@ -9,9 +9,9 @@ import numpy as np
 from carom.ecs.column import Floats
 from carom.ecs.spatial.trigonometry import sine_cosine
 from carom.ecs.spatial.vector import normalise
+from carom.systems.constants import UPRIGHT
 
 RIM_POINTS = 16  # corners that stand for each rim; the one that a half space touches first is always among them
-UPRIGHT = 1e-3  # sine of the tilt up to which an upright shape stands on points that stay; it misses 2e-5 radii
 
 
 def rim_points(radius: float, height: float, towards: tuple[float, float, float]) -> Floats:

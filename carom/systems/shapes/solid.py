@@ -11,10 +11,9 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
+from carom.systems.constants import JACOBI_SWEEPS
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.shape import MassProperties
-
-SWEEPS = 30  # Jacobi converges quadratically; 6 are usual
 
 
 def solid_properties(geometry: Geometry) -> MassProperties:
@@ -50,7 +49,7 @@ def principal(matrix: list[list[float]]) -> tuple[tuple[float, float, float], Fl
     """
     m = [row[:] for row in matrix]
     axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]  # rows
-    for _ in range(SWEEPS):
+    for _ in range(JACOBI_SWEEPS):
         for p, q in ((0, 1), (0, 2), (1, 2)):
             if m[p][q] == 0.0:
                 continue
