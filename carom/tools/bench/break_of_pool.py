@@ -9,7 +9,7 @@ from pathlib import Path
 from statistics import median
 
 from carom.systems.simulation import Simulation
-from carom.tools.bench.measure import Figure, Timing, timed
+from carom.tools.bench.measure import Figure, Timing, figure, timed
 from carom.tools.film import Film
 from carom.tools.filming import shot_of
 from carom.tools.recorder import Recorder
@@ -76,10 +76,7 @@ def _one_ball() -> Figure:
     simulation.add(transform={"position": (0.0, 0.1, 0.0)}, collider={"sphere": {"radius": 0.1}}, body={})
     simulation.step(60)
     timing = timed(lambda: simulation.step(200), 9)
-    per_step = 1e3 / 200
-    return Figure(
-        "one ball on a plane", "ms a step", per_step * timing.wall, per_step * timing.cpu, 0.3, "cpu", repeats=9
-    )
+    return figure("one ball on a plane", "ms a step", timing, 0.3, 1e3 / 200)
 
 
 def _pictures() -> Iterator[Figure]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from statistics import median
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import BroadPhase, overlapping
 from carom.systems.simulation import Simulation
 from carom.tools.bench import hull_rows, mesh_rows, narrow_rows
-from carom.tools.bench.measure import Figure, Timing, timed
+from carom.tools.bench.measure import Figure, compared, figure
 
 SPACING, JITTER = 0.91, 0.15  # of balls of 1 m: 7 of their bounds overlap each, as in a pile
 REPEATS = 7
@@ -35,25 +35,16 @@ def broad_phase() -> Iterator[Figure]:
         manager.update()
         manager.collide([], gather)
 
-    cold, warm = [], []
-    for _ in range(REPEATS):
-        fcl = timed(by_fcl, 1)
-        cold.append(faster(fcl, timed(lambda: find_cold(world), 5)))
-        warm.append(faster(fcl, timed(lambda: find(world), 25)))
-    yield times_faster("broad phase, 10,000 balls, cold", cold, 12.0)
-    yield times_faster("broad phase, 10,000 balls, settled", warm, 60.0)
+    for state, ours, calls, bound in (("cold", find_cold, 5, 12.0), ("settled", find, 25, 60.0)):
+        ratio = compared(by_fcl, partial(ours, world), REPEATS, calls)
+        yield figure(f"broad phase, 10,000 balls, {state}", "x faster than FCL", ratio, bound, at_least=True)
 
 
 def broad_phase_growth() -> Iterator[Figure]:
     """Compare cold detections of 10,000 and of 50,000 bodies of one density."""
     few, many = pile(10_000), pile(50_000)
-    ratios = []
-    for _ in range(REPEATS):
-        short, long = timed(lambda: find_cold(few), 5), timed(lambda: find_cold(many), 3)
-        ratios.append((long.wall / short.wall / 5.0, long.cpu / short.cpu / 5.0))
-    name = "broad phase, 10,000 to 50,000 balls, cold"
-    wall, cpu = (median(column) for column in zip(*ratios, strict=True))
-    yield Figure(name, "x the count", wall, cpu, 1.15, "cpu", repeats=REPEATS)
+    ratio = compared(partial(find_cold, many), partial(find_cold, few), REPEATS, 5)
+    yield figure("broad phase, 10,000 to 50,000 balls, cold", "x the count", ratio, 1.15, 1.0 / 5.0)
 
 
 def pile(count: int) -> World:
@@ -99,14 +90,3 @@ def gather(one: Any, two: Any, pairs: list[Any]) -> bool:
     """Keep a pair and go on."""
     pairs.append((one, two))
     return False
-
-
-def faster(theirs: Timing, ours: Timing) -> tuple[float, float]:
-    """Return how many times faster ours is, by wall and by CPU time."""
-    return theirs.wall / ours.wall, theirs.cpu / ours.cpu
-
-
-def times_faster(name: str, ratios: list[tuple[float, float]], bound: float) -> Figure:
-    """Return the figure of such ratios."""
-    wall, cpu = (median(column) for column in zip(*ratios, strict=True))
-    return Figure(name, "x faster than FCL", wall, cpu, bound, "cpu", True, len(ratios))

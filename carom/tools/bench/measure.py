@@ -22,7 +22,7 @@ class PeerMissingError(CaromError):
 
 @dataclass(frozen=True)
 class Timing:
-    """Medians over the repeats, in s."""
+    """Medians over the repeats: seconds, or how many times longer one takes than another."""
 
     wall: float
     cpu: float
@@ -83,15 +83,19 @@ def timed(function: Callable[[], object], repeats: int) -> Timing:
     return Timing(median(walls), median(cpus), repeats)
 
 
-def compared(ours: Callable[[], object], theirs: Callable[[], object], repeats: int) -> tuple[Timing, Timing]:
-    """Time two functions in turns, so that what else the machine does meets both alike; first calls do not count."""
-    ours(), theirs()
-    taken = [(timed(ours, 1), timed(theirs, 1)) for _ in range(repeats)]
-    first, second = (
-        Timing(median(timing.wall for timing in side), median(timing.cpu for timing in side), repeats)
-        for side in zip(*taken, strict=True)
-    )
-    return first, second
+def compared(one: Callable[[], object], other: Callable[[], object], repeats: int, calls: int = 1) -> Timing:
+    """Return how many times longer one function takes than another, called ``calls`` times for each of its calls.
+
+    They are called in turns, so that what else the machine does meets both alike; first calls do not count.
+    """
+    one(), other()
+    taken = [(timed(one, 1), timed(other, calls)) for _ in range(repeats)]
+    return Timing(median(a.wall / b.wall for a, b in taken), median(a.cpu / b.cpu for a, b in taken), repeats)
+
+
+def figure(name: str, unit: str, timing: Timing, bound: float, scale: float = 1.0, *, at_least: bool = False) -> Figure:
+    """Return the figure of a timing times ``scale``, bounded by CPU time."""
+    return Figure(name, unit, scale * timing.wall, scale * timing.cpu, bound, "cpu", at_least, timing.repeats)
 
 
 def timed_process(command: Sequence[str], repeats: int, environment: dict[str, str] | None = None) -> Timing:

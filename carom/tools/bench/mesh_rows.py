@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from math import inf
 
 import numpy as np
@@ -15,7 +15,7 @@ from carom.systems.detection.narrow import MOST_POINTS, Points, measure_pairs
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.height_field import HeightField, land
 from carom.systems.simulation import Simulation
-from carom.tools.bench.measure import Figure, timed
+from carom.tools.bench.measure import Figure, figure, timed
 
 BODIES, CELLS = 500, 100  # 2 triangles a cell
 WIDTH, ROUGH = 100.0, 0.3  # m
@@ -30,18 +30,14 @@ def figures() -> Iterator[Figure]:
     heights = np.random.default_rng(0).uniform(0.0, ROUGH, (CELLS + 1, CELLS + 1))
     geometry = land(heights, WIDTH / CELLS, WIDTH / CELLS, "bench")
     triangles = f"{len(geometry.faces):,} triangles"
-    yield _timing(f"tree over {triangles}", lambda: tree_of(geometry), 5, 50.0)
+    yield figure(f"tree over {triangles}", "ms", timed(lambda: tree_of(geometry), 5), 50.0, 1e3)
     simulation, pairs, reaches = _lying(geometry)
     name, world = f"{BODIES} bodies on {triangles}", simulation.world
     with world.faces(None):  # as within a system: else kernels are handed copies of columns
-        yield _timing(name, lambda: measure_pairs(world, pairs, reaches), REPEATS, 1.5)
+        yield figure(name, "ms", timed(lambda: measure_pairs(world, pairs, reaches), REPEATS), 1.5, 1e3)
         points, which = Points(BODIES, MOST_POINTS * BODIES), np.arange(BODIES)
-        yield _timing(f"{name}, FCL", lambda: measure_by_fcl(world, which, pairs, reaches, points), BY_FCL, inf)
-
-
-def _timing(name: str, function: Callable[[], object], repeats: int, bound: float) -> Figure:
-    timing = timed(function, repeats)
-    return Figure(name, "ms", 1e3 * timing.wall, 1e3 * timing.cpu, bound, "cpu", repeats=repeats)
+        by_fcl = timed(lambda: measure_by_fcl(world, which, pairs, reaches, points), BY_FCL)
+        yield figure(f"{name}, FCL", "ms", by_fcl, inf, 1e3)
 
 
 def _lying(geometry: Geometry) -> tuple[Simulation, Integers, Floats]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from statistics import median
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,7 @@ from carom.systems.shapes.orientation import Z_TO_Y, wxyz_from_xyzw
 from carom.systems.shapes.polyhedron import hull_faces
 from carom.systems.shapes.shape import Shape
 from carom.systems.shapes.sphere import Sphere
-from carom.tools.bench.measure import Figure, timed
+from carom.tools.bench.measure import Figure, compared, figure
 
 POSES = 10_000
 DRAWN = 50 * POSES  # of which those that touch are kept
@@ -43,18 +42,14 @@ def figures() -> Iterator[Figure]:
     """Yield how many times faster each kernel is; FCL's call counts alone, with its result, not what reads it."""
     for name, (a, b) in PAIRS.items():
         position, rotation = stacked(a, b) if name == MANIFOLD else touching(a, b)
-        yield compared(f"{name}, {POSES} touching", a, b, position, rotation, BOUNDS.get(name, 30.0))
+        yield faster(f"{name}, {POSES} touching", a, b, position, rotation, BOUNDS.get(name, 30.0))
 
 
-def compared(name: str, a: Shape, b: Shape, position: Floats, rotation: Floats, bound: float) -> Figure:
+def faster(name: str, a: Shape, b: Shape, position: Floats, rotation: Floats, bound: float) -> Figure:
     """Time both sides over the same poses, in alternation."""
     by_kernel, by_fcl = kernel_call(a, b, position, rotation)[0], fcl_call(a, b, position, rotation)
-    ratios = []
-    for _ in range(REPEATS):
-        theirs, ours = timed(by_fcl, 1), timed(by_kernel, CALLS)
-        ratios.append((theirs.wall / ours.wall, theirs.cpu / ours.cpu))
-    wall, cpu = (median(column) for column in zip(*ratios, strict=True))
-    return Figure(name, "x faster than FCL", wall, cpu, bound, "cpu", True, REPEATS)
+    ratio = compared(by_fcl, by_kernel, REPEATS, CALLS)
+    return figure(name, "x faster than FCL", ratio, bound, at_least=True)
 
 
 def stacked(a: Shape, b: Shape) -> tuple[Floats, Floats]:

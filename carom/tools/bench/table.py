@@ -25,7 +25,7 @@ from carom.ecs import (
     state_hash,
     take_snapshot,
 )
-from carom.tools.bench.measure import Figure, Timing, compared, timed
+from carom.tools.bench.measure import Figure, Timing, compared, figure, timed
 from carom.tools.bench.table_loops import DT, by_esper, by_numba, by_numpy, scheduled
 from carom.tools.bench.table_worlds import contiguous, fragmented, numbers, some
 
@@ -49,23 +49,21 @@ def figures() -> Iterator[Figure]:
 def _updates() -> Iterator[Figure]:
     apart, mixed = contiguous(MILLION), fragmented(MILLION)
     share = len(mixed.row_numbers(Transform, Motion)) / MILLION
-    ours, best = compared(scheduled(apart), by_numba(apart), 41)
-    yield _ratio("update 1e6, contiguous, by Numba's loop", ours, best, 1.15)
-    yield _ratio("update 1e6, contiguous, by NumPy", *compared(scheduled(apart), by_numpy(apart), 9), 1.0)
-    ours, best = compared(scheduled(mixed), by_numba(mixed), 41)
-    yield _ratio("update 1e6, gaps, by Numba's loop there", ours, best, WITH_GAPS * 1.15)
-    ours, best = compared(scheduled(mixed), by_numba(apart), 41)
-    yield _ratio("update 1e6, gaps, a row by contiguous Numba", ours, best, WITH_GAPS * 1.15, share)
-    yield _ratio("update 1e6, gaps, by NumPy there", *compared(scheduled(mixed), by_numpy(mixed), 9), 1.0)
+    for name, one, other, repeats, bound, scale in (
+        ("contiguous, by Numba's loop", scheduled(apart), by_numba(apart), 41, 1.15, 1.0),
+        ("contiguous, by NumPy", scheduled(apart), by_numpy(apart), 9, 1.0, 1.0),
+        ("gaps, by Numba's loop there", scheduled(mixed), by_numba(mixed), 41, WITH_GAPS * 1.15, 1.0),
+        ("gaps, a row by contiguous Numba", scheduled(mixed), by_numba(apart), 41, WITH_GAPS * 1.15, 1.0 / share),
+        ("gaps, by NumPy there", scheduled(mixed), by_numpy(mixed), 9, 1.0, 1.0),
+    ):
+        yield figure(f"update 1e6, {name}", "x", compared(one, other, repeats), bound, scale)
 
 
 def _esper() -> Iterator[Figure]:
     count = 100_000
     for layout, world, bound in (("contiguous", contiguous(count), 60.0), ("gaps", fragmented(count), 60 / WITH_GAPS)):
-        frame = scheduled(world)
-        theirs, ours = compared(by_esper(count, layout == "gaps"), partial(_repeat, frame), 15)
-        wall, cpu = FRAMES * theirs.wall / ours.wall, FRAMES * theirs.cpu / ours.cpu
-        yield Figure(f"update 1e5, {layout}, faster than esper", "x", wall, cpu, bound, "cpu", True, 15)
+        ratio = compared(by_esper(count, layout == "gaps"), partial(_repeat, scheduled(world)), 15)
+        yield figure(f"update 1e5, {layout}, faster than esper", "x", ratio, bound, FRAMES, at_least=True)
 
 
 def _repeat(frame: Callable[[], object]) -> None:
@@ -84,11 +82,11 @@ def _calls(layout: str, world: World, slack: float) -> Iterator[Figure]:
 def _coming_and_going() -> Iterator[Figure]:
     position, velocity = Transform(position=numbers(MILLION, 1)), Motion(linear=numbers(MILLION, 2))
     spawned = _once(lambda: partial(World().spawn_many, MILLION, position, velocity, RigidBody()), 9)
-    yield _scaled("spawn_many 1e6 of three components", "s", spawned, 1.0, 0.3)
+    yield figure("spawn_many 1e6 of three components", "s", spawned, 0.3)
     grown = float(subprocess.run([sys.executable, __file__], capture_output=True, text=True, check=True).stdout)
     yield Figure("memory of these by bytes of columns", "x", grown, grown, 1.2)
     for layout, make, bound in (("contiguous", contiguous, 50.0), ("gaps", fragmented, 50.0 * WITH_GAPS)):
-        yield _scaled(f"despawn 1e5 and query, {layout}", "ms", _once(partial(_leaving, make), 9), 1e3, bound)
+        yield figure(f"despawn 1e5 and query, {layout}", "ms", _once(partial(_leaving, make), 9), bound, 1e3)
 
 
 def _leaving(make: Callable[[int], World]) -> Callable[[], None]:
@@ -128,7 +126,7 @@ def _saving() -> Iterator[Figure]:
             ("restore", partial(restore_snapshot, world, saved), 3.0),
             ("state hash", partial(state_hash, world), 1.0),
         ):
-            yield _scaled(f"{name} of 1e4 bodies, {layout}", "ms", timed(call, 51), 1e3, bound * slack)
+            yield figure(f"{name} of 1e4 bodies, {layout}", "ms", timed(call, 51), bound * slack, 1e3)
 
 
 def _body(count: int) -> tuple[Transform, Motion, RigidBody, Collider, Material]:
@@ -144,18 +142,9 @@ def _empty(name: str) -> Callable[[World, float], None]:
     return nothing
 
 
-def _ratio(name: str, ours: Timing, theirs: Timing, bound: float, share: float = 1.0) -> Figure:
-    wall, cpu = ours.wall / theirs.wall / share, ours.cpu / theirs.cpu / share
-    return Figure(name, "x", wall, cpu, bound, "cpu", repeats=ours.repeats)
-
-
-def _scaled(name: str, unit: str, timing: Timing, scale: float, bound: float) -> Figure:
-    return Figure(name, unit, scale * timing.wall, scale * timing.cpu, bound, "cpu", repeats=timing.repeats)
-
-
 def _each(name: str, call: Callable[[], object], bound: float) -> Figure:
     timing = timed(lambda: [call() for _ in range(2000)], 15)
-    return _scaled(name, "us", timing, 1e6 / 2000, bound)
+    return figure(name, "us", timing, bound, 1e6 / 2000)
 
 
 def grown() -> float:
