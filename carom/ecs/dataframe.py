@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -24,7 +25,7 @@ AXES = "xyzw"
 Flat = tuple[Any, Any]  # an Arrow field with its unit and meaning, and its array
 
 
-class Dataframe:
+class Dataframe(ABC):
     """What can be had as a flat table: a row per entity, or per row of a relation, and a column per number.
 
     Columns are called by the paths of world files, such as ``transform.position.x``; those of a relation by their own
@@ -32,9 +33,9 @@ class Dataframe:
     ``pyarrow.table(world[Contact])`` and all others that take Arrow streams work as well.
     """
 
+    @abstractmethod
     def arrow(self) -> Table:
         """Return a `pyarrow.Table` whose fields carry ``unit`` and ``doc`` as metadata."""
-        raise NotImplementedError
 
     def pandas(self) -> Any:
         """Return a `pandas.DataFrame`; raise ModuleNotFoundError, saying how to install it, where there is none."""
