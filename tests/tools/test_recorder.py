@@ -25,6 +25,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
 from carom.tools.recorder import Recorder
+from carom.tools.recorder.stream import application_id
 from carom.tools.recording import Recording
 
 RED, BLUE, GREY = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9), (0.4, 0.4, 0.4)
@@ -231,6 +232,20 @@ def test_settings_versions_and_the_world_file_travel_along(tmp_path: Path) -> No
     assert values["seed"] == [0]
     assert values["version_numpy"] == [np.__version__]
     assert "falling" in values["TextDocument:text"][0]
+
+
+@pytest.mark.parametrize("title", ["a ball, a ramp", 'Ω: a/b "c" (1 + 2).', "x" * 300])
+def test_any_title_is_taken_without_a_warning(title: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    """Rerun would exchange letters in the application's name and say so on stderr, in the middle of a run's output."""
+    record(falling_world(), tmp_path / "run.rrd", 1, title=title)
+    assert capfd.readouterr().err == ""
+
+
+def test_worlds_of_different_titles_are_different_applications() -> None:
+    """The viewer keeps a layout for each; what can be read in a title stays."""
+    ids = [application_id(title) for title in ("a ball [1]", "a, b", "a; b", "x" * 300, "x" * 301)]
+    assert ids[:3] == ["carom: a ball [1]", "carom: a- b a5b1d428", "carom: a- b bcd861dd"]
+    assert len(set(ids)) == 5
 
 
 def test_a_run_that_breaks_off_leaves_a_readable_recording(tmp_path: Path) -> None:

@@ -2,14 +2,29 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
+from zlib import crc32
 
 import numpy as np
 
 FRAME = "frame"
 TIME = "sim_time"
+
+
+TITLE_LENGTH = 150  # characters of an application's name; Rerun takes 180 in all
+
+
+def application_id(title: str) -> str:
+    """Return the name of a world's own application, since the viewer keeps one layout per application.
+
+    Rerun takes ASCII letters, digits and ``:-_[]`` in it, others it would exchange, and warn. Where that is done here,
+    a checksum keeps those of different titles apart.
+    """
+    plain = re.sub(r"[^A-Za-z0-9 :_\[\]-]", "-", title)[:TITLE_LENGTH]
+    return f"carom: {plain}" if plain == title else f"carom: {plain} {crc32(title.encode()):08x}"
 
 
 class Stamp(NamedTuple):
@@ -22,14 +37,13 @@ class Stamp(NamedTuple):
 class Stream:
     """A recording stream of its own (never Rerun's global one) into one file.
 
-    Rows are stamped with simulated time only: wall-clock timelines would make equal runs differ. The application is
-    named after the world, since the viewer keeps one layout per application.
+    Rows are stamped with simulated time only: wall-clock timelines would make equal runs differ.
     """
 
     def __init__(self, path: Path, title: str, blueprint: Any) -> None:
         import rerun
 
-        self._recording = rerun.RecordingStream(f"carom: {title}")
+        self._recording = rerun.RecordingStream(application_id(title))
         self._recording.save(path, default_blueprint=blueprint)
         self._recording.send_recording_name(title)
         self._recording.set_log_time_enabled(False)
