@@ -58,6 +58,8 @@ class Structure:
         self._refuse_inside("spawn")
         if count < 0:
             raise DeclarationError(f"spawn_many makes 0 entities or more, received {count}")
+        if names is not None and len(names) != count:
+            raise DeclarationError(f"names: one for each of {count} entities, received {len(names)}")
         parts = merge(bundles if names is None else (*bundles, Name(text=names)))
         self._check(parts, count)
         rows = self.slots.choose(count)

@@ -150,9 +150,14 @@ def test_a_column_of_entities_takes_living_ones_only() -> None:
         (lambda world: world.spawn_many(-1, Transform()), "spawn_many makes 0 entities or more, received -1"),
         (
             lambda world: world.spawn_many(3, Transform(), names=["a", "b"]),
+            "names: one for each of 3 entities, received 2",
+        ),
+        (lambda world: world.spawn_many(3, names=["a"]), "names: one for each of 3 entities, received 1"),
+        (
+            lambda world: world.spawn_many(3, Motion(linear=np.ones((2, 3)))),
             (
-                "Name.text takes a single value per row, received an array of shape (2,); "
-                "give shape () for all, or (3,) for each"
+                "Motion.linear takes 3 per row, received an array of shape (2, 3); "
+                "give shape (3,) for all, or (3, 3) for each"
             ),
         ),
         (
@@ -163,7 +168,18 @@ def test_a_column_of_entities_takes_living_ones_only() -> None:
         (lambda world: world.query(Transform, "motion"), "a query takes component classes, received 'motion'"),
         (lambda world: world.rows(Transform, without=Contact), f"a query takes component classes, received {Contact}"),
     ],
-    ids=["a class", "a number", "less than none", "names", "ragged", "a fraction", "a text", "a relation"],
+    ids=[
+        "a class",
+        "a number",
+        "less than none",
+        "names",
+        "a name",
+        "some values",
+        "ragged",
+        "a fraction",
+        "a text",
+        "a relation",
+    ],
 )
 def test_misuse_is_told_and_changes_nothing(spawn: Callable[[World], object], message: str) -> None:
     """What was received, what is accepted."""
