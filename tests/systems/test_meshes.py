@@ -16,7 +16,8 @@ from carom.systems.detection.meshes import joined, tree_of
 from carom.systems.shapes import Shape
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
-from carom.systems.shapes.geometry import Geometry
+from carom.systems.shapes.convex import Convex
+from carom.systems.shapes.geometry import Geometry, hull_of
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.sphere import Sphere
 from carom.systems.simulation import Simulation
@@ -146,6 +147,22 @@ def test_solids_over_land_against_coal(key: str) -> None:
             assert len(found.depth) == 0
     assert seen > 100
     assert beyond > 100
+
+
+def test_a_box_is_the_hull_of_its_corners() -> None:
+    """Its closed form finds on land what the kernel of hulls does, above, touching, and deep in."""
+    land, shape = sheet(13, 8.0, 1.0, 0.3), Box((0.6, 0.4, 1.0))
+    corners = np.array([(x, y, z) for x in (-0.3, 0.3) for y in (-0.2, 0.2) for z in (-0.5, 0.5)])
+    generator = np.random.default_rng(7)
+    places = generator.uniform([-3.0, -0.2, -3.0], [3.0, 1.8, 3.0], (2000, 3))
+    turns = quaternion.normalise(generator.normal(size=(2000, 4)))
+    boxes, hulls = (laid(land, one, 2000).measure(places, turns, 0.05) for one in (shape, Convex(hull_of(corners))))
+    for box, hull in zip(boxes, hulls, strict=True):
+        assert len(box.depth) == len(hull.depth)
+        one, other = (np.lexsort(np.round(found.point, 6).T) for found in (box, hull))
+        for column in ("depth", "normal", "point"):
+            assert getattr(box, column)[one] == pytest.approx(getattr(hull, column)[other], abs=1e-7)
+    assert sum(len(found.depth) > 0 for found in boxes) > 1000
 
 
 @pytest.mark.parametrize("key", BODIES)

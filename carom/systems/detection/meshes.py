@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from carom.ecs.column import Floats, Integers
 from carom.systems.detection.mesh_links import Surface, linked
@@ -14,21 +15,25 @@ from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.mesh import Mesh
 
+Singles = npt.NDArray[np.float32]
+Indices = npt.NDArray[np.int32]
+
 
 class Meshes(NamedTuple):
     """Triangles in the order of their trees; all indices run through the whole world.
 
+    What a step reads of a mesh is seldom in the processor's cache, so bounds and indices take half of the usual room.
     The tree of geometry g has the nodes from ``root[g]`` on, in preorder, -1 where g is no mesh's.
     """
 
     root: Integers
-    bounds: Floats  # 6 per node: lower and upper corner
-    nodes: Integers  # 3 per node: the next one that is not below it, its first triangle, how many; 0 unless a leaf
+    bounds: Singles  # 6 per node: lower and upper corner
+    nodes: Indices  # 3 per node: the next one that is not below it, its first triangle, how many; 0 unless a leaf
     triangles: Floats  # 15 per triangle: its corners, its unit normal, one over the length of each edge
-    links: Integers  # 8 per triangle: corners, the neighbours' corners across its edges, active edges, source face
+    links: Indices  # 8 per triangle: corners, the neighbours' corners across its edges, active edges, source face
     vertices: Floats  # 3 per corner
-    fan_start: Integers
-    fan: Integers
+    fan_start: Indices
+    fan: Indices
 
 
 class PackedMeshes(Packed[Meshes, Meshes]):
@@ -53,40 +58,49 @@ def tree_of(geometry: Geometry) -> Meshes:
     order = np.arange(len(corners))
     bounds, nodes = np.empty(12 * len(corners)), np.empty(6 * len(corners), np.int64)
     count = build_tree(lower, upper, lower + upper, order, bounds, nodes)
-    return _packed(surface, order, bounds[: 6 * count].copy(), nodes[: 3 * count].copy())
+    return _packed(surface, order, outward(bounds[: 6 * count]), nodes[: 3 * count].astype(np.int32))
 
 
-def _packed(surface: Surface, order: Integers, bounds: Floats, nodes: Integers) -> Meshes:
+def outward(bounds: Floats) -> Singles:
+    """Return lower and upper corners in half the memory, moved outward where rounding moves them."""
+    exact = bounds.reshape(-1, 2, 3)
+    rounded = exact.astype(np.float32)
+    ends = np.array([-np.inf, np.inf], np.float32)[:, None]
+    inside = np.stack([rounded[:, 0] > exact[:, 0], rounded[:, 1] < exact[:, 1]], axis=1)
+    return np.where(inside, np.nextafter(rounded, ends), rounded).ravel()
+
+
+def _packed(surface: Surface, order: Integers, bounds: Singles, nodes: Indices) -> Meshes:
     """Return a surface's arrays with its triangles in the order of the tree."""
     corners = surface.vertices[surface.faces]
     along = corners[:, [1, 2, 0]] - corners
     per_length = 1.0 / np.sqrt(along[:, :, 0] ** 2 + along[:, :, 1] ** 2 + along[:, :, 2] ** 2)
     triangles = np.concatenate([corners.reshape(-1, 9), surface.normals, per_length], axis=1)[order]
-    links = [surface.faces, surface.across, surface.active[:, None], surface.source[:, None]]
+    links = np.concatenate([surface.faces, surface.across, surface.active[:, None], surface.source[:, None]], axis=1)
     return Meshes(
-        np.zeros(1, np.int64), bounds, nodes, triangles.ravel(), np.concatenate(links, axis=1)[order].ravel(),
-        surface.vertices.ravel(), surface.fan_start, surface.fan,
+        np.zeros(1, np.int64), bounds, nodes, triangles.ravel(), links[order].ravel().astype(np.int32),
+        surface.vertices.ravel(), surface.fan_start.astype(np.int32), surface.fan.astype(np.int32),
     )  # fmt: skip
 
 
 def joined(trees: dict[int, Meshes]) -> Meshes:
     """Return the trees of several geometries as one, with indices that run through all."""
     root = np.full(1 + max(trees, default=-1), -1)
-    fans = [np.zeros(1, np.int64)]
+    fans = [np.zeros(1, np.int32)]
     parts: list[Meshes] = []
     node = triangle = corner = edge = 0
     for number in sorted(trees):
         tree = trees[number]
         links = tree.links.reshape(-1, 8).copy()
-        links[:, :6] += np.where(links[:, :6] >= 0, corner, 0)
+        links[:, :6] += np.where(links[:, :6] >= 0, np.int32(corner), np.int32(0))
         parts.append(
             tree._replace(
-                nodes=(tree.nodes.reshape(-1, 3) + np.array([node, triangle, 0])).ravel(),
+                nodes=(tree.nodes.reshape(-1, 3) + np.array([node, triangle, 0], np.int32)).ravel(),
                 links=links.ravel(),
-                fan=tree.fan + corner,
+                fan=tree.fan + np.int32(corner),
             )
         )
-        fans.append(tree.fan_start[1:] + edge)
+        fans.append(tree.fan_start[1:] + np.int32(edge))
         root[number] = node
         node, triangle = node + len(tree.bounds) // 6, triangle + len(tree.triangles) // TRIANGLE
         corner, edge = corner + len(tree.vertices) // 3, edge + len(tree.fan)
@@ -95,6 +109,6 @@ def joined(trees: dict[int, Meshes]) -> Meshes:
         return np.concatenate([np.empty(0, kind), *(getattr(part, column) for part in parts)])
 
     return Meshes(
-        root, joint("bounds", np.float64), joint("nodes", np.int64), joint("triangles", np.float64),
-        joint("links", np.int64), joint("vertices", np.float64), np.concatenate(fans), joint("fan", np.int64),
+        root, joint("bounds", np.float32), joint("nodes", np.int32), joint("triangles", np.float64),
+        joint("links", np.int32), joint("vertices", np.float64), np.concatenate(fans), joint("fan", np.int32),
     )  # fmt: skip

@@ -63,12 +63,15 @@ def measure_balls_on_meshes(
         touching = 0
         for c in range(near):
             t = found[c]
+            a = TRIANGLE * t
+            nx, ny, nz = triangles[a + 9], triangles[a + 10], triangles[a + 11]
+            if abs(nx * (x - triangles[a]) + ny * (y - triangles[a + 1]) + nz * (z - triangles[a + 2])) > far:
+                continue
             cx, cy, cz, part = nearest_on_triangle(triangles, t, x, y, z)
             dx, dy, dz = x - cx, y - cy, z - cz
             distance = sqrt(dx * dx + dy * dy + dz * dz)
             if distance > far:
                 continue
-            nx, ny, nz = triangles[TRIANGLE * t + 9], triangles[TRIANGLE * t + 10], triangles[TRIANGLE * t + 11]
             above = distance if on_rim(links, t, part) else nx * dx + ny * dy + nz * dz
             if distance < nearest + LEAST_PART:
                 if distance < nearest - LEAST_PART:

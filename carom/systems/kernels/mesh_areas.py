@@ -6,13 +6,22 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, OVER_EDGE
-from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.mesh_points import add_point
 from carom.systems.kernels.mesh_tree import TRIANGLE
 from carom.systems.kernels.spatial import cross
 
 MOST_CORNERS = 64  # names of points below it are those of the solid's corners
 INNER = 8  # bit of what lies within a triangle, on no edge of it
+
+
+@inlined
+def corners_beyond(polygon, here, count, x, y, z, offset):
+    """Return how many of a polygon's corners are not under a plane."""
+    beyond = 0
+    for i in range(3 * here, 3 * (here + count), 3):
+        beyond += 1 if x * polygon[i] + y * polygon[i + 1] + z * polygon[i + 2] - offset > 0.0 else 0
+    return beyond
 
 
 @inlined
@@ -45,7 +54,7 @@ def cut(polygon, tag, here, there, count, x, y, z, offset, bit):
     return kept
 
 
-@inlined
+@woven
 def points_over_triangle(
     v, loop_vertex, begin, stop, triangles, links, t, radius, reach, polygon, tag, room, points, names, found
 ):  # fmt: skip
@@ -72,8 +81,12 @@ def points_over_triangle(
         scale = triangles[a + 12 + k]
         x, y, z = x * scale, y * scale, z * scale
         offset = x * triangles[i] + y * triangles[i + 1] + z * triangles[i + 2] + OVER_EDGE
-        count = cut(polygon, tag, here, there, count, x, y, z, offset, 1 << k)
-        here, there = there, here
+        beyond = corners_beyond(polygon, here, count, x, y, z, offset)
+        if beyond == count:
+            return found
+        if beyond > 0:
+            count = cut(polygon, tag, here, there, count, x, y, z, offset, 1 << k)
+            here, there = there, here
     active, source = links[8 * t + 6], links[8 * t + 7]
     for k in range(count):
         bits = tag[2 * (here + k)]
@@ -92,7 +105,7 @@ def points_over_triangle(
     return found
 
 
-@inlined
+@woven
 def points_over_face(
     v, loop_vertex, begin, stop, x, y, z, height, triangles, links, t, least, reach,
     polygon, tag, room, points, names, found,
@@ -114,8 +127,12 @@ def points_over_face(
         scale = 1.0 / sqrt(sx * sx + sy * sy + sz * sz)
         sx, sy, sz = sx * scale, sy * scale, sz * scale
         offset = sx * v[i] + sy * v[i + 1] + sz * v[i + 2] + OVER_EDGE
-        count = cut(polygon, tag, here, there, count, sx, sy, sz, offset, 0)
-        here, there = there, here
+        beyond = corners_beyond(polygon, here, count, sx, sy, sz, offset)
+        if beyond == count:
+            return found
+        if beyond > 0:
+            count = cut(polygon, tag, here, there, count, sx, sy, sz, offset, 0)
+            here, there = there, here
     active, source = links[8 * t + 6], links[8 * t + 7]
     for k in range(count):
         bits = tag[2 * (here + k)]

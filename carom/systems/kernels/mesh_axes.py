@@ -7,7 +7,7 @@ from math import sqrt
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, OVER_EDGE, PARALLEL_EDGES
 from carom.systems.kernels.distance import outermost
-from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.mesh_surface import CORNER, EDGE, falls_away, leads
 from carom.systems.kernels.mesh_tree import TRIANGLE
 from carom.systems.kernels.spatial import cross
@@ -15,7 +15,7 @@ from carom.systems.kernels.spatial import cross
 FAR, ON_TRIANGLE, ON_FACE, ON_POINT, ASIDE = 0, 1, 2, 3, 4
 
 
-@inlined
+@woven
 def most_apart_from_triangle(
     v, end, planes, faces, edges, edges_begin, edges_end,
     triangles, links, vertices, fan_start, fan, t, far, height, lean,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined, kernel, woven
 
-LEAF = 4  # triangles at most
+LEAF = 8  # triangles at most
 DEPTH = 64  # halvings of any number there is
 TRIANGLE = 15  # numbers per triangle: corners, unit normal, one over the length of each edge
 
@@ -75,31 +75,30 @@ def select(order, middle, axis, first, last, wanted):
             return
 
 
-@inlined
+@woven
 def find_triangles(root, bounds, nodes, triangles, lx, ly, lz, hx, hy, hz, found):
     """Write the triangles whose bounds meet the box from l to h; return how many, maybe more than there is room for."""
     count, node, end = 0, root, nodes[3 * root]
     while node < end:
-        b = 6 * node
+        b, n = 6 * node, 3 * node
+        # One branch for all six: which of them is the first to fail is past foreseeing, and a wrong guess costs more.
         if (
-            bounds[b] > hx or bounds[b + 1] > hy or bounds[b + 2] > hz
-            or bounds[b + 3] < lx or bounds[b + 4] < ly or bounds[b + 5] < lz
+            (bounds[b] > hx) | (bounds[b + 1] > hy) | (bounds[b + 2] > hz)
+            | (bounds[b + 3] < lx) | (bounds[b + 4] < ly) | (bounds[b + 5] < lz)
         ):  # fmt: skip
-            node = nodes[3 * node]
+            node = nodes[n]
             continue
-        for t in range(nodes[3 * node + 1], nodes[3 * node + 1] + nodes[3 * node + 2]):
+        for t in range(nodes[n + 1], nodes[n + 1] + nodes[n + 2]):
             k = TRIANGLE * t
-            if (
-                min(triangles[k], triangles[k + 3], triangles[k + 6]) > hx
-                or min(triangles[k + 1], triangles[k + 4], triangles[k + 7]) > hy
-                or min(triangles[k + 2], triangles[k + 5], triangles[k + 8]) > hz
-                or max(triangles[k], triangles[k + 3], triangles[k + 6]) < lx
-                or max(triangles[k + 1], triangles[k + 4], triangles[k + 7]) < ly
-                or max(triangles[k + 2], triangles[k + 5], triangles[k + 8]) < lz
-            ):  # fmt: skip
-                continue
             if count < len(found):
                 found[count] = t
-            count += 1
+            ax, ay, az = triangles[k], triangles[k + 1], triangles[k + 2]
+            bx, by, bz = triangles[k + 3], triangles[k + 4], triangles[k + 5]
+            cx, cy, cz = triangles[k + 6], triangles[k + 7], triangles[k + 8]
+            apart = (
+                (min(ax, bx, cx) > hx) | (min(ay, by, cy) > hy) | (min(az, bz, cz) > hz)
+                | (max(ax, bx, cx) < lx) | (max(ay, by, cy) < ly) | (max(az, bz, cz) < lz)
+            )  # fmt: skip
+            count += 0 if apart else 1
         node += 1
     return count

@@ -12,6 +12,7 @@ from carom.systems.kernels.hulls_narrow import most_of
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.mesh_areas import MOST_CORNERS, points_over_face, points_over_triangle
 from carom.systems.kernels.mesh_axes import ASIDE, FAR, ON_FACE, ON_POINT, ON_TRIANGLE, most_apart_from_triangle
+from carom.systems.kernels.mesh_boxes import BOX_ROOM, most_apart_from_box, place_box
 from carom.systems.kernels.mesh_points import (
     MOST_MESH_POINTS,
     WIDTH,
@@ -22,7 +23,7 @@ from carom.systems.kernels.mesh_points import (
 )
 from carom.systems.kernels.mesh_surface import nearest_on_triangle, on_rim
 from carom.systems.kernels.mesh_tree import TRIANGLE, find_triangles
-from carom.systems.kernels.polyhedra import SEGMENT, face_towards, place_faces, place_vertices, polyhedron_of
+from carom.systems.kernels.polyhedra import BOX, SEGMENT, face_towards, place_faces, place_vertices, polyhedron_of
 from carom.systems.kernels.spatial import product, turn
 
 
@@ -47,7 +48,7 @@ def measure_solids_on_meshes(
     v, planes = np.empty(3 * corners), np.empty(4 * faces_most)
     height, lean = np.empty(corners), np.empty(faces_most)
     polygon, tag = np.empty(6 * room), np.empty(4 * room, np.int64)
-    ends = np.array([0, 1])
+    own, ends = np.empty(BOX_ROOM), np.array([0, 1])
     found = np.empty(256, np.int64)
     points, names, kept = np.empty(WIDTH * 256), np.empty(256, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
     for index in range(len(which)):
@@ -62,6 +63,8 @@ def measure_solids_on_meshes(
         )
         end = place_vertices(hulls, p, sx, sy, sz, x, y, z, tx, ty, tz, tw, v, 0)
         faces = place_faces(hulls, p, sx, sy, sz, x, y, z, tx, ty, tz, tw, planes, 0)
+        if p == BOX:
+            place_box(own, sx, sy, sz, x, y, z, tx, ty, tz, tw)
         reach = reaches[pair]
         far = radius + reach
         lx, ly, lz, hx, hy, hz = 1e300, 1e300, 1e300, -1e300, -1e300, -1e300
@@ -101,10 +104,15 @@ def measure_solids_on_meshes(
             nx, ny, nz = triangles[a + 9], triangles[a + 10], triangles[a + 11]
             dx, dy, dz = x - triangles[a], y - triangles[a + 1], z - triangles[a + 2]
             hidden = nx * dx + ny * dy + nz * dz < 0.0
-            kind, gap, nx, ny, nz, face, px, py, pz = most_apart_from_triangle(
-                v, end, planes, faces, edges, edges_begin, edges_end,
-                triangles, links, vertices, fan_start, fan, t, far, height, lean,
-            )  # fmt: skip
+            if p == BOX:
+                kind, gap, nx, ny, nz, face, px, py, pz = most_apart_from_box(
+                    own, triangles, links, vertices, fan_start, fan, t, far
+                )
+            else:
+                kind, gap, nx, ny, nz, face, px, py, pz = most_apart_from_triangle(
+                    v, end, planes, faces, edges, edges_begin, edges_end,
+                    triangles, links, vertices, fan_start, fan, t, far, height, lean,
+                )  # fmt: skip
             if kind == FAR or gap > far or (hidden and (kind in (ON_TRIANGLE, ASIDE) or gap < -SAME_PLACE * width)):
                 continue
             while touching + room > len(names):
@@ -129,7 +137,8 @@ def measure_solids_on_meshes(
                     polygon, tag, room, points, names, touching,
                 )  # fmt: skip
             else:
-                face, _ = face_towards(hulls, p, v, 0, end, planes, 0, -nx, -ny, -nz)
+                if face < 0:
+                    face, _ = face_towards(hulls, p, v, 0, end, planes, 0, -nx, -ny, -nz)
                 f = hulls.face_start[p] + face
                 touching = points_over_triangle(
                     v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links,
