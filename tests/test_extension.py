@@ -3,38 +3,22 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import jsonschema
-import numpy as np
 import pytest
-from pydantic import ValidationError, create_model
 
 from carom.ecs import (
-    ColliderPose,
-    Component,
-    DeclarationError,
-    Phase,
-    Schedule,
     SnapshotError,
-    System,
-    World,
-    column,
     snapshot_from_bytes,
-    system,
 )
-from carom.systems import places
 from carom.systems.simulation import Simulation
 from carom.tools.recording import Recording
-from carom.worlds.generated import column_fields
 from carom.worlds.reader import read
-from carom.worlds.values import Words
 
 EXAMPLE = Path(__file__).parent / "example_extension"
 NEST = EXAMPLE / "nest.yaml"
@@ -301,86 +285,3 @@ def test_neither_an_import_nor_help_imports_extensions(tmp_path: Path) -> None:
     for words in (["-c", everything], [*CAROM, "--help"], [*CAROM, "--version"]):
         done = run(words, broken)
         assert done.returncode == 0, done.stderr
-
-
-def named(name: str, module: str, *reads: type[Component]) -> System:
-    """Return a system of another module."""
-
-    def function(world: World, dt: float) -> None:
-        """Do nothing."""
-
-    function.__name__, function.__module__ = name, module
-    return system(reads=reads)(function)
-
-
-@pytest.mark.parametrize("turned", [False, True])
-def test_the_frame_does_not_depend_on_the_order_of_import(turned: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Modules in order of their names, systems of a module as they are written, each beside its neighbour."""
-    monkeypatch.setattr(places, "PLACES", {})
-    modules = {
-        "ants": [("first", "after", "a"), ("second", "after", "a"), ("early", "before", "b")],
-        "bees": [("third", "after", "a"), ("fourth", "after", "third"), ("late", "before", "b")],
-    }
-    for module, systems in sorted(modules.items(), reverse=turned):
-        for name, side, neighbour in systems:
-            places.placed(**{side: neighbour})(named(name, module))
-    frame = places.extended(Schedule(Phase("one", named("a", "own")), Phase("two", named("b", "own"))))
-    order = [(phase.name, one.name) for phase, one in frame]
-    assert order[:5] == [("one", name) for name in ("a", "first", "second", "third", "fourth")]
-    assert order[5:] == [("two", name) for name in ("early", "late", "b")]
-
-
-def test_a_place_beside_nobody_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The message lists who is there."""
-    monkeypatch.setattr(places, "PLACES", {})
-    places.placed(before="kik")(named("fly", "ants"))
-    with pytest.raises(DeclarationError) as fault:
-        places.extended(Schedule(Phase("one", named("kick", "own"))))
-    assert str(fault.value) == "system 'fly' of ants is placed before 'kik'; there are kick"
-
-
-def test_a_frame_that_does_not_hold_together_names_who_is_placed_in_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Since what is missing may be missing to another extension."""
-    monkeypatch.setattr(places, "PLACES", {})
-    places.placed(before="kick")(named("look", "ants", ColliderPose))
-    with pytest.raises(DeclarationError) as fault:
-        places.extended(Schedule(Phase("one", named("kick", "own"))))
-    assert str(fault.value) == (
-        "the schedule is wrong:\n  system 'look' in phase 'one' needs ColliderPose, which neither files nor an earlier "
-        "system supply; place a system that writes it before\n  system 'look' of ants is placed in it"
-    )
-
-
-class Sundries(Component):
-    """Columns of every kind that carom's own components in files have none of."""
-
-    title = column(unit="1", doc="text", dtype="U4", default="none")
-    pips = column(unit="1", doc="small whole number", dtype="uint8", default=6)
-    doors = column(2, unit="1", doc="flags", dtype="bool")
-    strain = column(2, 3, unit="m", doc="matrix")
-    rotation = column(unit="rad", doc="an angle, no quaternion")
-
-
-@pytest.mark.parametrize(
-    ("stated", "held", "refused"),
-    [
-        ({"title": "abcd"}, "abcd", {"title": "abcde"}),
-        ({"pips": 255}, 255, {"pips": 256}),
-        ({"doors": [True, False]}, (True, False), {"doors": [True]}),
-        ({"strain": [[1, 2, "3 mm"], [4, 5, 6]]}, ((1.0, 2.0, 0.003), (4.0, 5.0, 6.0)), {"strain": [1, 2, 3, 4, 5, 6]}),
-        ({"rotation": "180 deg"}, math.pi, {"rotation": [0, 0, 0, 1]}),
-    ],
-)
-def test_columns_of_every_kind_are_read_into_what_they_hold(
-    stated: dict[str, Any], held: Any, refused: dict[str, Any]
-) -> None:
-    """By type, shape and unit; the bundle takes it, and what would be cut off or wrapped round is refused."""
-    model = create_model("Sundries", __base__=Words, **column_fields(Sundries, *Sundries.columns))
-    ((name, value),) = model.model_validate(stated).model_dump(exclude_unset=True).items()
-    assert value == held
-    world = World()
-    entity = world.spawn(Sundries(**{name: value}))
-    assert np.array_equal(getattr(world[entity].sundries, name), np.array(held))
-    with pytest.raises(ValidationError):
-        model.model_validate(refused)
-    assert model.model_json_schema()["properties"].keys() == Sundries.columns.keys()

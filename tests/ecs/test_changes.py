@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 import pytest
+from faults import error
 
 from carom.ecs import AccessError, Motion, Transform, World, restore_snapshot, tag, take_snapshot
 
@@ -111,7 +110,7 @@ def test_nobody_watched(world: World) -> None:
     for mark, kinds, listed in ((early, (Motion,), "Motion"), (early, (Transform, Motion, RED), None)):
         names = listed or f"Motion, {RED.__name__}"
         message = f"nobody watched {names} at mark {mark}; take the mark with world.mark({names}) before things change"
-        with pytest.raises(AccessError, match=f"^{re.escape(message)}$"):
+        with error(AccessError, message):
             world.rows(*kinds, changed_since=mark)
 
 

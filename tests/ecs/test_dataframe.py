@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 import subprocess
 import sys
 
 import numpy as np
 import pyarrow
 import pytest
+from faults import error
 
 from carom.ecs import (
     Component,
@@ -220,7 +220,7 @@ def test_a_package_that_is_not_there(package: str, monkeypatch: pytest.MonkeyPat
 def test_a_bundle_is_no_table() -> None:
     """What `Transform(...)` makes goes into spawn."""
     message = "Transform(...) is a bundle for spawn, not a table; write world[Transform]"
-    with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+    with error(DeclarationError, message):
         Transform(position=(0.0, 1.0, 0.0)).arrow()
 
 

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-import re
-from typing import Any
-
 import numpy as np
 import pytest
+from faults import error
 
 from carom.ecs import Component, DeclarationError, Motion, Relation, Transform, World, column
 from carom.ecs.component import Record
-
-
-def error(message: str) -> Any:
-    """Expect a DeclarationError with exactly this message."""
-    return pytest.raises(DeclarationError, match=f"^{re.escape(message)}$")
 
 
 @pytest.mark.parametrize(
@@ -25,7 +18,7 @@ def error(message: str) -> Any:
 def test_unit_and_doc_are_mandatory(given: dict[str, str], missing: str) -> None:
     """Messages, labels and the schema are made from them, so no column exists without."""
     message = f'a column is declared without {missing}; write column(3, unit="m/s", doc="linear velocity")'
-    with error(message):
+    with error(DeclarationError, message):
         column(3, **given)  # type: ignore[arg-type]
 
 
@@ -42,7 +35,7 @@ def test_two_components_of_one_name_are_refused(monkeypatch: pytest.MonkeyPatch)
     """World files and messages name components by class name, so a second of that name elsewhere is a fault."""
     monkeypatch.setattr(Record, "registry", dict(Record.registry))
     message = "two components are named Transform: carom.ecs.components.transform and elsewhere; rename one of them"
-    with error(message):
+    with error(DeclarationError, message):
         type("Transform", (Component,), {"__module__": "elsewhere"})
     assert Record.registry["transform"] is Transform
 
@@ -60,13 +53,13 @@ def test_an_unknown_column_is_refused() -> None:
     message = (
         "Motion has no column 'velocity'; its columns are linear, angular, linear_acceleration, angular_acceleration"
     )
-    with error(message):
+    with error(DeclarationError, message):
         Motion(velocity=(1.0, 0.0, 0.0))
 
 
 def test_a_wrong_dtype_is_refused() -> None:
     """What cannot be a number is refused with component and column."""
-    with error("Motion.linear takes numbers, received 'fast'"):
+    with error(DeclarationError, "Motion.linear takes numbers, received 'fast'"):
         Motion(linear="fast")
 
 
@@ -92,7 +85,7 @@ def test_a_wrong_dtype_is_refused() -> None:
 def test_a_wrong_shape_is_refused_and_leaves_nothing(bundle: Component, count: int, message: str) -> None:
     """The message says what a row takes; the failed spawn leaves neither entity nor component behind."""
     world = World()
-    with error(message):
+    with error(DeclarationError, message):
         world.spawn_many(count, bundle)
     assert world.count(Transform) == 0
     assert len(world.row_numbers()) == 0
@@ -109,7 +102,7 @@ def test_a_wrong_shape_of_a_single_value() -> None:
         charge = column(unit="C", doc="electric charge")
 
     message = "Charge.charge takes a single value per row, received an array of shape (2,); give shape ()"
-    with error(message):
+    with error(DeclarationError, message):
         world.spawn(Charge(charge=[1.0, 2.0]))
     Record.registry.pop("charge")
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import re
 import textwrap
 from xml.etree import ElementTree
 
 import numpy as np
-import pytest
+from faults import error
 
 from carom.ecs import (
     Component,
@@ -109,7 +108,7 @@ def test_an_entity_that_is_gone() -> None:
     view = world[ship]
     world.despawn(ship)
     fate = "entity 0, generation 0, was despawned in frame 4"
-    with pytest.raises(EntityError, match=f"^{re.escape(fate)}$"):
+    with error(EntityError, fate):
         world.describe(ship)
     assert repr(view) == fate
     assert view._repr_html_() is None

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 import pytest
+from faults import error
 
 from carom.ecs import EntityError, Motion, Parent, Transform, World
 from carom.ecs.hierarchy import compose
@@ -70,7 +69,7 @@ def test_what_cannot_be_carried_is_told(build: object, message: str) -> None:
     """By name, with what to do."""
     world = World()
     build(world)  # type: ignore[operator]
-    with pytest.raises(EntityError, match=f"^{re.escape(message)}$"):
+    with error(EntityError, message):
         compose(world)
 
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
-from typing import Any
 
 import pytest
+from faults import error
 
 from carom.ecs import (
     DeclarationError,
@@ -20,11 +19,6 @@ from carom.ecs import (
     system,
     take_snapshot,
 )
-
-
-def error(kind: type[Exception], message: str) -> Any:
-    """Expect an error with exactly this message."""
-    return pytest.raises(kind, match=f"^{re.escape(message)}$")
 
 
 @pytest.fixture

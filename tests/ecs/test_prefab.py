@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import re
-
 import pytest
+from faults import error
 
 from carom.ecs import DeclarationError, Material, Motion, Prefab, Tag, Transform, World, state_hash, tag
 from carom.ecs.component import Record
@@ -77,5 +76,5 @@ def test_names_that_look_alike_are_different_tags(monkeypatch: pytest.MonkeyPatc
 )
 def test_a_name_that_is_no_tag_is_refused(name: str, message: str) -> None:
     """With what to write instead."""
-    with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+    with error(DeclarationError, message):
         tag(name)

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import numpy as np
 import pytest
+from faults import error
 
 from carom.ecs import AccessError, Material, Motion, Phase, RigidBody, Schedule, Transform, World, system, tag
 from carom.ecs.commands import Commands
 
 RED = tag("red_in_queries")
-
-
-def error(kind: type[Exception], message: str) -> Any:
-    """Expect an error with exactly this message."""
-    return pytest.raises(kind, match=f"^{re.escape(message)}$")
 
 
 @pytest.fixture

@@ -1,12 +1,13 @@
-"""Schedules are changed by name in one line, ask their conditions, and measure every system."""
+"""Schedules are changed by name in one line, and ask their conditions."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import Any
 
 import pytest
+from faults import error
+from named_systems import named
 
 from carom.ecs import (
     AccessError,
@@ -15,19 +16,14 @@ from carom.ecs import (
     Motion,
     Phase,
     Schedule,
-    System,
     Transform,
     World,
     column,
-    state_hash,
-    system,
-    take_snapshot,
 )
 from carom.ecs.commands import Commands
 from carom.ecs.component import Record
 from carom.ecs.explain import explain
 from carom.ecs.system import every
-from carom.ecs.timings import COMMANDS, Timings
 
 
 class Draft(Component):
@@ -39,16 +35,6 @@ class Draft(Component):
 Record.registry.pop("draft")
 
 
-def named(name: str, function: Callable[[World], object] = lambda world: None, **declared: Any) -> System:
-    """Return a system of that name that calls a function of the world."""
-
-    def run(world: World, dt: float) -> None:
-        function(world)
-
-    run.__name__ = name
-    return system(**declared)(run)
-
-
 READ, WRITE, MOVE = named("read_draft", reads=(Draft,)), named("write_draft", writes=(Draft,)), named("move")
 FRAME = Schedule(Phase("first", WRITE, MOVE), Phase("second", READ, repeat=lambda world: 2, when=every(1)))
 
@@ -56,11 +42,6 @@ FRAME = Schedule(Phase("first", WRITE, MOVE), Phase("second", READ, repeat=lambd
 def names(schedule: Schedule) -> list[tuple[str, str]]:
     """Return each system with its phase."""
     return [(phase.name, system.name) for phase, system in schedule]
-
-
-def error(kind: type[Exception], message: str) -> Any:
-    """Expect an error with exactly this message."""
-    return pytest.raises(kind, match=f"^{re.escape(message)}$")
 
 
 # One line -------------------------------------------------------------------------------------------------------------
@@ -263,97 +244,3 @@ def test_the_world_knows_who_runs() -> None:
     Schedule(Phase("only", ask, named("see", look))).run(world, 0.1, checked=True)
     assert seen == ["ask", "see", None]
     assert world.running is None
-
-
-def test_to_spawn_inside_a_system_is_refused() -> None:
-    """The message names the system and the way to do it; afterwards the world takes entities again."""
-    world = World()
-    schedule = Schedule(Phase("only", named("breed", lambda world: world.spawn(Transform()))))
-    message = (
-        "system 'breed' asks the world to spawn while the step runs; "
-        "ask for it instead: world[Commands].ask(lambda world: world.spawn(...)), with Commands in writes="
-    )
-    for checked in (True, False):
-        with error(AccessError, message):
-            schedule.run(world, 0.1, checked=checked)
-        assert world.running is None
-    world.spawn(Transform())
-    assert world.count(Transform) == 1
-
-
-# Timings --------------------------------------------------------------------------------------------------------------
-@pytest.fixture
-def ticking(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """Replace the clock by a number of milliseconds that systems add to."""
-    now = [0]
-    monkeypatch.setattr("carom.ecs.schedule.perf_counter_ns", lambda: now[0] * 1_000_000)
-    return now
-
-
-def busy(now: list[int], name: str, milliseconds: int, **declared: Any) -> System:
-    """Return a system that takes so long."""
-
-    def work(world: World) -> None:
-        now[0] += milliseconds
-        if Commands in declared.get("writes", ()):
-            world[Commands].ask(lambda world: now.__setitem__(0, now[0] + 1))
-
-    return named(name, work, **declared)
-
-
-def test_every_system_is_timed(ticking: list[int]) -> None:
-    """Seconds and calls in the last frame and in all; commands count for themselves, listeners for nobody."""
-    world = World()
-    world.add(Commands())
-    schedule = Schedule(
-        Phase("first", busy(ticking, "ask", 2, writes=(Commands,)), busy(ticking, "rare", 6, when=every(2))),
-        Phase("second", busy(ticking, "solve", 3), repeat=lambda world: 4),
-    )
-    for _ in range(3):
-        world.frame += 1
-        schedule.run(world, 0.1, after=lambda system: ticking.__setitem__(0, ticking[0] + 100))
-    timings = world[Timings]
-    assert timings.frames == 3
-    assert list(timings) == ["ask", "rare", "solve", COMMANDS]
-    assert timings["solve"] == pytest.approx((0.012, 4, 0.036, 12))
-    assert timings["ask"] == pytest.approx((0.002, 1, 0.006, 3))
-    assert timings["rare"] == pytest.approx((0.0, 0, 0.006, 1))
-    assert timings[COMMANDS] == pytest.approx((0.001, 2, 0.003, 6))
-    assert timings.table() == (
-        "system      ms per frame  share  last ms  calls\n"
-        "----------  ------------  -----  -------  -----\n"
-        "solve             12.000    71%   12.000     12\n"
-        "ask                2.000    12%    2.000      3\n"
-        "rare               2.000    12%    0.000      1\n"
-        "(commands)         1.000     6%    1.000      6\n"
-        "all               17.000   100%   15.000\n"
-    )
-    timings.clear()
-    assert timings.table().splitlines()[2:] == ["all            0.000           0.000"]
-    schedule.run(world, 0.1)
-    assert timings["solve"] == pytest.approx((0.012, 4, 0.012, 4))
-
-
-def test_another_schedule_keeps_the_times_of_those_it_has(ticking: list[int]) -> None:
-    """Those it has not are gone from the timings, new ones begin."""
-    world = World()
-    schedule = Schedule(Phase("only", busy(ticking, "stay", 1), busy(ticking, "go", 2)))
-    schedule.run(world, 0.1)
-    schedule.replace("go", busy(ticking, "come", 4)).run(world, 0.1)
-    timings = world[Timings]
-    assert dict(timings) == {
-        "stay": pytest.approx((0.001, 1, 0.002, 2)),
-        "come": pytest.approx((0.004, 1, 0.004, 1)),
-        COMMANDS: pytest.approx((0.0, 1, 0.0, 2)),
-    }
-
-
-def test_timings_are_no_state() -> None:
-    """Neither the hash nor a snapshot knows of them."""
-    world = World()
-    world.spawn(Transform())
-    before = state_hash(world)
-    FRAME.run(world, 0.1)
-    assert Timings in world
-    assert state_hash(world) == before
-    assert take_snapshot(world).resources == {}

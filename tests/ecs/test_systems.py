@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from faults import error
 
 from carom.ecs import (
     AccessError,
@@ -61,11 +61,6 @@ def world() -> Iterator[World]:
     world.add(Commands())
     world.spawn(Transform(), Motion(), RigidBody(), Scratch(), name="ball")
     yield world
-
-
-def error(kind: type[Exception], message: str) -> Any:
-    """Expect an error with exactly this message."""
-    return pytest.raises(kind, match=f"^{re.escape(message)}$")
 
 
 def run(world: World, *systems: System, checked: bool = True) -> None:

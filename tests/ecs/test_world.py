@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
+from faults import error
 
 from carom.ecs import AccessError, EntityError, Material, Motion, Name, Transform, World
 from carom.ecs.component import Resource
@@ -16,11 +15,6 @@ from carom.ecs.relations.contact import Contact
 
 class Weather(Resource):
     """A resource nobody added."""
-
-
-def error(kind: type[Exception], message: str) -> Any:
-    """Expect an error with exactly this message."""
-    return pytest.raises(kind, match=f"^{re.escape(message)}$")
 
 
 def test_spawn_fills_defaults_and_values() -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
+from faults import error
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import (
@@ -120,7 +120,7 @@ class Machine(RuleBasedStateMachine):
         """A name that is taken is refused, and nothing has happened."""
         if self.taken(name):
             message = f"two entities would be named {name!r}; names are unique, choose another"
-            with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+            with error(DeclarationError, message):
                 self.world.spawn(Place(), name=name)
             return
         first = self.model.first_row(1)

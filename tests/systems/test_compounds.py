@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
 from typing import Any
 
 import numpy as np
 import pytest
+from faults import error
 
 from carom.ecs import Collider, ColliderPose, DeclarationError, Motion, Parent, RigidBody, Transform
 from carom.ecs.relations.contact import Contact
@@ -262,7 +262,7 @@ def test_faults_from_python() -> None:
     simulation = Simulation()
     car = simulation.add(name="car", body={"mass": 1.0})
     message = "collider.plane: only a static entity may have it, and 'car' has a body"
-    with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+    with error(DeclarationError, message):
         simulation.add(name="road", parent={"entity": car}, collider={"plane": {}})
     assert simulation.world.names() == ["car"]
 

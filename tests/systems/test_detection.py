@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from itertools import combinations
 from typing import Any
 
 import numpy as np
 import pytest
+from faults import error
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pairs import SHAPES, Pair, Poses, turns
@@ -183,9 +183,9 @@ def test_a_collider_may_state_whom_it_meets() -> None:
 )
 def test_an_unknown_layer(name: str, message: str) -> None:
     """A near name is proposed, else all are listed."""
-    with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+    with error(DeclarationError, message):
         touching({"collider": {"layer": name}}, {})
-    with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+    with error(DeclarationError, message):
         touching({"collider": {"collides_with": ["red", name]}}, {})
 
 

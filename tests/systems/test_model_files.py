@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
+from faults import error
 from PIL import Image
 
 from carom.ecs import DeclarationError
@@ -37,7 +38,7 @@ def write(path: Path, vertices: Any, faces: Any) -> Path:
 
 def refused(make: Any, message: str) -> None:
     """Expect the whole of a message."""
-    with pytest.raises(DeclarationError, match=f"^{re.escape(message)}$"):
+    with error(DeclarationError, message):
         make()
 
 

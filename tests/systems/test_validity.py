@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import numpy as np
 import pytest
+from faults import error
 
 from carom.ecs.relations.contact import Contact
 from carom.systems.detection import fcl_pairs, narrow
@@ -67,7 +67,7 @@ def test_an_impossible_point_is_dropped_and_counted(
         f"a contact of plane '[0]' and sphere 'ball' cannot be: {fault}; "
         "please report it with the world file, unchecked runs leave it out"
     )
-    with pytest.raises(ContactError, match=f"^{re.escape(message)}$"):
+    with error(ContactError, message):
         simulation.step()
 
 

@@ -1,0 +1,87 @@
+"""One entity reads like an object, and what is assigned to it is written through to the table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from faults import error
+
+from carom.ecs import DeclarationError, EntityError, Motion, RigidBody, Transform, World, state_hash
+
+
+def test_values_are_written_element_by_element_and_in_place() -> None:
+    """Also where the value was kept under a name; what is computed from it is an array of its own."""
+    world = World()
+    ball = world[world.spawn(Transform(position=(1.0, 2.0, 3.0)), RigidBody())]
+    position = ball.transform.position
+    position += 1.0
+    position[0] = -5.0
+    position[1:] -= (1.0, 2.0)
+    assert world[Transform].position[0].tolist() == [-5.0, 2.0, 2.0]
+    ball.transform.position *= 2.0
+    assert position.tolist() == [-10.0, 4.0, 4.0]
+    apart = position * 1.0
+    apart[0] = 7.0
+    assert world[Transform].position[0, 0] == -10.0
+    ball.rigid_body.mass += 1
+    assert ball.rigid_body.mass == 2.0
+    assert ball[Transform].position[2] == 4.0
+    assert Transform in ball and Motion not in ball
+
+
+@pytest.mark.parametrize(
+    ("write", "message"),
+    [
+        (
+            lambda ball: setattr(ball.transform, "position", (1.0, 2.0)),
+            "Transform.position takes 3 per row, received an array of shape (2,); give shape (3,)",
+        ),
+        (
+            lambda ball: setattr(ball.transform, "position", "far"),
+            "Transform.position takes numbers, received 'far'",
+        ),
+        (lambda ball: setattr(ball.rigid_body, "type", 1.7), "RigidBody.type takes whole numbers, received 1.7"),
+        (lambda ball: setattr(ball.rigid_body, "type", 2**63), f"RigidBody.type takes whole numbers, received {2**63}"),
+        (
+            lambda ball: ball.transform.position.__setitem__(0, "far"),
+            "Transform.position takes numbers, received 'far'",
+        ),
+        (
+            lambda ball: setattr(ball.name, "text", "x" * 49),
+            f"Name.text holds at most 48 characters, received 49: '{'x' * 49}'",
+        ),
+        (lambda ball: setattr(ball.name, "text", 5), "Name.text takes texts, received 5"),
+    ],
+    ids=["shape", "dtype", "fraction", "too large", "element", "too long", "no text"],
+)
+def test_a_value_that_does_not_fit_is_refused(write: Callable[[Any], None], message: str) -> None:
+    """Nothing is cut, rounded or repeated in silence."""
+    world = World()
+    ball = world[world.spawn(Transform(), RigidBody(), name="ball")]
+    before = state_hash(world)
+    with error(DeclarationError, message):
+        write(ball)
+    assert state_hash(world) == before
+
+
+def test_a_stale_view_neither_reads_nor_writes() -> None:
+    """A view that was kept reaches nobody who has the row now."""
+    world = World()
+    entity = world.spawn(Transform())
+    transform, position = world[entity].transform, world[entity].transform.position
+    world.frame = 2
+    world.despawn(entity)
+    world.spawn(Transform(position=(1.0, 1.0, 1.0)))
+
+    def write() -> None:
+        transform.position = (0.0, 0.0, 0.0)
+
+    def write_element() -> None:
+        position[0] = 0.0
+
+    for use in (lambda: transform.position, write, write_element):
+        with error(EntityError, "entity 0, generation 0, was despawned in frame 2"):
+            use()
+    assert world[Transform].position[0].tolist() == [1.0, 1.0, 1.0]
