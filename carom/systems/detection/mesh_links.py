@@ -12,6 +12,8 @@ from carom.systems.constants import COPLANAR, NO_AREA
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.welding import weld
 
+Ends = tuple[Integers, Integers]
+
 
 class Surface(NamedTuple):
     """Triangles whose corners are shared where their places are the same.
@@ -36,33 +38,41 @@ def linked(geometry: Geometry) -> Surface:
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     spans = cross(b - a, c - a)
     lengths = np.sqrt(dot(spans, spans))
-    edges = np.maximum(np.maximum(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c))
-    source = np.nonzero(lengths > NO_AREA * edges)[0]
+    longest = np.maximum(np.maximum(dot(b - a, b - a), dot(c - b, c - b)), dot(a - c, a - c))
+    source = np.nonzero(lengths > NO_AREA * longest)[0]
     faces, normals = faces[source], spans[source] / lengths[source, None]
     starts, ends = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     across, active = np.full(len(starts), -1), np.ones(len(starts), np.bool_)
-    one, other = _partners(starts, ends, len(vertices))
+    edges, one, other = _edges(starts, ends, len(vertices))
     across[one], across[other] = faces[:, [2, 0, 1]].ravel()[other], faces[:, [2, 0, 1]].ravel()[one]
     along = vertices[ends[one]] - vertices[starts[one]]
     along /= np.sqrt(dot(along, along))[:, None]
     m, n = normals[one // 3], normals[other // 3]
     folded = (dot(m, n) < 0.0) & (dot(cross(m, n), along) > -COPLANAR)  # back to back: a sheet's edge
     active[one] = active[other] = (dot(cross(m, n), along) > COPLANAR) | folded
-    keys = np.unique(np.concatenate([starts * len(vertices) + ends, ends * len(vertices) + starts]))
-    fan_start = np.searchsorted(keys, np.arange(len(vertices) + 1) * len(vertices))
     bits = active.reshape(-1, 3) @ np.array([1, 2, 4])
-    return Surface(vertices, faces, source, normals, across.reshape(-1, 3), bits, fan_start, keys % len(vertices))
+    return Surface(vertices, faces, source, normals, across.reshape(-1, 3), bits, *_fans(*edges, len(vertices)))
 
 
-def _partners(starts: Integers, ends: Integers, count: int) -> tuple[Integers, Integers]:
-    """Return pairs of directed edges that run along each other, one forth and one back, with no third."""
+def _edges(starts: Integers, ends: Integers, count: int) -> tuple[Ends, Integers, Integers]:
+    """Return the two ends of each edge, and pairs of directed edges along one, forth and back, with no third."""
     keys = np.minimum(starts, ends) * count + np.maximum(starts, ends)
     order = np.argsort(keys, kind="stable")
     ranked = keys[order]
-    first = np.nonzero(ranked[:-1] == ranked[1:])[0]
+    repeated = ranked[:-1] == ranked[1:]
+    first = np.nonzero(repeated)[0]
     alone = np.ones(len(first), np.bool_)  # a third one makes two such neighbours in a row
     alone[1:] &= np.diff(first) > 1
     alone[:-1] &= np.diff(first) > 1
     one, other = order[first[alone]], order[first[alone] + 1]
     opposed = starts[one] == ends[other]
-    return one[opposed], other[opposed]
+    distinct = np.concatenate([ranked[:1], ranked[1:][~repeated]])
+    return (distinct // count, distinct % count), one[opposed], other[opposed]
+
+
+def _fans(lower: Integers, upper: Integers, count: int) -> tuple[Integers, Integers]:
+    """Return where the neighbours of each vertex start among all, and those, in order."""
+    from_, to = np.concatenate([upper, lower]), np.concatenate([lower, upper])
+    starts = np.zeros(count + 1, np.int64)
+    np.cumsum(np.bincount(from_, minlength=count), out=starts[1:])
+    return starts, to[np.argsort(from_, kind="stable")]  # edges come in order of both their ends

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs.column import Floats, Integers
+from carom.ecs.spatial.vector import dot
 from carom.systems.detection.mesh_links import Surface, linked
 from carom.systems.detection.packed import Packed
 from carom.systems.kernels.mesh_tree import TRIANGLE, build_tree
@@ -53,10 +54,10 @@ class PackedMeshes(Packed[Meshes, Meshes]):
 def tree_of(geometry: Geometry) -> Meshes:
     """Return the triangles of one geometry and the tree over them."""
     surface = linked(geometry)
-    corners = surface.vertices[surface.faces]
-    lower, upper = corners.min(axis=1), corners.max(axis=1)
-    order = np.arange(len(corners))
-    bounds, nodes = np.empty(12 * len(corners)), np.empty(6 * len(corners), np.int64)
+    a, b, c = (surface.vertices[surface.faces[:, k]] for k in range(3))
+    lower, upper = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    order = np.arange(len(a))
+    bounds, nodes = np.empty(12 * len(a)), np.empty(6 * len(a), np.int64)
     count = build_tree(lower, upper, lower + upper, order, bounds, nodes)
     return _packed(surface, order, outward(bounds[: 6 * count]), nodes[: 3 * count].astype(np.int32))
 
@@ -72,13 +73,17 @@ def outward(bounds: Floats) -> Singles:
 
 def _packed(surface: Surface, order: Integers, bounds: Singles, nodes: Indices) -> Meshes:
     """Return a surface's arrays with its triangles in the order of the tree."""
-    corners = surface.vertices[surface.faces]
-    along = corners[:, [1, 2, 0]] - corners
-    per_length = 1.0 / np.sqrt(along[:, :, 0] ** 2 + along[:, :, 1] ** 2 + along[:, :, 2] ** 2)
-    triangles = np.concatenate([corners.reshape(-1, 9), surface.normals, per_length], axis=1)[order]
-    links = np.concatenate([surface.faces, surface.across, surface.active[:, None], surface.source[:, None]], axis=1)
+    faces = surface.faces[order]
+    triangles, links = np.empty((len(faces), TRIANGLE)), np.empty((len(faces), 8), np.int32)
+    corners = surface.vertices[faces]
+    triangles[:, :9], triangles[:, 9:12] = corners.reshape(-1, 9), surface.normals[order]
+    for k in range(3):
+        along = corners[:, (k + 1) % 3] - corners[:, k]
+        triangles[:, 12 + k] = 1.0 / np.sqrt(dot(along, along))
+    links[:, :3], links[:, 3:6] = faces, surface.across[order]
+    links[:, 6], links[:, 7] = surface.active[order], surface.source[order]
     return Meshes(
-        np.zeros(1, np.int64), bounds, nodes, triangles.ravel(), links[order].ravel().astype(np.int32),
+        np.zeros(1, np.int64), bounds, nodes, triangles.ravel(), links.ravel(),
         surface.vertices.ravel(), surface.fan_start.astype(np.int32), surface.fan.astype(np.int32),
     )  # fmt: skip
 
@@ -106,7 +111,8 @@ def joined(trees: dict[int, Meshes]) -> Meshes:
         corner, edge = corner + len(tree.vertices) // 3, edge + len(tree.fan)
 
     def joint(column: str, kind: type) -> Any:
-        return np.concatenate([np.empty(0, kind), *(getattr(part, column) for part in parts)])
+        columns = [getattr(part, column) for part in parts]
+        return columns[0] if len(columns) == 1 else np.concatenate([np.empty(0, kind), *columns])
 
     return Meshes(
         root, joint("bounds", np.float32), joint("nodes", np.int32), joint("triangles", np.float64),

@@ -10,6 +10,7 @@ import numpy as np
 from carom.ecs import Collider, World
 from carom.ecs.column import Booleans
 from carom.ecs.component import Resource
+from carom.systems.kernels.packed import are_packed
 from carom.systems.shapes.geometry import Geometries, Geometry
 from carom.systems.shapes.shape import Shape
 
@@ -23,6 +24,7 @@ class Packed(Resource, ABC, Generic[One, Every]):
     shapes: ClassVar[tuple[type[Shape], ...]]
 
     def __init__(self) -> None:
+        self._numbers = np.array([shape.number for shape in self.shapes])
         self._made: dict[int, One] = {}
         self._known: Booleans = np.zeros(0, np.bool_)
         self._packed = self.pack(self._made)
@@ -40,13 +42,15 @@ class Packed(Resource, ABC, Generic[One, Every]):
         items = world[Geometries].items
         if not items:
             return self._packed
-        self._known.resize(len(items))
+        if len(items) > len(self._known):
+            self._known = np.append(self._known, np.zeros(len(items) - len(self._known), np.bool_))
         collider, rows = world[Collider], world.row_numbers(Collider)
+        if are_packed(rows, collider.shape, collider.geometry, self._numbers, self._known):
+            return self._packed
         shapes = collider.shape[rows]
-        numbers = collider.geometry[rows[np.logical_or.reduce([shapes == shape.number for shape in self.shapes])]]
-        if not self._known[numbers].all():
-            for number in sorted(set(numbers[~self._known[numbers]].tolist())):
-                self._made[number] = self.make(items[number])
-            self._known[numbers] = True
-            self._packed = self.pack(self._made)
+        numbers = collider.geometry[rows[np.isin(shapes, self._numbers)]]
+        for number in sorted(set(numbers[~self._known[numbers]].tolist())):
+            self._made[number] = self.make(items[number])
+        self._known[numbers] = True
+        self._packed = self.pack(self._made)
         return self._packed

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.selection import select, widest_axis
 
 LEAF = 8  # triangles at most
 DEPTH = 64  # halvings of any number there is
@@ -25,54 +26,31 @@ def build_tree(lower, upper, middle, order, bounds, nodes):
     while waiting > 0:
         waiting -= 1
         first, last = stack[waiting, 0], stack[waiting, 1]
-        widest, axis = -1.0, 0
-        for d in range(3):
-            low, high, least, most = 1e300, -1e300, 1e300, -1e300
-            for k in range(first, last):
-                t = order[k]
-                low, high = min(low, lower[t, d]), max(high, upper[t, d])
-                least, most = min(least, middle[t, d]), max(most, middle[t, d])
-            bounds[6 * count + d], bounds[6 * count + 3 + d] = low, high
-            if most - least > widest:
-                widest, axis = most - least, d
         nodes[3 * count + 1], nodes[3 * count + 2] = first, last - first if last - first <= LEAF else 0
         count += 1
         if last - first > LEAF:
             half = first + (last - first) // 2
-            select(order, middle, axis, first, last - 1, half)
+            select(order, middle, widest_axis(order, middle, first, last), first, last, half)
             stack[waiting, 0], stack[waiting, 1] = half, last
             stack[waiting + 1, 0], stack[waiting + 1, 1] = first, half
             waiting += 2
     for node in range(count - 1, -1, -1):
+        b, left = 6 * node, 6 * (node + 1)
         nodes[3 * node] = node + 1
         if nodes[3 * node + 2] == 0:
             nodes[3 * node] = nodes[3 * nodes[3 * (node + 1)]]
+            right = 6 * nodes[3 * (node + 1)]
+            for d in range(3):
+                bounds[b + d] = min(bounds[left + d], bounds[right + d])
+                bounds[b + 3 + d] = max(bounds[left + 3 + d], bounds[right + 3 + d])
+            continue
+        for d in range(3):
+            bounds[b + d], bounds[b + 3 + d] = 1e300, -1e300
+        for k in range(nodes[3 * node + 1], nodes[3 * node + 1] + nodes[3 * node + 2]):
+            for d in range(3):
+                bounds[b + d] = min(bounds[b + d], lower[order[k], d])
+                bounds[b + 3 + d] = max(bounds[b + 3 + d], upper[order[k], d])
     return count
-
-
-@inlined
-def select(order, middle, axis, first, last, wanted):
-    """Move the entries of ``order`` from first to last so that ``wanted`` parts the lower from the higher.
-
-    Hoare's FIND (Communications of the ACM 4, 321, 1961).
-    """
-    while first < last:
-        pivot = middle[order[(first + last) // 2], axis]
-        i, j = first, last
-        while i <= j:
-            while middle[order[i], axis] < pivot:
-                i += 1
-            while middle[order[j], axis] > pivot:
-                j -= 1
-            if i <= j:
-                order[i], order[j] = order[j], order[i]
-                i, j = i + 1, j - 1
-        if wanted <= j:
-            last = j
-        elif wanted >= i:
-            first = i
-        else:
-            return
 
 
 @woven

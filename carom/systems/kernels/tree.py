@@ -9,35 +9,11 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.selection import select, widest_axis
 
 LEAF = 4  # members at most in a node without halves
 WAITING = 2048  # halves on the way down to a leaf at most: size classes of float64, and bits of a row number
-
-
-@inlined
-def part_at(members, low, high, middle, axis, fat_lower, fat_upper):
-    """Reorder members from low to high so that none before ``middle`` has a centre beyond any from there on."""
-    high -= 1
-    while low < high:
-        pivot = members[(low + high) >> 1]
-        value = fat_lower[pivot, axis] + fat_upper[pivot, axis]
-        left, right = low, high
-        while left <= right:
-            while fat_lower[members[left], axis] + fat_upper[members[left], axis] < value:
-                left += 1
-            while fat_lower[members[right], axis] + fat_upper[members[right], axis] > value:
-                right -= 1
-            if left <= right:
-                members[left], members[right] = members[right], members[left]
-                left += 1
-                right -= 1
-        if middle <= right:
-            high = right
-        elif middle >= left:
-            low = left
-        else:
-            return
 
 
 @kernel("members", "bounds", "span", "skip", "moves")
@@ -46,6 +22,7 @@ def grow_tree(kind, body_row, fat_lower, fat_upper, members, bounds, span, skip,
 
     A node's members are ``members[span[node, 0]:span[node, 1]]``, ``moves`` tells whether one of them is a body's.
     """
+    center = fat_lower + fat_upper  # twice that
     todo = np.empty((WAITING, 2), np.int64)
     todo[0, 0], todo[0, 1] = 0, len(members)
     waiting, nodes = min(len(members), 1), 0
@@ -64,15 +41,7 @@ def grow_tree(kind, body_row, fat_lower, fat_upper, members, bounds, span, skip,
             while kind[middle] == kind[low]:
                 middle += 1
         else:
-            axis, widest = 0, -1.0
-            for k in range(3):
-                least, most = np.inf, -np.inf
-                for m in range(low, high):
-                    center = fat_lower[members[m], k] + fat_upper[members[m], k]
-                    least, most = min(least, center), max(most, center)
-                if most - least > widest:
-                    axis, widest = k, most - least
-            part_at(members, low, high, middle, axis, fat_lower, fat_upper)
+            select(members, center, widest_axis(members, center, low, high), low, high, middle)
         todo[waiting, 0], todo[waiting, 1] = middle, high
         todo[waiting + 1, 0], todo[waiting + 1, 1] = low, middle
         waiting += 2
