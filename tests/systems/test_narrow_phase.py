@@ -119,6 +119,18 @@ def test_swapping_the_sides_turns_normals_alone(name: str) -> None:
         assert (one.feature == two.feature).all()
 
 
+def test_a_pair_of_boxes_is_the_same_alone_and_among_others() -> None:
+    """Boxes are parted many pairs at a time: neither number nor place of a pair among them changes a bit."""
+    a, b = PAIRS["box-box"]
+    batch, _, _ = random_batch(a, b, 100, seed=6)
+    every = measure_batch(a, b, batch, REACH)
+    for p in range(100):
+        alone = measure_batch(a, b, Batch(*(poses[p : p + 1] for poses in batch)), REACH)
+        points = slice(every.start[p], every.start[p] + every.count[p])
+        for column in ("feature", "normal", "depth", "point"):
+            assert (getattr(alone, column) == getattr(every, column)[points]).all()
+
+
 @pytest.mark.parametrize("name", ["box-box", "box-plane", "sphere-capsule"])
 def test_fcl_agrees_where_it_is_exact(name: str) -> None:
     """Overlaps of up to 5 % have FCL's depth, to 1e-9 m; of boxes FCL takes a face unless an edge is better by 5 %."""

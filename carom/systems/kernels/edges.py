@@ -6,82 +6,94 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import inlined, woven
-from carom.systems.kernels.parting import FAR, OTHER, OWN, PLACE, TURN, VIEW, after, along_axis
+from carom.systems.kernels.parting import FAR, OTHER, OWN, PLACE, TURN, VIEW, after
 
 EDGE_FEATURES = 144  # pairs of the 12 edges of each box
 
 
 @woven
-def crossing_edges(view, edges, nx, ny, nz):
-    """Return (whether the nearest points are within both edges, number of the pair, middle) along their normal n.
+def edge_normal(view, lane, edges, way):
+    """Write the common normal of two edges (`part`) in the first frame, towards the second box."""
+    i, j = edges // 3, edges % 3
+    i1, i2 = after(i), after(after(i))
+    low, high = view[TURN + 3 * i1 + j, lane], view[TURN + 3 * i2 + j, lane]
+    scale = 1.0 / sqrt(low * low + high * high)
+    scale = -scale if view[PLACE + i2, lane] * low < view[PLACE + i1, lane] * high else scale
+    way[i], way[i1], way[i2] = 0.0, -scale * high, scale * low
 
-    ``edges`` are two axes (`widest_edges`); of the four edges along each the foremost towards the other box counts.
-    All in the first frame (Ericson, Real-Time Collision Detection, 5.1.8).
+
+@woven
+def along_other(view, lane, axis, way):
+    """Return the component along an axis of the second box, of a direction in the first frame."""
+    return (
+        way[0] * view[TURN + axis, lane] + way[1] * view[TURN + 3 + axis, lane] + way[2] * view[TURN + 6 + axis, lane]
+    )
+
+
+@woven
+def crossing_edges(view, lane, edges, way, place):
+    """Write the middle between two edges where they come nearest; return (whether within both, number of the pair).
+
+    ``edges`` are two axes (`part`), ``way`` their common normal; of the four edges along each axis the foremost towards
+    the other box counts. All in the first frame (Ericson, Real-Time Collision Detection, 5.1.8), its axes in the order
+    i, i1, i2.
     """
     i, j = edges // 3, edges % 3
-    ox, oy, oz, number_a, number_b, bit = 0.0, 0.0, 0.0, 4 * i, 4 * j, 1  # o: from the first edge's middle to the other
-    for r in range(3):
-        if r != i:
-            front = along_axis(view, 0, r, nx, ny, nz) >= 0.0
-            edge = view[OWN + r] if front else -view[OWN + r]
-            number_a += bit if front else 0
-            bit = 2
-            ox, oy, oz = ox + (edge if r == 0 else 0.0), oy + (edge if r == 1 else 0.0), oz + (edge if r == 2 else 0.0)
-    ax, ay, az = ox, oy, oz
-    bx, by, bz = view[PLACE], view[PLACE + 1], view[PLACE + 2]
-    bit = 1
-    for c in range(3):
-        if c != j:
-            front = along_axis(view, VIEW, c, nx, ny, nz) <= 0.0
-            edge = view[OTHER + c] if front else -view[OTHER + c]
-            number_b += bit if front else 0
-            bit = 2
-            bx, by, bz = (
-                bx + edge * view[TURN + c],
-                by + edge * view[TURN + 3 + c],
-                bz + edge * view[TURN + 6 + c],
-            )
-    ux, uy, uz = view[TURN + j], view[TURN + 3 + j], view[TURN + 6 + j]
-    dx, dy, dz = bx - ax, by - ay, bz - az
-    along_a, along_b, cosine = along_axis(view, 0, i, dx, dy, dz), dx * ux + dy * uy + dz * uz, view[TURN + 3 * i + j]
-    low, high = view[TURN + 3 * after(i) + j], view[TURN + 3 * after(after(i)) + j]
-    inverse = 1.0 / (low * low + high * high)
-    s, t = (along_a - cosine * along_b) * inverse, (cosine * along_a - along_b) * inverse
-    ha, hb = view[OWN + i], view[OTHER + j]
-    inside = abs(s) <= ha and abs(t) <= hb
-    s, t = min(max(s, -ha), ha), min(max(t, -hb), hb)
-    ax, ay, az = ax + (s if i == 0 else 0.0), ay + (s if i == 1 else 0.0), az + (s if i == 2 else 0.0)
-    x, y, z = 0.5 * (ax + bx + t * ux), 0.5 * (ay + by + t * uy), 0.5 * (az + bz + t * uz)
-    return inside, 12 * number_a + number_b, x, y, z
+    i1, i2, j1, j2 = after(i), after(after(i)), after(j), after(after(j))
+    row, row1, row2 = TURN + 3 * i, TURN + 3 * i1, TURN + 3 * i2
+    a1, a2, b1, b2 = view[OWN + i1, lane], view[OWN + i2, lane], view[OTHER + j1, lane], view[OTHER + j2, lane]
+    a1, a2 = a1 if way[i1] >= 0.0 else -a1, a2 if way[i2] >= 0.0 else -a2
+    b1 = b1 if along_other(view, lane, j1, way) <= 0.0 else -b1
+    b2 = b2 if along_other(view, lane, j2, way) <= 0.0 else -b2
+    d = (
+        view[PLACE + i, lane] + b1 * view[row + j1, lane] + b2 * view[row + j2, lane]
+    )  # from the one middle to the other
+    d1 = view[PLACE + i1, lane] + b1 * view[row1 + j1, lane] + b2 * view[row1 + j2, lane] - a1
+    d2 = view[PLACE + i2, lane] + b1 * view[row2 + j1, lane] + b2 * view[row2 + j2, lane] - a2
+    u, u1, u2 = view[row + j, lane], view[row1 + j, lane], view[row2 + j, lane]
+    along, inverse = d * u + d1 * u1 + d2 * u2, 1.0 / (u1 * u1 + u2 * u2)
+    s, t = (d - u * along) * inverse, (u * d - along) * inverse
+    half, other = view[OWN + i, lane], view[OTHER + j, lane]
+    inside = (abs(s) <= half) & (abs(t) <= other)
+    s, t = min(max(s, -half), half), min(max(t, -other), other)
+    place[i], place[i1], place[i2] = 0.5 * (s + d + t * u), a1 + 0.5 * (d1 + t * u1), a2 + 0.5 * (d2 + t * u2)
+    first = 4 * i + (1 if a1 > 0.0 else 0) + (2 if a2 > 0.0 else 0)
+    return inside, 12 * first + 4 * j + (1 if b1 > 0.0 else 0) + (2 if b2 > 0.0 else 0)
 
 
 @inlined
-def nearest_corner(view):
-    """Return (gap, 8 box + corner, direction, middle) of the corner nearest to the other box, which it is outside of.
+def nearest_corner(view, lane, way, place):
+    """Find the corner nearest to the other box, which it is outside of; return (8 box + corner, gap).
 
-    The direction leads from the other box to the corner; both are in the frame of that other box.
+    Write the direction from the other box to the corner, and the middle between; both are in the frame of the other.
     """
     least, number = FAR, 0
     for n in range(16):
-        dx, dy, dz, _, _, _ = from_box(view, n)
+        dx, dy, dz, _, _, _ = from_box(view, lane, n)
         squared = dx * dx + dy * dy + dz * dz
         number, least = (n, squared) if squared < least else (number, least)
     gap = sqrt(least)
-    dx, dy, dz, x, y, z = from_box(view, number)
-    return gap, number, dx / gap, dy / gap, dz / gap, x + 0.5 * dx, y + 0.5 * dy, z + 0.5 * dz
+    dx, dy, dz, x, y, z = from_box(view, lane, number)
+    way[0], way[1], way[2] = dx / gap, dy / gap, dz / gap
+    place[0], place[1], place[2] = x + 0.5 * dx, y + 0.5 * dy, z + 0.5 * dz
+    return number, gap
 
 
 @inlined
-def from_box(view, number):
+def from_box(view, lane, number):
     """Return the way to a corner from the nearest point of the other box, and that point, in the other's frame."""
     at = VIEW if number >= 8 else 0
-    a = view[at + OTHER] if number & 1 else -view[at + OTHER]
-    b = view[at + OTHER + 1] if number & 2 else -view[at + OTHER + 1]
-    c = view[at + OTHER + 2] if number & 4 else -view[at + OTHER + 2]
-    x = view[at + PLACE] + a * view[at + TURN] + b * view[at + TURN + 1] + c * view[at + TURN + 2]
-    y = view[at + PLACE + 1] + a * view[at + TURN + 3] + b * view[at + TURN + 4] + c * view[at + TURN + 5]
-    z = view[at + PLACE + 2] + a * view[at + TURN + 6] + b * view[at + TURN + 7] + c * view[at + TURN + 8]
-    px = min(max(x, -view[at + OWN]), view[at + OWN])
-    py = min(max(y, -view[at + OWN + 1]), view[at + OWN + 1])
-    pz = min(max(z, -view[at + OWN + 2]), view[at + OWN + 2])
+    a, b, c = view[at + OTHER, lane], view[at + OTHER + 1, lane], view[at + OTHER + 2, lane]
+    a, b, c = a if number & 1 else -a, b if number & 2 else -b, c if number & 4 else -c
+    x, px = seen(view, lane, at, 0, a, b, c)
+    y, py = seen(view, lane, at, 1, a, b, c)
+    z, pz = seen(view, lane, at, 2, a, b, c)
     return x - px, y - py, z - pz, px, py, pz
+
+
+@inlined
+def seen(view, lane, at, d, a, b, c):
+    """Return where a point of the other box is along an axis, and the nearest place to it in the own box."""
+    row = at + TURN + 3 * d
+    x = view[at + PLACE + d, lane] + a * view[row, lane] + b * view[row + 1, lane] + c * view[row + 2, lane]
+    return x, min(max(x, -view[at + OWN + d, lane]), view[at + OWN + d, lane])

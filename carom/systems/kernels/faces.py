@@ -13,7 +13,7 @@ LEAST_DIVISOR, STEEP = 1e-30, 1e30
 
 
 @woven
-def points_over(view, at, axis, sign, reach, over, feature):
+def points_over(view, lane, at, axis, sign, reach, over, feature):
     """Find the points of the other box's facing face that lie over a face of the own box and under ``reach``.
 
     Return their number and the depth of the deepest. ``over`` gets (along the next axis, along the one after, height)
@@ -24,19 +24,19 @@ def points_over(view, at, axis, sign, reach, over, feature):
     u, v = after(axis), after(after(axis))
     turn = at + TURN
     row = turn + 3 * axis
-    facing, most = 0, abs(view[row])
+    facing, most = 0, abs(view[row, lane])
     for j in range(1, 3):
-        if abs(view[row + j]) > most + BIAS:
-            facing, most = j, abs(view[row + j])
+        if abs(view[row + j, lane]) > most + BIAS:
+            facing, most = j, abs(view[row + j, lane])
     k, m = after(facing), after(after(facing))
-    side = -1.0 if sign * view[row + facing] > 0.0 else 1.0  # of the other box, towards the own face
-    edge, hk, hm = side * view[at + OTHER + facing], view[at + OTHER + k], view[at + OTHER + m]
-    cu = view[at + PLACE + u] + edge * view[turn + 3 * u + facing]
-    cv = view[at + PLACE + v] + edge * view[turn + 3 * v + facing]
-    cw = sign * (view[at + PLACE + axis] + edge * view[row + facing]) - view[at + OWN + axis]
-    ku, kv, kw = view[turn + 3 * u + k], view[turn + 3 * v + k], sign * view[row + k]
-    mu, mv, mw = view[turn + 3 * u + m], view[turn + 3 * v + m], sign * view[row + m]
-    hu, hv = view[at + OWN + u], view[at + OWN + v]
+    side = -1.0 if sign * view[row + facing, lane] > 0.0 else 1.0  # of the other box, towards the own face
+    edge, hk, hm = side * view[at + OTHER + facing, lane], view[at + OTHER + k, lane], view[at + OTHER + m, lane]
+    cu = view[at + PLACE + u, lane] + edge * view[turn + 3 * u + facing, lane]
+    cv = view[at + PLACE + v, lane] + edge * view[turn + 3 * v + facing, lane]
+    cw = sign * (view[at + PLACE + axis, lane] + edge * view[row + facing, lane]) - view[at + OWN + axis, lane]
+    ku, kv, kw = view[turn + 3 * u + k, lane], view[turn + 3 * v + k, lane], sign * view[row + k, lane]
+    mu, mv, mw = view[turn + 3 * u + m, lane], view[turn + 3 * v + m, lane], sign * view[row + m, lane]
+    hu, hv = view[at + OWN + u, lane], view[at + OWN + v, lane]
     per_ku, per_kv, per_mu, per_mv = reciprocal(ku), reciprocal(kv), reciprocal(mu), reciprocal(mv)
     found, deepest = 0, -FAR
     for e in range(4):  # edges of the other face: two along k, two along m, from their lower to their upper end
