@@ -14,11 +14,10 @@ from carom.systems.kernels.mesh_points import (
     WIDTH,
     add_point,
     choose_points,
-    grown,
     write_chosen,
 )
-from carom.systems.kernels.mesh_surface import FACE, falls_away, nearest_on_triangle, on_rim
-from carom.systems.kernels.mesh_tree import TRIANGLE, find_triangles
+from carom.systems.kernels.mesh_surface import FACE, behind_of, falls_away, nearest_on_triangle, on_rim
+from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles, grown
 from carom.systems.kernels.spatial import turn
 
 
@@ -38,8 +37,8 @@ def measure_balls_on_meshes(
         meshes.triangles, meshes.links, meshes.vertices, meshes.fan_start, meshes.fan,
     )  # fmt: skip
     root, bounds, nodes = meshes.root, meshes.bounds, meshes.nodes  # taken out once: each time counts references
-    found = np.empty(256, np.int64)
-    points, names, kept = np.empty(WIDTH * 256), np.empty(256, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
+    found = np.empty(FEW, np.uint32)
+    points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
     for k in range(len(which)):
         p, i, m = which[k], first[k], second[k]
         start[p] = taken
@@ -48,19 +47,27 @@ def measure_balls_on_meshes(
         x, y, z = turn(-qx, -qy, -qz, qw, position[i, 0] - px, position[i, 1] - py, position[i, 2] - pz)
         radius = size[i, 0]
         far = radius + reaches[p]
-        while True:
-            near = find_triangles(
-                root[geometry[m]], bounds, nodes, triangles,
-                x - far, y - far, z - far, x + far, y + far, z + far, found,
-            )  # fmt: skip
-            if near <= len(found):
-                break
-            found = grown(found)
+        near, found = all_triangles(
+            root[geometry[m]], bounds, nodes, triangles,
+            x - far, y - far, z - far, x + far, y + far, z + far, found,
+        )  # fmt: skip
         while near > len(names):
             names, points = grown(names), grown(points)
-        nearest, side, behind = 1e300, 0.0, 0
-        bx, by, bz = 0.0, 0.0, 0.0
         touching = 0
+        behind = behind_of(triangles, links, found, near, x, y, z)
+        if behind >= 0:
+            cx, cy, cz, _ = nearest_on_triangle(triangles, behind, x, y, z)
+            dx, dy, dz = cx - x, cy - y, cz - z
+            distance, near = sqrt(dx * dx + dy * dy + dz * dz), 0
+            a = TRIANGLE * behind
+            nx, ny, nz = triangles[a + 9], triangles[a + 10], triangles[a + 11]
+            if distance > LEAST_PART:
+                nx, ny, nz = dx / distance, dy / distance, dz / distance
+            if distance <= far:
+                half = -0.5 * (distance + radius)
+                touching = add_point(
+                    points, names, 0, nx, ny, nz, cx + half * nx, cy + half * ny, cz + half * nz, 2.0 * half, 0
+                )
         for c in range(near):
             t = found[c]
             a = TRIANGLE * t
@@ -73,10 +80,6 @@ def measure_balls_on_meshes(
             if distance > far:
                 continue
             above = distance if on_rim(links, t, part) else nx * dx + ny * dy + nz * dz
-            if distance < nearest + LEAST_PART:
-                if distance < nearest - LEAST_PART:
-                    nearest, side, behind, bx, by, bz = distance, 0.0, t, cx, cy, cz
-                side = above if abs(above) > abs(side) else side
             if above < 0.0 or not falls_away(links, vertices, fan_start, fan, t, part, dx, dy, dz):
                 continue
             if part != FACE and distance > LEAST_PART:
@@ -84,15 +87,6 @@ def measure_balls_on_meshes(
             half = 0.5 * (distance - radius)
             touching = add_point(
                 points, names, touching, nx, ny, nz, cx + half * nx, cy + half * ny, cz + half * nz, 2.0 * half, 0
-            )
-        if side < 0.0:
-            t = TRIANGLE * behind + 9
-            nx, ny, nz = triangles[t], triangles[t + 1], triangles[t + 2]
-            if nearest > LEAST_PART:
-                nx, ny, nz = (bx - x) / nearest, (by - y) / nearest, (bz - z) / nearest
-            half = -0.5 * (nearest + radius)
-            touching = add_point(
-                points, names, 0, nx, ny, nz, bx + half * nx, by + half * ny, bz + half * nz, 2.0 * half, 0
             )
         chosen = choose_points(points, names, touching, SAME_PLACE * radius + LEAST_PART, kept)
         count[p] = chosen

@@ -16,15 +16,6 @@ TWIN = 1 << 50  # tells features apart that two manifolds share
 
 
 @inlined
-def grown(values):
-    """Return a copy with twice the room."""
-    wider = np.empty(2 * len(values), values.dtype)
-    for k in range(len(values)):
-        wider[k] = values[k]
-    return wider
-
-
-@inlined
 def add_point(points, names, count, nx, ny, nz, x, y, z, gap, name):
     """Write a point; return how many there are now."""
     k = WIDTH * count

@@ -2,47 +2,33 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import LEANING
+from carom.systems.constants import LEANING, LEAST_PART
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.mesh_tree import TRIANGLE
+from carom.systems.kernels.simplex import weights_on_triangle
 
 EDGE, CORNER, FACE = 0, 3, 6  # parts of a triangle: edges 0 to 2, corners 3 to 5, the face
 
 
 @inlined
 def nearest_on_triangle(triangles, t, x, y, z):
-    """Return the point of a triangle nearest to another, and the part it lies on (Ericson 5.1.5)."""
+    """Return the point of a triangle nearest to another, and the part it lies on."""
     k = TRIANGLE * t
     ax, ay, az = triangles[k], triangles[k + 1], triangles[k + 2]
-    ux, uy, uz = triangles[k + 3] - ax, triangles[k + 4] - ay, triangles[k + 5] - az
-    vx, vy, vz = triangles[k + 6] - ax, triangles[k + 7] - ay, triangles[k + 8] - az
-    x, y, z = x - ax, y - ay, z - az
-    d1, d2 = ux * x + uy * y + uz * z, vx * x + vy * y + vz * z
-    if d1 <= 0.0 and d2 <= 0.0:
+    bx, by, bz = triangles[k + 3], triangles[k + 4], triangles[k + 5]
+    cx, cy, cz = triangles[k + 6], triangles[k + 7], triangles[k + 8]
+    a, b, c = weights_on_triangle(ax - x, ay - y, az - z, bx - x, by - y, bz - z, cx - x, cy - y, cz - z)
+    if b == 0.0 and c == 0.0:
         return ax, ay, az, CORNER
-    uu, uv, vv = ux * ux + uy * uy + uz * uz, ux * vx + uy * vy + uz * vz, vx * vx + vy * vy + vz * vz
-    d3, d4 = d1 - uu, d2 - uv
-    if d3 >= 0.0 and d4 <= d3:
-        return ax + ux, ay + uy, az + uz, CORNER + 1
-    vc = d1 * d4 - d3 * d2
-    if vc <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
-        s = d1 / uu
-        return ax + s * ux, ay + s * uy, az + s * uz, EDGE
-    d5, d6 = d1 - uv, d2 - vv
-    if d6 >= 0.0 and d5 <= d6:
-        return ax + vx, ay + vy, az + vz, CORNER + 2
-    vb = d5 * d2 - d1 * d6
-    if vb <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
-        s = d2 / vv
-        return ax + s * vx, ay + s * vy, az + s * vz, EDGE + 2
-    va = d3 * d6 - d5 * d4
-    if va <= 0.0 and d4 >= d3 and d5 >= d6:
-        s = (d4 - d3) / ((d4 - d3) + (d5 - d6))
-        return ax + ux + s * (vx - ux), ay + uy + s * (vy - uy), az + uz + s * (vz - uz), EDGE + 1
-    s = 1.0 / (va + vb + vc)
-    v, w = vb * s, vc * s
-    return ax + v * ux + w * vx, ay + v * uy + w * vy, az + v * uz + w * vz, FACE
+    if a == 0.0 and c == 0.0:
+        return bx, by, bz, CORNER + 1
+    if a == 0.0 and b == 0.0:
+        return cx, cy, cz, CORNER + 2
+    part = EDGE if c == 0.0 else EDGE + 1 if a == 0.0 else EDGE + 2 if b == 0.0 else FACE
+    return a * ax + b * bx + c * cx, a * ay + b * by + c * cy, a * az + b * bz + c * cz, part
 
 
 @inlined
@@ -83,3 +69,33 @@ def leads(vertices, i, j, x, y, z):
     if along <= 0.0:
         return False
     return along * along > LEANING * LEANING * (ux * ux + uy * uy + uz * uz) * (x * x + y * y + z * z)
+
+
+@inlined
+def behind_of(triangles, links, found, near, x, y, z):
+    """Return the triangle a point is behind, of those found; -1 where it is in front of the nearest of them."""
+    hidden = False
+    for c in range(near):
+        a = TRIANGLE * found[c]
+        dx, dy, dz = x - triangles[a], y - triangles[a + 1], z - triangles[a + 2]
+        if triangles[a + 9] * dx + triangles[a + 10] * dy + triangles[a + 11] * dz < 0.0:
+            hidden = True
+            break
+    if not hidden:
+        return -1
+    nearest, side, behind = 1e300, 0.0, -1
+    for c in range(near):
+        t = found[c]
+        cx, cy, cz, part = nearest_on_triangle(triangles, t, x, y, z)
+        dx, dy, dz = x - cx, y - cy, z - cz
+        distance = sqrt(dx * dx + dy * dy + dz * dz)
+        if distance >= nearest + LEAST_PART:
+            continue
+        above = triangles[TRIANGLE * t + 9] * dx + triangles[TRIANGLE * t + 10] * dy + triangles[TRIANGLE * t + 11] * dz
+        if on_rim(links, t, part):
+            above = distance
+        if distance < nearest - LEAST_PART:
+            nearest, side, behind = distance, above, t
+        elif abs(above) > abs(side):
+            side, behind = above, t
+    return behind if side < 0.0 else -1

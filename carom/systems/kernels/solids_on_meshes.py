@@ -7,9 +7,9 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import LEAST_PART, SAME_PLACE
+from carom.systems.constants import SAME_PLACE
 from carom.systems.kernels.hulls_narrow import most_of
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.mesh_areas import MOST_CORNERS, points_over_face, points_over_triangle
 from carom.systems.kernels.mesh_axes import ASIDE, FAR, ON_FACE, ON_POINT, ON_TRIANGLE, most_apart_from_triangle
 from carom.systems.kernels.mesh_boxes import BOX_ROOM, most_apart_from_box, place_box
@@ -18,11 +18,10 @@ from carom.systems.kernels.mesh_points import (
     WIDTH,
     add_point,
     choose_points,
-    grown,
     write_chosen,
 )
-from carom.systems.kernels.mesh_surface import nearest_on_triangle, on_rim
-from carom.systems.kernels.mesh_tree import TRIANGLE, find_triangles
+from carom.systems.kernels.mesh_surface import behind_of
+from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles, grown
 from carom.systems.kernels.polyhedra import BOX, SEGMENT, face_towards, place_faces, place_vertices, polyhedron_of
 from carom.systems.kernels.spatial import product, turn
 
@@ -49,8 +48,8 @@ def measure_solids_on_meshes(
     height, lean = np.empty(corners), np.empty(faces_most)
     polygon, tag = np.empty(6 * room), np.empty(4 * room, np.int64)
     own, ends = np.empty(BOX_ROOM), np.array([0, 1])
-    found = np.empty(256, np.int64)
-    points, names, kept = np.empty(WIDTH * 256), np.empty(256, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
+    found = np.empty(FEW, np.uint32)
+    points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
     for index in range(len(which)):
         pair, b, m = which[index], first[index], second[index]
         start[pair] = taken
@@ -72,14 +71,10 @@ def measure_solids_on_meshes(
             lx, ly, lz = min(lx, v[3 * i]), min(ly, v[3 * i + 1]), min(lz, v[3 * i + 2])
             hx, hy, hz = max(hx, v[3 * i]), max(hy, v[3 * i + 1]), max(hz, v[3 * i + 2])
         width = 0.5 * sqrt((hx - lx) * (hx - lx) + (hy - ly) * (hy - ly) + (hz - lz) * (hz - lz)) + radius
-        while True:
-            near = find_triangles(
-                root[geometry[m]], bounds, nodes, triangles,
-                lx - far, ly - far, lz - far, hx + far, hy + far, hz + far, found,
-            )  # fmt: skip
-            if near <= len(found):
-                break
-            found = grown(found)
+        near, found = all_triangles(
+            root[geometry[m]], bounds, nodes, triangles,
+            lx - far, ly - far, lz - far, hx + far, hy + far, hz + far, found,
+        )  # fmt: skip
         behind = behind_of(triangles, links, found, near, x, y, z)
         touching = 0
         if behind >= 0:
@@ -162,33 +157,3 @@ def measure_solids_on_meshes(
             points, names, kept, chosen, ox, oy, oz, qx, qy, qz, qw, taken, feature, normal, depth, point
         )
     return taken
-
-
-@inlined
-def behind_of(triangles, links, found, near, x, y, z):
-    """Return the triangle a point is behind, of those found; -1 where it is in front of the nearest of them."""
-    hidden = False
-    for c in range(near):
-        a = TRIANGLE * found[c]
-        dx, dy, dz = x - triangles[a], y - triangles[a + 1], z - triangles[a + 2]
-        if triangles[a + 9] * dx + triangles[a + 10] * dy + triangles[a + 11] * dz < 0.0:
-            hidden = True
-            break
-    if not hidden:
-        return -1
-    nearest, side, behind = 1e300, 0.0, -1
-    for c in range(near):
-        t = found[c]
-        cx, cy, cz, part = nearest_on_triangle(triangles, t, x, y, z)
-        dx, dy, dz = x - cx, y - cy, z - cz
-        distance = sqrt(dx * dx + dy * dy + dz * dz)
-        if distance >= nearest + LEAST_PART:
-            continue
-        above = triangles[TRIANGLE * t + 9] * dx + triangles[TRIANGLE * t + 10] * dy + triangles[TRIANGLE * t + 11] * dz
-        if on_rim(links, t, part):
-            above = distance
-        if distance < nearest - LEAST_PART:
-            nearest, side, behind = distance, above, t
-        elif abs(above) > abs(side):
-            side, behind = above, t
-    return behind if side < 0.0 else -1
