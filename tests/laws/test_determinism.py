@@ -11,8 +11,12 @@ import pytest
 
 FRAMES = 240
 HASHES = """
+import itertools
 import sys
+import numpy as np
 from carom.ecs import state_hash
+from carom.systems.shapes.geometry import hull_of
+from carom.systems.shapes.mesh import Mesh
 from carom.systems.simulation import Simulation
 from carom.worlds import load_world
 
@@ -24,9 +28,26 @@ def stack():
         simulation.add(collider=box, body={}, transform={"position": (0.1 * k, 0.55 + 1.1 * k, 0.0)})
     return simulation
 
+def shapes():
+    cube = hull_of(np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)]))
+    kinds = (
+        {"sphere": {"radius": 0.5}},
+        {"capsule": {"radius": 0.3, "length": 0.4}},
+        {"box": {"size": (1.0, 1.0, 1.0)}},
+        {"convex": {"points": cube.vertices}},
+        {"shape": Mesh(cube)},
+    )
+    simulation = Simulation()
+    simulation.add(collider={"plane": {}})
+    for k, (a, b) in enumerate(itertools.combinations_with_replacement(kinds[::-1], 2)):
+        for height, kind in ((0.5, a), (1.5, b)):
+            body = {} if "shape" in kind else {"body": {}}
+            simulation.add(collider=kind, transform={"position": (3.0 * k, height, 0.0)}, **body)
+    return simulation
+
 frames, worlds = int(sys.argv[1]), sys.argv[2:]
 for name in worlds:
-    simulation = stack() if name == "stack" else load_world(name).simulation
+    simulation = globals()[name]() if name in ("stack", "shapes") else load_world(name).simulation
     for _ in range(frames):
         simulation.step()
         print(name, simulation.frame, state_hash(simulation.world))
@@ -35,7 +56,7 @@ for name in worlds:
 
 def hashes(frames: int, *worlds: str, **environment: str) -> list[str]:
     """Return a line per frame with the state hash, from a process of its own."""
-    command = [sys.executable, "-c", HASHES, str(frames), *worlds]
+    command = [sys.executable, "-W", "error::RuntimeWarning", "-c", HASHES, str(frames), *worlds]
     run = subprocess.run(
         command, env=os.environ | environment, capture_output=True, text=True, check=False, timeout=500
     )
@@ -74,7 +95,7 @@ def test_a_processor_without_wide_vectors_gives_the_same_bits(here: list[str], t
 
 
 def test_kernels_do_the_same_without_the_jit(here: list[str]) -> None:
-    """Every kernel runs as plain Python under NUMBA_DISABLE_JIT=1 and gives the same bits."""
+    """Every kernel runs as plain Python under NUMBA_DISABLE_JIT=1, gives the same bits and makes no warning."""
     frames = 3
-    plain = hashes(frames, "billiards", "stack", "cannon", NUMBA_DISABLE_JIT="1")
-    assert plain == [line for line in here if int(line.split()[1]) <= frames]
+    plain = hashes(frames, "billiards", "stack", "cannon", "shapes", NUMBA_DISABLE_JIT="1")
+    assert plain == [line for line in here if int(line.split()[1]) <= frames] + hashes(frames, "shapes")

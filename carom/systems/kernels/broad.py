@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import sqrt
 
+import numpy as np
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import REACH_FACTOR, REACH_SLACK
 from carom.systems.kernels.kernel import kernel
@@ -61,14 +63,16 @@ def place_bounds(
             for k in range(3):
                 away += (position[i, k] + center[k] - center_of_mass[b, k]) ** 2
             wide += reach[b] + min(spin * dt, 2.0) * (sqrt(hx * hx + hy * hy + hz * hz) + sqrt(away))
-        ax, ay, az = turn(qx, qy, qz, qw, 1.0, 0.0, 0.0)
-        bx, by, bz = turn(qx, qy, qz, qw, 0.0, 1.0, 0.0)
-        gx, gy, gz = turn(qx, qy, qz, qw, 0.0, 0.0, 1.0)
-        half = (
-            abs(ax) * hx + abs(bx) * hy + abs(gx) * hz,
-            abs(ay) * hx + abs(by) * hy + abs(gy) * hz,
-            abs(az) * hx + abs(bz) * hy + abs(gz) * hz,
-        )
+        half = (hx, hy, hz)
+        if hx < np.inf:  # a half space has no end whichever way it is turned
+            ax, ay, az = turn(qx, qy, qz, qw, 1.0, 0.0, 0.0)
+            bx, by, bz = turn(qx, qy, qz, qw, 0.0, 1.0, 0.0)
+            gx, gy, gz = turn(qx, qy, qz, qw, 0.0, 0.0, 1.0)
+            half = (
+                abs(ax) * hx + abs(bx) * hy + abs(gx) * hz,
+                abs(ay) * hx + abs(by) * hy + abs(gy) * hz,
+                abs(az) * hx + abs(bz) * hy + abs(gz) * hz,
+            )
         for k in range(3):
             lower[i, k] = position[i, k] + center[k] - half[k] - wide
             upper[i, k] = position[i, k] + center[k] + half[k] + wide

@@ -22,7 +22,10 @@ def grow_tree(kind, body_row, fat_lower, fat_upper, members, bounds, span, skip,
 
     A node's members are ``members[span[node, 0]:span[node, 1]]``, ``moves`` tells whether one of them is a body's.
     """
-    center = fat_lower + fat_upper  # twice that
+    center = np.empty(fat_lower.shape)
+    for m in members:
+        for k in range(3):
+            center[m, k] = fat_lower[m, k] + fat_upper[m, k]  # twice that
     todo = np.empty((WAITING, 2), np.int64)
     todo[0, 0], todo[0, 1] = 0, len(members)
     waiting, nodes = min(len(members), 1), 0
