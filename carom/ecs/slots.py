@@ -167,9 +167,11 @@ class Slots:
 
     def fate(self, entity: int) -> str:
         """Say in words what became of an entity that does not live."""
+        if entity < 0:
+            return f"{entity} is no entity: handles are 0 or more, and -1 stands for none"
         index, generation = entity & INDEX_MASK, entity >> INDEX_BITS
         when = "never was in this world"
-        if entity >= 0 and index < self.reached and generation < self.generations[index]:
+        if index < self.reached and generation < self.generations[index]:
             earlier = generation < self.generations[index] - 1
             when = f"was despawned {'before' if earlier else 'in'} frame {self.died_at[index]}"
         return f"entity {index}, generation {generation}, {when}"

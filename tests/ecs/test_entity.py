@@ -8,7 +8,39 @@ from typing import Any
 import pytest
 from faults import error
 
-from carom.ecs import DeclarationError, EntityError, Motion, RigidBody, Transform, World, state_hash
+from carom.ecs import DeclarationError, EntityError, Material, Motion, RigidBody, Transform, World, state_hash
+
+
+def test_an_entity_reads_and_writes_like_an_object() -> None:
+    """Assignment through a view is seen by the columns, and the other way round."""
+    world = World()
+    ball = world.spawn(Transform(), Motion(), Material())
+    world[ball].motion.linear = (1.0, 2.0, 3.0)
+    world[ball].material.friction = 0.25
+    assert world[Motion].linear[0].tolist() == [1.0, 2.0, 3.0]
+    with world.edit(Motion) as motion:
+        motion.linear[0, 1] = 9.0
+    assert world[ball].motion.linear.tolist() == [1.0, 9.0, 3.0]
+    assert world[ball].material.friction == 0.25
+    world[ball].motion.linear += (0.0, 1.0, 0.0)
+    world[ball].motion.linear[0] = -1.0
+    world[ball].motion.linear[1:] *= 2.0
+    assert world[Motion].linear[0].tolist() == [-1.0, 20.0, 6.0]
+
+
+def test_an_entity_refuses_what_it_does_not_have() -> None:
+    """Unknown components and columns name what there is."""
+    world = World()
+    ball = world.spawn(Motion(), name="ball")
+    with error(EntityError, "entity 'ball' has no transform, only motion, name"):
+        _ = world[ball].transform
+    accepted = "linear, angular, linear_acceleration, angular_acceleration"
+    with error(AttributeError, f"Motion has no column 'speed', only {accepted}"):
+        _ = world[ball].motion.speed
+    with error(AttributeError, f"Motion has no column 'speed', only {accepted}"):
+        world[ball].motion.speed = 1.0
+    with error(AttributeError, "assign to a column: world[entity].motion.<column> = value"):
+        world[ball].motion = (1.0, 0.0, 0.0)
 
 
 def test_values_are_written_element_by_element_and_in_place() -> None:

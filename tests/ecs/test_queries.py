@@ -1,4 +1,4 @@
-"""Queries: who has what, in rows, in runs, one by one; refused where they would mislead."""
+"""Queries: who has what, in rows and one by one; refused where they would mislead."""
 
 from __future__ import annotations
 
