@@ -159,10 +159,9 @@ UNIT_NORMAL = 1e-6
 # Smaller: contacts at the very edge of what is accepted are dropped by rounding.
 MEASURED = 1e-6
 
-# Degrees, part of the smaller size, and likewise: a stand-in whose deepest point differs from FCL's by a larger turn or
-# depth disagrees with it; pairs that overlap by a larger part are not judged, FCL being off there by degrees. Larger
-# would pass faults that show in rolling; smaller, what FCL's own tolerance leaves.
-AUDITED_TURN, AUDITED_DEPTH, AUDITED_OVERLAP = 0.5, 3e-6, 0.05
+# Degrees, and part of the smaller size: a stand-in whose deepest point differs from FCL's by a larger turn or depth
+# disagrees with it. Larger would pass faults that show in rolling; smaller, what rounding leaves.
+AUDITED_TURN, AUDITED_DEPTH = 0.5, 3e-6
 
 # Sine of the angle below which two triangles of a mesh lie in one plane: their common edge never touches for itself.
 # Larger: corners of bodies sink into slight ridges; smaller: noise in vertices (float32 in STL files) makes ridges.
@@ -187,3 +186,38 @@ SAME_PLACE = 1e-3
 # Part by which a point on a mesh must be deeper or farther out than one found before to be taken instead. Smaller:
 # noise changes the choice.
 BETTER = 1e-3
+
+# m. The overlap or distance of two cores is known to this once the bounds between which FCL's answer is refined are so
+# near. Larger: depths are wrong by as much and normals of round bodies by its root; smaller: refining takes longer.
+BRACKET = 1e-8
+
+# m. A corner that is less above a face of the growing polytope lies in it. Larger: bounds are wrong by as much;
+# smaller: rounding folds faces that lie in one plane.
+SEEN = 1e-12
+
+# Sine of the angle below which a face of that polytope is a line, which hides nothing.
+SLIVER = 1e-9
+
+
+# m. How far FCL moves two overlapping shapes of others' making apart to see along which direction they part. Larger:
+# less of the direction that they overlap along; smaller: FCL's nearest points, good to a micrometre, turn by degrees.
+PARTED = 5e-3
+
+# Contacts that FCL may return for a pair with a mesh, one or more for each triangle. Fewer: sides of a body go unseen.
+TRIANGLE_CONTACTS = 32
+
+# rad. How far the direction leans in which corners are sought, so that two aligned bodies choose the same of those as
+# far. Larger: overlaps are short by as much of the size; smaller: rounding chooses for each body by itself.
+LEAN = 1e-10
+
+# m. How near the bounds of an overlap or distance are when the search goes on as between round surfaces. Larger: in
+# vain more often; smaller: later.
+CURVED_FROM = 1e-3
+
+# rad. Step of the differences that give the slope there, and the farthest that it leads. Larger steps see it less
+# exactly; smaller ones are rounding. Farther, it is another place of the surface.
+CURVED_STEP, CURVED_TURN = 1e-5, 0.2
+
+# Cosine of 11 degrees: faces turned so nearly alike belong to one round place. Smaller: a place beside it that is less
+# deep may be overlooked; larger: the search goes on in vain.
+CURVED_ALIKE = 0.98

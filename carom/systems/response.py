@@ -15,7 +15,7 @@ from carom.ecs.relations.impact import Impact
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.contacts import detect_again
-from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly

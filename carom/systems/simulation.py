@@ -30,7 +30,7 @@ from carom.systems.clock import Clock
 from carom.systems.compound import StatedBodies
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.broad import BroadPhase
-from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.finish import find_not_finite

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from carom.systems.constants import AUDITED_DEPTH, AUDITED_OVERLAP, AUDITED_TURN
+from carom.systems.constants import AUDITED_DEPTH, AUDITED_TURN
 from carom.systems.detection.audit import Compared, Disagreement, audit
 from carom.systems.simulation import Simulation
 
@@ -28,8 +28,8 @@ class Auditing:
 
     @property
     def failed(self) -> bool:
-        """Whether a kernel disagrees with FCL where FCL is exact."""
-        return any(compared.exact and compared.beyond for compared in self.found.values())
+        """Whether a kernel disagrees with FCL."""
+        return any(compared.beyond for compared in self.found.values())
 
     def rows(self) -> list[dict[str, Any]]:
         """Return what was found, by pair of shapes, for programs; a way that saw no contact has no depth."""
@@ -52,17 +52,12 @@ class Auditing:
 
 
 def _told(found: Compared) -> str:
-    if found.beyond:
-        verdict = f"{found.beyond} DISAGREE" if found.exact else f"{found.beyond} disagree, where FCL is not exact"
-    else:
-        verdict = "agree"
+    verdict = f"{found.beyond} DISAGREE" if found.beyond else "agree"
     told = (
         f"{verdict}: {found.pairs} compared, at worst {found.worst_degrees:.2g} degrees and {found.worst_depth:.2g} m"
     )
     if found.ties:
         told += f"; {found.ties} parted equally well by two directions"
-    if found.deep:
-        told += f"; {found.deep} deeper than {AUDITED_OVERLAP:.0%} not judged"
     return told
 
 

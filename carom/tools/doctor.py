@@ -72,7 +72,7 @@ def collision() -> str:
     """Return what FCL says of two unit spheres 1.5 m apart; raise FaultError unless they overlap by 0.5 m."""
     from carom.ecs import Collider, World
     from carom.ecs.components.collider import ColliderPose
-    from carom.systems.detection.fcl_pairs import FclObjects, Side, measure
+    from carom.systems.detection.fcl_single import Side, measure
     from carom.systems.shapes.geometry import Geometries
     from carom.systems.shapes.sphere import Sphere
 
@@ -80,7 +80,7 @@ def collision() -> str:
     world.add(Geometries())
     shape = Collider(shape=ball.number, size=ball.packed())
     places = [ColliderPose(position=(x, 0.0, 0.0), rotation=(0.0, 0.0, 0.0, 1.0)) for x in (0.0, 1.5)]
-    one, two = (Side(FclObjects(), world, world.row(world.spawn(shape, place))) for place in places)
+    one, two = (Side(world, world.row(world.spawn(shape, place))) for place in places)
     depths = [float(depth) for _, _, depth in measure(one, two, 0.0)]
     if len(depths) != 1 or abs(depths[0] - 0.5) > 1e-9:
         raise FaultError(f"two unit spheres 1.5 m apart overlap by {depths} m, must be [0.5]", REINSTALL)

@@ -28,7 +28,7 @@ from carom.ecs.relations.enter import Inside
 from carom.ecs.relations.impact import Impact
 from carom.ecs.snapshot import held_columns
 from carom.ecs.snapshot_faults import SAVED
-from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 

@@ -11,7 +11,8 @@ import trimesh
 from carom.ecs import ColliderPose
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
-from carom.systems.detection.fcl_pairs import FclObjects, Side, measure
+from carom.systems.detection.fcl_pairs import measure_by_fcl
+from carom.systems.detection.narrow import Points as Room
 from carom.systems.shapes import Shape
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
@@ -25,6 +26,7 @@ from carom.systems.shapes.point import Point
 from carom.systems.shapes.sphere import Sphere
 from carom.systems.simulation import Simulation
 
+ROOM = 4  # points of a pair
 STAND_IN = 0.1  # m, radius of the ball that stands for a point: the distance to its surface is less by just that
 Points = list[tuple[Floats, Floats, float]]
 
@@ -78,8 +80,13 @@ class Pair:
         with self.world.edit(ColliderPose) as pose:
             pose.position[0], pose.rotation[0] = poses.position_a, poses.rotation_a
             pose.position[1], pose.rotation[1] = poses.position_b, poses.rotation_b
-        one, two = (Side(self.world[FclObjects], self.world, row) for row in (0, 1))
-        return measure(two, one, reach) if swapped else measure(one, two, reach)
+        points = Room(1, ROOM)
+        pairs = np.array([[1, 0]] if swapped else [[0, 1]])
+        with self.world.faces(None):
+            taken = measure_by_fcl(self.world, np.arange(1), pairs, np.array([reach]), points)
+        found = zip(points.point[:taken], points.normal[:taken], points.depth[:taken].tolist(), strict=True)
+        self.features = points.feature[:taken].tolist()
+        return list(found)
 
 
 def turns(generator: np.random.Generator) -> Floats:

@@ -47,7 +47,7 @@ def answer(monkeypatch: pytest.MonkeyPatch, **changed: Any) -> None:
         return 1
 
     monkeypatch.setattr(narrow, "FUNCTIONS", [by_kernel] * len(narrow.FUNCTIONS))
-    monkeypatch.setattr(fcl_pairs, "measure", lambda a, b, reach: [(np.array(place), np.array(normal), depth)])
+    monkeypatch.setattr(fcl_pairs, "refine_answers", by_kernel)
 
 
 @pytest.mark.parametrize("collision", ["auto", "fcl"])

@@ -14,16 +14,13 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion, vector
-from carom.systems.constants import AUDITED_DEPTH, AUDITED_OVERLAP, AUDITED_TURN
+from carom.systems.compound import shape_at
+from carom.systems.constants import AUDITED_DEPTH, AUDITED_TURN
 from carom.systems.detection.answered import uncounted
-from carom.systems.detection.fcl_pairs import EXACT, FclObjects
 from carom.systems.detection.narrow import BY_FCL, FUNCTION_OF, Found, measure_pairs
 from carom.systems.kernels.narrow import reach_of_pairs
-from carom.systems.shapes.box import Box
-from carom.systems.shapes.cone import Cone
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.mesh import Mesh
-from carom.systems.shapes.plane import Plane
 from carom.systems.shapes.shape import Shape
 
 MOST_LISTED = 5  # disagreements of a pair of shapes; more say nothing new
@@ -47,16 +44,13 @@ class Disagreement:
 
 @dataclass
 class Compared:
-    """What was found for one pair of shapes; ``exact`` where FCL's answer is the measure of the kernel's.
+    """What was found for one pair of shapes.
 
-    ``deep`` pairs overlap by more than a twentieth of the smaller and are not judged. ``ties`` are pairs that two
-    directions part equally well, whose angle is not judged. The worst are in degrees and m; where only one way sees
-    an overlap, its depth counts.
+    ``ties`` are pairs that two directions part equally well, whose angle is not judged. The worst are in degrees and m;
+    where only one way sees an overlap, its depth counts.
     """
 
-    exact: bool
     pairs: int = 0
-    deep: int = 0
     ties: int = 0
     worst_degrees: float = 0.0
     worst_depth: float = 0.0
@@ -112,17 +106,14 @@ def compare(
     fcl: tuple[float, Floats],
     report: dict[tuple[str, str], Compared],
 ) -> None:
-    """Add one pair of colliders to the report, if it overlaps: FCL's gaps are not exact, and boxes have none by it."""
+    """Add one pair of colliders to the report, if it overlaps."""
     if max(kernel[0], fcl[0]) < 0.0:
         return
-    shapes = [world[FclObjects].shape(world, int(row)) for row in pair]
+    shapes = [shape_at(world, int(row)) for row in pair]
     one, other = sorted(shape.key for shape in shapes)
-    compared = report.setdefault((one, other), Compared(is_exact(shapes)))
+    compared = report.setdefault((one, other), Compared())
     compared.pairs += 1
     size = smaller_size(shapes)
-    if max(kernel[0], fcl[0]) > AUDITED_OVERLAP * size:
-        compared.deep += 1
-        return
     apart, degrees, within = max(kernel[0], fcl[0]), 0.0, AUDITED_DEPTH * size  # where only one way sees it
     if min(kernel[0], fcl[0]) > -np.inf:
         apart, degrees = abs(kernel[0] - fcl[0]), float(np.rad2deg(vector.angle(kernel[1], fcl[1])))
@@ -139,12 +130,6 @@ def compare(
         found = Disagreement(world.frame, a, b, float(kernel[0]), float(fcl[0]), degrees, float(excess))
         compared.beyond += 1
         compared.listed = sorted([*compared.listed, found], key=lambda d: -d.excess)[:MOST_LISTED]
-
-
-def is_exact(shapes: list[Shape]) -> bool:
-    """Tell whether FCL has a closed form for two shapes; boxes it sees grown, which turns some normals by degrees."""
-    kinds = frozenset(type(shape) for shape in shapes)
-    return (kinds in EXACT and kinds != {Box}) or (Plane in kinds and Cone not in kinds)
 
 
 def smaller_size(shapes: list[Shape]) -> float:

@@ -12,7 +12,7 @@ from carom.ecs.relations.enter import Enter, Inside
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import BroadPhase, overlapping
-from carom.systems.detection.fcl_pairs import FclObjects
+from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.narrow import Found, measure_pairs

@@ -16,6 +16,21 @@ product = inlined(scalars.product)
 
 
 @inlined
+def across(x, y, z):  # type: ignore[no-untyped-def]
+    """Return two unit vectors at right angles to a unit vector and to each other."""
+    if abs(x) <= abs(y) and abs(x) <= abs(z):
+        ux, uy, uz = 0.0, -z, y
+    elif abs(y) <= abs(z):
+        ux, uy, uz = z, 0.0, -x
+    else:
+        ux, uy, uz = -y, x, 0.0
+    scale = 1.0 / sqrt(ux * ux + uy * uy + uz * uz)
+    ux, uy, uz = ux * scale, uy * scale, uz * scale
+    vx, vy, vz = cross(x, y, z, ux, uy, uz)
+    return ux, uy, uz, vx, vy, vz
+
+
+@inlined
 def spun(qx, qy, qz, qw, wx, wy, wz, t):  # type: ignore[no-untyped-def]
     """Return the quaternion after turning at angular velocity w (rad/s, outer frame) for t seconds."""
     squared = (wx * wx + wy * wy + wz * wz) * t * t

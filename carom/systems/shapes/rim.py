@@ -12,6 +12,8 @@ from carom.ecs.spatial.vector import normalise
 from carom.systems.constants import UPRIGHT
 
 RIM_POINTS = 16  # corners that stand for each rim; the one that a half space touches first is always among them
+#: Cosine and sine of the angles of those corners.
+RIM_TURNS = tuple(sine_cosine(2.0 * math.pi * k / RIM_POINTS)[::-1] for k in range(RIM_POINTS))
 
 
 def rim_points(radius: float, height: float, towards: tuple[float, float, float]) -> Floats:
@@ -19,11 +21,10 @@ def rim_points(radius: float, height: float, towards: tuple[float, float, float]
     x, _, z = towards
     across = math.sqrt(x * x + z * z)
     first, second = (x / across, z / across) if across > UPRIGHT else (1.0, 0.0)
-    turns = [sine_cosine(2.0 * math.pi * k / RIM_POINTS) for k in range(RIM_POINTS)]
     return np.array(
         [
             (radius * (cosine * first - sine * second), height, radius * (cosine * second + sine * first))
-            for sine, cosine in turns
+            for cosine, sine in RIM_TURNS
         ]
     )
 

@@ -1,0 +1,205 @@
+"""How deep two cores overlap: a polytope within their difference grows where its surface is nearest to the origin."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import BRACKET, CURVED_ALIKE, CURVED_FROM, LEAN, SEEN, SLIVER
+from carom.systems.kernels.cores import most_overlap
+from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.smooth import is_round, settle
+from carom.systems.kernels.spatial import across, cross
+
+MOST_CORNERS, MOST_FACES = 160, 512
+CORNER = 6  # numbers of a corner: itself, then the point of the first core that it comes from
+AROUND, HALF_ROOT = 0.5, sqrt(0.75)  # how far the first corners are sought beside the direction to begin with
+EVEN = 1e-3  # part of its length by which the first four corners are wide, if any are
+LEAN_X, LEAN_Y, LEAN_Z = 0.36 * LEAN, 0.48 * LEAN, 0.8 * LEAN
+
+
+@inlined
+def add_corner(core, place, vertices, x, y, z, corner, c):
+    """Write the corner farthest along a unit vector: itself, then the point of the first core.
+
+    Of several as far the two cores choose by one and the same slight lean, so that corners are never within a face or
+    edge of the difference, where they would fold the polytope.
+    """
+    corner[c], corner[c + 1], corner[c + 2], corner[c + 3], corner[c + 4], corner[c + 5] = most_overlap(
+        core, place, vertices, x + LEAN_X, y + LEAN_Y, z + LEAN_Z
+    )
+
+
+@inlined
+def add_face(corner, i, j, k, face, plane, faces):
+    """Write the face (i, j, k), counter-clockwise from outside; return how many faces there are now."""
+    a, b, c = CORNER * i, CORNER * j, CORNER * k
+    ux, uy, uz = corner[b] - corner[a], corner[b + 1] - corner[a + 1], corner[b + 2] - corner[a + 2]
+    vx, vy, vz = corner[c] - corner[a], corner[c + 1] - corner[a + 1], corner[c + 2] - corner[a + 2]
+    x, y, z = cross(ux, uy, uz, vx, vy, vz)
+    squared = x * x + y * y + z * z
+    if squared <= SLIVER * SLIVER * (ux * ux + uy * uy + uz * uz) * (vx * vx + vy * vy + vz * vz):
+        return faces
+    scale = 1.0 / sqrt(squared)
+    x, y, z = x * scale, y * scale, z * scale
+    f = 4 * faces
+    plane[f], plane[f + 1], plane[f + 2] = x, y, z
+    plane[f + 3] = x * corner[a] + y * corner[a + 1] + z * corner[a + 2]
+    face[3 * faces], face[3 * faces + 1], face[3 * faces + 2] = i, j, k
+    return faces + 1
+
+
+@inlined
+def begin(core, place, vertices, x, y, z, corner, face, plane):
+    """Write the first four corners and faces; return how many faces there are, 0 for a difference without volume.
+
+    Three corners are around the unit vector n, where the answer is likely to be, and one opposite; where these are all
+    but in a line or plane, one is sought across it.
+    """
+    vx, vy, vz, wx, wy, wz = across(x, y, z)
+    add_corner(core, place, vertices, x + AROUND * vx, y + AROUND * vy, z + AROUND * vz, corner, 0 * CORNER)
+    add_corner(core, place, vertices, -x, -y, -z, corner, 1 * CORNER)
+    ux, uy, uz = corner[6] - corner[0], corner[7] - corner[1], corner[8] - corner[2]
+    widest, length = 0.0, ux * ux + uy * uy + uz * uz
+    nx, ny, nz = 0.0, 0.0, 0.0
+    for side in range(5):
+        ahead = 1.0 if side == 0 else 0.0
+        along_v = -0.5 * AROUND if side == 0 else 1.0 if side == 1 else -1.0 if side == 2 else 0.0
+        along_w = HALF_ROOT * AROUND if side == 0 else 1.0 if side == 3 else -1.0 if side == 4 else 0.0
+        sx, sy, sz = ahead * x + along_v * vx, ahead * y + along_v * vy, ahead * z + along_v * vz
+        add_corner(core, place, vertices, sx + along_w * wx, sy + along_w * wy, sz + along_w * wz, corner, 3 * CORNER)
+        mx, my, mz = cross(ux, uy, uz, corner[18] - corner[0], corner[19] - corner[1], corner[20] - corner[2])
+        squared = mx * mx + my * my + mz * mz
+        if squared > widest:
+            widest, nx, ny, nz = squared, mx, my, mz
+            for d in range(6):
+                corner[12 + d] = corner[18 + d]
+            if widest > EVEN * EVEN * length * length:
+                break
+    if not widest > SLIVER * SLIVER * length * length:
+        return 0
+    scale = 1.0 / sqrt(widest)
+    nx, ny, nz, highest = nx * scale, ny * scale, nz * scale, 0.0
+    for side in range(3):
+        sx, sy, sz = nx, ny, nz
+        if side == 0:
+            along_v, along_w = -0.5 * AROUND, -HALF_ROOT * AROUND
+            sx, sy, sz = x + along_v * vx + along_w * wx, y + along_v * vy + along_w * wy, z + along_v * vz + along_w * wz
+        elif side == 2:
+            sx, sy, sz = -nx, -ny, -nz
+        add_corner(core, place, vertices, sx, sy, sz, corner, 4 * CORNER)
+        height = nx * (corner[24] - corner[0]) + ny * (corner[25] - corner[1]) + nz * (corner[26] - corner[2])
+        if abs(height) > abs(highest):
+            highest = height
+            for d in range(6):
+                corner[18 + d] = corner[24 + d]
+            if abs(highest) > EVEN * sqrt(length):
+                break
+    if abs(highest) <= SLIVER * sqrt(length):
+        return 0
+    i, j = (0, 1) if highest > 0.0 else (1, 0)
+    faces = 0
+    for a, b, c in ((j, i, 2), (i, j, 3), (j, 2, 3), (2, i, 3)):
+        faces = add_face(corner, a, b, c, face, plane, faces)
+    return faces
+
+
+@inlined
+def expand(core, place, vertices, x, y, z, corner, face, plane, rim):
+    """Return (overlap, unit direction from first to second, point of the first) of the least overlap of two cores.
+
+    The overlap is negative where the two are apart along the direction. x is where to begin: the nearer to the answer,
+    the sooner it is found. Expanding polytope algorithm (van den Bergen, Collision Detection in Interactive 3D
+    Environments, 2003, 4.3.8). The plane of the face nearest to the origin is a lower bound of the overlap, and the
+    overlap along its normal an upper one; it ends when they are BRACKET apart.
+    """
+    faces = begin(core, place, vertices, x, y, z, corner, face, plane)
+    nx, ny, nz = x, y, z
+    least, curved = 1e300, is_round(core)
+    px, py, pz = corner[3], corner[4], corner[5]
+    for count in range(4, MOST_CORNERS):
+        nearest, low = -1, 1e300
+        for f in range(faces):
+            if plane[4 * f + 3] < low:
+                nearest, low = f, plane[4 * f + 3]
+        if nearest < 0:
+            break
+        mx, my, mz = plane[4 * nearest], plane[4 * nearest + 1], plane[4 * nearest + 2]
+        w = CORNER * count
+        add_corner(core, place, vertices, mx, my, mz, corner, w)
+        overlap = mx * corner[w] + my * corner[w + 1] + mz * corner[w + 2]
+        if overlap < least:
+            least, nx, ny, nz = overlap, mx, my, mz
+            px, py, pz = point_within(corner, face, nearest, low, mx, my, mz)
+        if overlap - low <= BRACKET:
+            break
+        if curved and overlap - low <= CURVED_FROM:
+            curved = False
+            found, sx, sy, sz = settle(core, place, vertices, mx, my, mz)
+            if found:
+                ax, ay, az, qx, qy, qz = most_overlap(core, place, vertices, sx, sy, sz)
+                overlap = ax * sx + ay * sy + az * sz
+                if alone_below(plane, faces, overlap - BRACKET, sx, sy, sz):
+                    return overlap, sx, sy, sz, qx, qy, qz
+        edges, f = 0, 0
+        while f < faces:
+            above = plane[4 * f] * corner[w] + plane[4 * f + 1] * corner[w + 1] + plane[4 * f + 2] * corner[w + 2]
+            if above <= plane[4 * f + 3] + SEEN:
+                f += 1
+                continue
+            for side in range(3):
+                i, j = face[3 * f + side], face[3 * f + (side + 1) % 3]
+                known = False
+                for e in range(edges):
+                    if rim[2 * e] == j and rim[2 * e + 1] == i:
+                        edges -= 1
+                        rim[2 * e], rim[2 * e + 1] = rim[2 * edges], rim[2 * edges + 1]
+                        known = True
+                        break
+                if not known:
+                    rim[2 * edges], rim[2 * edges + 1] = i, j
+                    edges += 1
+            faces -= 1
+            for d in range(4):
+                plane[4 * f + d] = plane[4 * faces + d]
+            for d in range(3):
+                face[3 * f + d] = face[3 * faces + d]
+        if faces + edges > MOST_FACES:
+            break
+        for e in range(edges):
+            faces = add_face(corner, rim[2 * e], rim[2 * e + 1], count, face, plane, faces)
+    ax, ay, az, _, _, _ = most_overlap(core, place, vertices, nx, ny, nz)  # without the lean
+    return nx * ax + ny * ay + nz * az, nx, ny, nz, px, py, pz
+
+
+@inlined
+def alone_below(plane, faces, overlap, x, y, z):
+    """Tell whether all faces nearer than an overlap are turned to a direction, so that no other can be less."""
+    for f in range(faces):
+        alike = plane[4 * f] * x + plane[4 * f + 1] * y + plane[4 * f + 2] * z
+        if plane[4 * f + 3] < overlap and alike < CURVED_ALIKE:
+            return False
+    return True
+
+
+@inlined
+def point_within(corner, face, f, offset, nx, ny, nz):
+    """Return the point of the first core where the origin is seen through a face, along its unit normal."""
+    a, b, c = CORNER * face[3 * f], CORNER * face[3 * f + 1], CORNER * face[3 * f + 2]
+    ox, oy, oz = offset * nx - corner[a], offset * ny - corner[a + 1], offset * nz - corner[a + 2]
+    ux, uy, uz = corner[b] - corner[a], corner[b + 1] - corner[a + 1], corner[b + 2] - corner[a + 2]
+    vx, vy, vz = corner[c] - corner[a], corner[c + 1] - corner[a + 1], corner[c + 2] - corner[a + 2]
+    cx, cy, cz = cross(ux, uy, uz, vx, vy, vz)
+    whole = nx * cx + ny * cy + nz * cz
+    dx, dy, dz = cross(ox, oy, oz, vx, vy, vz)
+    s = min(max((nx * dx + ny * dy + nz * dz) / whole, 0.0), 1.0)
+    dx, dy, dz = cross(ux, uy, uz, ox, oy, oz)
+    t = min(max((nx * dx + ny * dy + nz * dz) / whole, 0.0), 1.0)
+    if s + t > 1.0:
+        s, t = s / (s + t), t / (s + t)
+    r = 1.0 - s - t
+    return (
+        r * corner[a + 3] + s * corner[b + 3] + t * corner[c + 3],
+        r * corner[a + 4] + s * corner[b + 4] + t * corner[c + 4],
+        r * corner[a + 5] + s * corner[b + 5] + t * corner[c + 5],
+    )

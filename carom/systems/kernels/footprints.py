@@ -1,0 +1,72 @@
+"""Footprints: the points at which two cores meet, from what each turns to the other."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import BIAS, FLAT_COSINE
+from carom.systems.kernels.cores import CORE, HALF_SPACE, KIND
+from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.outlines import outline
+from carom.systems.kernels.overlays import beside_line, over_face
+
+
+@inlined
+def points_between(
+    core, place, hulls, gap, nx, ny, nz, px, py, pz, reach,
+    one, one_tag, one_plane, two, two_tag, two_plane, spot, gaps, names,
+):  # fmt: skip
+    """Write the points of the first core that are nearer than ``reach`` to the second along n; return how many.
+
+    A face turned to the normal has what the other turns to it clipped by its sides, a half space all of it, and lines
+    side by side have two points. All others have one, the point x; it is added where rounding has cut away the deepest.
+    """
+    corners, others, cosine, other_cosine = 0, 0, 0.0, 0.0
+    half_space = core[CORE + KIND] == HALF_SPACE
+    for side in range(1 if half_space else 2):
+        polygon, tag, plane = (one, one_tag, one_plane) if side == 0 else (two, two_tag, two_plane)
+        sense = 1.0 - 2.0 * side
+        count, turned = outline(
+            core, side * CORE, place, hulls, sense * nx, sense * ny, sense * nz, polygon, tag, plane
+        )
+        if side == 0:
+            corners, cosine = count, turned
+        else:
+            others, other_cosine = count, turned
+    flat = corners > 2 and cosine >= FLAT_COSINE
+    other_flat = others > 2 and other_cosine >= FLAT_COSINE
+    found = 0
+    if half_space:
+        found = over_half_space(gap, nx, ny, nz, px, py, pz, reach, one, one_tag, corners, spot, gaps, names)
+    elif (flat and others > 1) or (other_flat and corners > 1):
+        on_first = flat and others > 1 and (not other_flat or cosine >= other_cosine - BIAS)
+        face, face_tag, sides, plane = (one, one_tag, corners, one_plane) if on_first else (two, two_tag, others, two_plane)
+        polygon, tag, count = (two, two_tag, others) if on_first else (one, one_tag, corners)
+        found = over_face(
+            face, face_tag, sides, plane, polygon, tag, count, on_first, gap, nx, ny, nz, reach, spot, gaps, names
+        )
+    elif corners == 2 and others == 2:
+        found = beside_line(one, two, gap, nx, ny, nz, reach, spot, gaps, names)
+    least = 1e300
+    for c in range(found):
+        least = min(least, gaps[c])
+    if least > gap + 2.0 * BIAS:
+        if corners == 2 and others == 2:
+            found = 0  # lines that cross touch at one point
+        gaps[found], names[found] = gap, 0
+        spot[3 * found], spot[3 * found + 1], spot[3 * found + 2] = px, py, pz
+        found += 1
+    return found
+
+
+@inlined
+def over_half_space(gap, nx, ny, nz, px, py, pz, reach, polygon, tag, count, spot, gaps, names):
+    """Write the points of an outline that are nearer than ``reach`` to a half space; x is as far as ``gap`` from it."""
+    found = 0
+    for c in range(count):
+        x, y, z = polygon[3 * c], polygon[3 * c + 1], polygon[3 * c + 2]
+        apart = gap + nx * (px - x) + ny * (py - y) + nz * (pz - z)
+        if apart <= reach:
+            gaps[found], names[found] = apart, 1 + tag[c]
+            spot[3 * found], spot[3 * found + 1], spot[3 * found + 2] = x, y, z
+            found += 1
+    return found
