@@ -107,7 +107,7 @@ def farthest(core, at, vertices, x, y, z):
             if along > most:
                 best, most = k, along
         return vertices[best, 0], vertices[best, 1], vertices[best, 2]
-    if kind == CYLINDER or kind == CONE:
+    if kind in (CYLINDER, CONE):
         across = sqrt(x * x + z * z)
         if kind == CONE and 2.0 * b * y > a * across:
             return 0.0, b, 0.0

@@ -84,7 +84,11 @@ def begin(core, place, vertices, x, y, z, corner, face, plane):
         sx, sy, sz = nx, ny, nz
         if side == 0:
             along_v, along_w = -0.5 * AROUND, -HALF_ROOT * AROUND
-            sx, sy, sz = x + along_v * vx + along_w * wx, y + along_v * vy + along_w * wy, z + along_v * vz + along_w * wz
+            sx, sy, sz = (
+                x + along_v * vx + along_w * wx,
+                y + along_v * vy + along_w * wy,
+                z + along_v * vz + along_w * wz,
+            )
         elif side == 2:
             sx, sy, sz = -nx, -ny, -nz
         add_corner(core, place, vertices, sx, sy, sz, corner, 4 * CORNER)

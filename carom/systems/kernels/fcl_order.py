@@ -13,7 +13,9 @@ TURN_X, TURN_Y, TURN_Z, TURN_W = Z_TO_Y
 
 
 @kernel("first", "second", "turns", "shifts")
-def arrange_for_fcl(which, pairs, reaches, shape, size, geometry, position, rotation, along_z, first, second, turns, shifts):
+def arrange_for_fcl(
+    which, pairs, reaches, shape, size, geometry, position, rotation, along_z, first, second, turns, shifts
+):
     """Write who is measured first, and the turn (wxyz) and place of the second in the frame in which FCL has the first.
 
     The order follows from shapes, sizes and poses alone, so that swapping the sides of a pair flips its normals and
@@ -35,9 +37,7 @@ def arrange_for_fcl(which, pairs, reaches, shape, size, geometry, position, rota
             position[b, 0] - position[a, 0], position[b, 1] - position[a, 1], position[b, 2] - position[a, 2],
         )  # fmt: skip
         if shape[b] == PLANE_SHAPE:
-            mx, my, mz = turn(
-                turns[k, 1], turns[k, 2], turns[k, 3], turns[k, 0], size[b, 0], size[b, 1], size[b, 2]
-            )
+            mx, my, mz = turn(turns[k, 1], turns[k, 2], turns[k, 3], turns[k, 0], size[b, 0], size[b, 1], size[b, 2])
             x, y, z = x + reaches[p] * mx, y + reaches[p] * my, z + reaches[p] * mz
         shifts[k, 0], shifts[k, 1], shifts[k, 2] = x, y, z
 

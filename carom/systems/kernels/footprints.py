@@ -39,7 +39,9 @@ def points_between(
         found = over_half_space(gap, nx, ny, nz, px, py, pz, reach, one, one_tag, corners, spot, gaps, names)
     elif (flat and others > 1) or (other_flat and corners > 1):
         on_first = flat and others > 1 and (not other_flat or cosine >= other_cosine - BIAS)
-        face, face_tag, sides, plane = (one, one_tag, corners, one_plane) if on_first else (two, two_tag, others, two_plane)
+        face, face_tag, sides, plane = (
+            (one, one_tag, corners, one_plane) if on_first else (two, two_tag, others, two_plane)
+        )
         polygon, tag, count = (two, two_tag, others) if on_first else (one, one_tag, corners)
         found = over_face(
             face, face_tag, sides, plane, polygon, tag, count, on_first, gap, nx, ny, nz, reach, spot, gaps, names

@@ -39,7 +39,7 @@ def outline(core, at, place, hulls, x, y, z, polygon, tag, plane):
     kind = int(core[at + KIND])
     if kind == BOX:
         count, cosine = box_outline(core, at, lx, ly, lz, polygon, tag, plane)
-    elif kind == CYLINDER or kind == CONE or kind == SEGMENT:
+    elif kind in (CYLINDER, CONE, SEGMENT):
         count, cosine = round_outline(core, at, kind, lx, ly, lz, polygon, tag, plane)
     elif kind == HULL:
         count, cosine = hull_outline(core, at, hulls, lx, ly, lz, polygon, tag, plane)

@@ -6,7 +6,18 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APART_LEAST
-from carom.systems.kernels.cores import CONE, CORE, EXTENT, HALF_SPACE, KIND, OFFSET, POSITION, SEGMENT, farthest, out_of
+from carom.systems.kernels.cores import (
+    CONE,
+    CORE,
+    EXTENT,
+    HALF_SPACE,
+    KIND,
+    OFFSET,
+    POSITION,
+    SEGMENT,
+    farthest,
+    out_of,
+)
 from carom.systems.kernels.distance import APART, FAR
 from carom.systems.kernels.expansion import expand
 from carom.systems.kernels.kernel import inlined

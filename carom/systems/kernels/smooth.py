@@ -6,7 +6,7 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BRACKET, CURVED_STEP, CURVED_TURN
-from carom.systems.kernels.cores import CONE, CORE, CYLINDER, ELLIPSOID, KIND, most_overlap
+from carom.systems.kernels.cores import CORE, CYLINDER, ELLIPSOID, KIND, most_overlap
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.spatial import across
 
