@@ -201,7 +201,7 @@ SLIVER = 1e-9
 
 # m. How far FCL moves two overlapping shapes of others' making apart to see along which direction they part. Larger:
 # less of the direction that they overlap along; smaller: FCL's nearest points, good to a micrometre, turn by degrees.
-PARTED = 5e-3
+PARTED = 2e-2
 
 # Contacts that FCL may return for a pair with a mesh, one or more for each triangle. Fewer: sides of a body go unseen.
 TRIANGLE_CONTACTS = 32

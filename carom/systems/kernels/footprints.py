@@ -56,7 +56,9 @@ def points_between(
             found = 0  # lines that cross touch at one point
         gaps[found], names[found] = gap, 0
         spot[3 * found], spot[3 * found + 1], spot[3 * found + 2] = px, py, pz
-        found += 1
+        return found + 1
+    for c in range(found):
+        gaps[c] -= least - gap  # rounding: the deepest is as deep as the pair
     return found
 
 

@@ -65,4 +65,6 @@ def near(core, place, vertices, nx, ny, nz, reach, corner, name, weight, seen):
             break
         x, y, z, squared, px, py, pz = vx, vy, vz, nearer, qx, qy, qz
     distance = sqrt(squared)
-    return APART, distance, -x / distance, -y / distance, -z / distance, px, py, pz
+    nx, ny, nz = -x / distance, -y / distance, -z / distance
+    wx, wy, wz, _, _, _ = most_overlap(core, place, vertices, nx, ny, nz)
+    return APART, -(wx * nx + wy * ny + wz * nz), nx, ny, nz, px, py, pz
