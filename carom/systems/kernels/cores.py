@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from math import sqrt
 
+import numpy as np
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE
@@ -26,6 +28,8 @@ POINT, SEGMENT, BOX, CYLINDER, CONE, ELLIPSOID, HULL, HALF_SPACE, NONE = range(9
 CORE = 8
 KIND, EXTENT, AROUND, POLYHEDRON, BEGIN, END = 0, 1, 4, 5, 6, 7
 OFFSET = POLYHEDRON
+#: Where the cores of a pair are; as plain numbers of Python Numba would compile what takes them for each of the two.
+FIRST, SECOND = np.int64(0), np.int64(CORE)
 #: Numbers that tell where the second core is, seen from the first: a rotation matrix by rows, then the position.
 PLACE = 12
 POSITION = 9
@@ -132,9 +136,9 @@ def most_overlap(core, place, vertices, x, y, z):
 
     ``a`` is the point of the first that it comes from; w . direction is how far the two overlap along it.
     """
-    ax, ay, az = farthest(core, 0, vertices, x, y, z)
+    ax, ay, az = farthest(core, FIRST, vertices, x, y, z)
     lx, ly, lz = into(place, -x, -y, -z)
-    lx, ly, lz = farthest(core, CORE, vertices, lx, ly, lz)
+    lx, ly, lz = farthest(core, SECOND, vertices, lx, ly, lz)
     bx, by, bz = out_of(place, lx, ly, lz)
     bx, by, bz = bx + place[POSITION], by + place[POSITION + 1], bz + place[POSITION + 2]
     return ax - bx, ay - by, az - bz, ax, ay, az

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import sqrt
 
+import numpy as np
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BRACKET, CURVED_ALIKE, CURVED_FROM, LEAN, SEEN, SLIVER
 from carom.systems.kernels.cores import most_overlap
@@ -11,6 +13,7 @@ from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.smooth import is_round, settle
 from carom.systems.kernels.spatial import across, cross
 
+NONE = np.int64(0)  # a plain 0 Numba would take for a kind of its own, and compile twice what is handed it
 MOST_CORNERS, MOST_FACES = 160, 512
 CORNER = 6  # numbers of a corner: itself, then the point of the first core that it comes from
 AROUND, HALF_ROOT = 0.5, sqrt(0.75)  # how far the first corners are sought beside the direction to begin with
@@ -77,7 +80,7 @@ def begin(core, place, vertices, x, y, z, corner, face, plane):
             if widest > EVEN * EVEN * length * length:
                 break
     if not widest > SLIVER * SLIVER * length * length:
-        return 0
+        return NONE
     scale = 1.0 / sqrt(widest)
     nx, ny, nz, highest = nx * scale, ny * scale, nz * scale, 0.0
     for side in range(3):
@@ -100,9 +103,9 @@ def begin(core, place, vertices, x, y, z, corner, face, plane):
             if abs(highest) > EVEN * sqrt(length):
                 break
     if abs(highest) <= SLIVER * sqrt(length):
-        return 0
+        return NONE
     i, j = (0, 1) if highest > 0.0 else (1, 0)
-    faces = 0
+    faces = NONE
     for a, b, c in ((j, i, 2), (i, j, 3), (j, 2, 3), (2, i, 3)):
         faces = add_face(corner, a, b, c, face, plane, faces)
     return faces
@@ -122,7 +125,7 @@ def expand(core, place, vertices, x, y, z, corner, face, plane, rim):
     least, curved = 1e300, is_round(core)
     px, py, pz = corner[3], corner[4], corner[5]
     for count in range(4, MOST_CORNERS):
-        nearest, low = -1, 1e300
+        nearest, low = NONE - 1, 1e300
         for f in range(faces):
             if plane[4 * f + 3] < low:
                 nearest, low = f, plane[4 * f + 3]

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, FLAT_COSINE
 from carom.systems.kernels.cores import CORE, HALF_SPACE, KIND
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.outlines import outline
 from carom.systems.kernels.overlays import beside_line, over_face
+
+NONE = np.int64(0)  # a plain 0 Numba would take for a kind of its own, and compile twice what is handed it
 
 
 @inlined
@@ -20,7 +24,7 @@ def points_between(
     A face turned to the normal has what the other turns to it clipped by its sides, a half space all of it, and lines
     side by side have two points. All others have one, the point x; it is added where rounding has cut away the deepest.
     """
-    corners, others, cosine, other_cosine = 0, 0, 0.0, 0.0
+    corners, others, cosine, other_cosine = NONE, NONE, 0.0, 0.0
     half_space = core[CORE + KIND] == HALF_SPACE
     for side in range(1 if half_space else 2):
         polygon, tag, plane = (one, one_tag, one_plane) if side == 0 else (two, two_tag, two_plane)

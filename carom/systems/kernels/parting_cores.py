@@ -10,6 +10,7 @@ from carom.systems.kernels.cores import (
     CONE,
     CORE,
     EXTENT,
+    FIRST,
     HALF_SPACE,
     KIND,
     OFFSET,
@@ -73,7 +74,7 @@ def part_from_half_space(core, place, vertices):
     """Return what `part` does, into the half space."""
     x, y, z = out_of(place, core[CORE + EXTENT], core[CORE + EXTENT + 1], core[CORE + EXTENT + 2])
     offset = core[CORE + OFFSET] + x * place[POSITION] + y * place[POSITION + 1] + z * place[POSITION + 2]
-    px, py, pz = farthest(core, 0, vertices, -x, -y, -z)
+    px, py, pz = farthest(core, FIRST, vertices, -x, -y, -z)
     return x * px + y * py + z * pz - offset, -x, -y, -z, px, py, pz
 
 
