@@ -13,7 +13,7 @@ from carom.ecs.column import Floats
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import BroadPhase, overlapping
 from carom.systems.simulation import Simulation
-from carom.tools.bench import hull_rows, mesh_rows, narrow_rows
+from carom.tools.bench import fcl_rows, hull_rows, mesh_rows, narrow_rows
 from carom.tools.bench.measure import Figure, compared, figure
 
 SPACING, JITTER = 0.91, 0.15  # of balls of 1 m: 7 of their bounds overlap each, as in a pile
@@ -22,7 +22,8 @@ REPEATS = 7
 
 def figures() -> Iterator[Figure]:
     """Yield every part's figures; a part is one function."""
-    for part in (broad_phase, broad_phase_growth, narrow_rows.figures, hull_rows.figures, mesh_rows.figures):
+    rows = (narrow_rows, hull_rows, mesh_rows, fcl_rows)
+    for part in (broad_phase, broad_phase_growth, *(row.figures for row in rows)):
         yield from part()
 
 
