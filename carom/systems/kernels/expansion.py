@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import sqrt
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.smooth import is_round, settle
 from carom.systems.kernels.spatial import across, cross
 
-NONE = np.int64(0)  # a plain 0 Numba would take for a kind of its own, and compile twice what is handed it
+NONE: Any = np.int64(0)  # a plain 0 Numba would take for a kind of its own, and compile twice what is handed it
 MOST_CORNERS, MOST_FACES = 160, 512
 CORNER = 6  # numbers of a corner: itself, then the point of the first core that it comes from
 AROUND, HALF_ROOT = 0.5, sqrt(0.75)  # how far the first corners are sought beside the direction to begin with

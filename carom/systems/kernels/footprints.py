@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
@@ -11,7 +13,7 @@ from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.outlines import outline
 from carom.systems.kernels.overlays import beside_line, over_face
 
-NONE = np.int64(0)  # a plain 0 Numba would take for a kind of its own, and compile twice what is handed it
+NONE: Any = np.int64(0)  # a plain 0 Numba would take for a kind of its own, and compile twice what is handed it
 
 
 @inlined
