@@ -18,6 +18,7 @@ from pairs import SHAPES
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
+from carom.systems.constants import OVER_EDGE
 from carom.systems.shapes import Shape
 from carom.systems.shapes.cone import Cone
 from carom.systems.shapes.ellipsoid import Ellipsoid
@@ -120,6 +121,29 @@ def test_every_contact_is_valid(posed: Posed) -> None:
     assert (answer.depth <= np.maximum(-posed.distance[pose], 0.0) + DEPTH)[posed.distance[pose] < 0.0].all()
     assert (answer.count <= 4).all()
     assert len(np.unique(np.stack([pose, answer.feature]), axis=1).T) == len(pose)
+
+
+def test_points_are_on_both_bodies(posed: Posed) -> None:
+    """Half the depth to either side of a point, no direction of many finds it outside of the shape there.
+
+    But for what may stand over an edge, more so in acute corners; lines that are up to 5.7 degrees askew count as
+    parallel, which puts the ends of round sides 5 mm beside one another at most.
+    """
+    askew = all(shape.key in ("capsule", "cylinder", "cone") for shape in (posed.a, posed.b))
+    answer, batch = posed.answer, posed.batch
+    pose = np.repeat(np.arange(POSES), answer.count)
+    half = 0.5 * answer.depth[:, None] * answer.normal
+    ways = quaternion.normalise(np.random.default_rng(5).normal(size=(100, 3)))
+    for shape, place, turn in (
+        (posed.a, answer.point + half, batch.rotation_a[pose]),
+        (posed.b, answer.point - half - batch.position_b[pose], batch.rotation_b[pose]),
+    ):
+        local = quaternion.rotate(quaternion.conjugate(turn), place)
+        if shape.key == "plane":
+            beyond = (local * shape.packed()[:3]).sum(axis=1) - shape.packed()[3]
+        else:
+            beyond = (local @ ways.T - (shape.support(ways) * ways).sum(axis=1)).max(axis=1)
+        assert beyond.max() < (5e-3 if askew else 20.0 * OVER_EDGE)
 
 
 def test_swapping_the_sides_turns_normals_alone(posed: Posed) -> None:

@@ -138,8 +138,14 @@ def expand(core, place, vertices, x, y, z, corner, face, plane, rim):
         overlap = mx * corner[w] + my * corner[w + 1] + mz * corner[w + 2]
         if overlap < least:
             least, nx, ny, nz = overlap, mx, my, mz
-            px, py, pz = point_within(corner, face, nearest, low, mx, my, mz)
+            px, py, pz = corner[w + 3], corner[w + 4], corner[w + 5]
         if overlap - low <= BRACKET:
+            nx, ny, nz, beside = mx, my, mz, 1e300
+            for f in range(faces):  # of several in one plane the origin is seen through one only
+                if plane[4 * f + 3] <= low + BRACKET:
+                    out, ax, ay, az = point_within(corner, face, plane, f)
+                    if out < beside:
+                        beside, px, py, pz = out, ax, ay, az
             break
         if curved and overlap - low <= CURVED_FROM:
             curved = False
@@ -191,22 +197,29 @@ def alone_below(plane, faces, overlap, x, y, z):
 
 
 @inlined
-def point_within(corner, face, f, offset, nx, ny, nz):
-    """Return the point of the first core where the origin is seen through a face, along its unit normal."""
+def point_within(corner, face, plane, f):
+    """Return (how far outside, point of the first core) where the origin is seen through a face, along its normal.
+
+    Outside counts in parts of the face, 0 or less within it.
+    """
     a, b, c = CORNER * face[3 * f], CORNER * face[3 * f + 1], CORNER * face[3 * f + 2]
+    nx, ny, nz, offset = plane[4 * f], plane[4 * f + 1], plane[4 * f + 2], plane[4 * f + 3]
     ox, oy, oz = offset * nx - corner[a], offset * ny - corner[a + 1], offset * nz - corner[a + 2]
     ux, uy, uz = corner[b] - corner[a], corner[b + 1] - corner[a + 1], corner[b + 2] - corner[a + 2]
     vx, vy, vz = corner[c] - corner[a], corner[c + 1] - corner[a + 1], corner[c + 2] - corner[a + 2]
-    cx, cy, cz = cross(ux, uy, uz, vx, vy, vz)
-    whole = nx * cx + ny * cy + nz * cz
-    dx, dy, dz = cross(ox, oy, oz, vx, vy, vz)
-    s = min(max((nx * dx + ny * dy + nz * dz) / whole, 0.0), 1.0)
-    dx, dy, dz = cross(ux, uy, uz, ox, oy, oz)
-    t = min(max((nx * dx + ny * dy + nz * dz) / whole, 0.0), 1.0)
+    x, y, z = cross(ux, uy, uz, vx, vy, vz)
+    whole = nx * x + ny * y + nz * z
+    x, y, z = cross(ox, oy, oz, vx, vy, vz)
+    s = (nx * x + ny * y + nz * z) / whole
+    x, y, z = cross(ux, uy, uz, ox, oy, oz)
+    t = (nx * x + ny * y + nz * z) / whole
+    out = max(-s, -t, s + t - 1.0)
+    s, t = min(max(s, 0.0), 1.0), min(max(t, 0.0), 1.0)
     if s + t > 1.0:
         s, t = s / (s + t), t / (s + t)
     r = 1.0 - s - t
     return (
+        out,
         r * corner[a + 3] + s * corner[b + 3] + t * corner[c + 3],
         r * corner[a + 4] + s * corner[b + 4] + t * corner[c + 4],
         r * corner[a + 5] + s * corner[b + 5] + t * corner[c + 5],

@@ -22,49 +22,52 @@ def near(core, place, vertices, nx, ny, nz, reach, corner, name, weight, seen):
     ``state`` is that of `distance_apart`, and so is the algorithm; here the corners come from `most_overlap`, the first
     along n, and round cores have no end of them: the distance is believed once it is known to BRACKET.
     """
-    wx, wy, wz, ax, ay, az = most_overlap(core, place, vertices, nx, ny, nz)
-    corner[0], corner[1], corner[2] = wx, wy, wz
-    seen[0], seen[1], seen[2] = ax, ay, az
+    x, y, z, px, py, pz = most_overlap(core, place, vertices, nx, ny, nz)
+    corner[0], corner[1], corner[2] = x, y, z
+    seen[0], seen[1], seen[2] = px, py, pz
     name[0], name[1] = 0, 0
     weight[0] = 1.0
-    x, y, z, px, py, pz = wx, wy, wz, ax, ay, az
-    count, squared, curved = 1, x * x + y * y + z * z, is_round(core)
+    count, squared, curved, apart = 1, x * x + y * y + z * z, is_round(core), -1e300
+    qx, qy, qz = px, py, pz
     for step in range(1, MOST_STEPS):
         if squared <= APART_LEAST * APART_LEAST:
-            return MEETING, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        wx, wy, wz, ax, ay, az = most_overlap(core, place, vertices, -x, -y, -z)
-        bound = x * wx + y * wy + z * wz  # the distance is at least this over the length of x
-        if bound > 0.0 and bound * bound > squared * reach * reach:
-            return FAR, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        if squared - bound <= BRACKET * sqrt(squared):
             break
-        if curved and squared - bound <= CURVED_FROM * sqrt(squared):
-            curved, distance = False, -sqrt(squared)
-            found, nx, ny, nz = settle(core, place, vertices, x / distance, y / distance, z / distance)
+        length = sqrt(squared)
+        mx, my, mz = -x / length, -y / length, -z / length
+        wx, wy, wz, ax, ay, az = most_overlap(core, place, vertices, mx, my, mz)
+        here = -(mx * wx + my * wy + mz * wz)  # they are apart by no less, and by no more than the length
+        if here > reach:
+            return FAR, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        if here > apart:  # of thin simplexes later ones may be worse
+            apart, nx, ny, nz, qx, qy, qz = here, mx, my, mz, px, py, pz
+        if length - apart <= BRACKET:
+            break
+        if curved and length - here <= CURVED_FROM:
+            curved = False
+            found, sx, sy, sz = settle(core, place, vertices, mx, my, mz)
             if found:
-                wx, wy, wz, ax, ay, az = most_overlap(core, place, vertices, nx, ny, nz)
-                return APART, -(wx * nx + wy * ny + wz * nz), nx, ny, nz, ax, ay, az
+                wx, wy, wz, ax, ay, az = most_overlap(core, place, vertices, sx, sy, sz)
+                return APART, -(wx * sx + wy * sy + wz * sz), sx, sy, sz, ax, ay, az
         for d in range(3):
             corner[3 * count + d] = wx if d == 0 else wy if d == 1 else wz
             seen[3 * step + d] = ax if d == 0 else ay if d == 1 else az
         name[2 * count], name[2 * count + 1] = step, step
         count = nearest_on_simplex(corner, name, weight, count + 1)
         if count == 4:
-            return MEETING, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        vx = vy = vz = qx = qy = qz = 0.0
+            break
+        x = y = z = px = py = pz = 0.0
         for k in range(count):
-            vx, vy, vz = (
-                vx + weight[k] * corner[3 * k],
-                vy + weight[k] * corner[3 * k + 1],
-                vz + weight[k] * corner[3 * k + 2],
+            x, y, z = (
+                x + weight[k] * corner[3 * k],
+                y + weight[k] * corner[3 * k + 1],
+                z + weight[k] * corner[3 * k + 2],
             )
             a = 3 * name[2 * k]
-            qx, qy, qz = qx + weight[k] * seen[a], qy + weight[k] * seen[a + 1], qz + weight[k] * seen[a + 2]
-        nearer = vx * vx + vy * vy + vz * vz
+            px, py, pz = px + weight[k] * seen[a], py + weight[k] * seen[a + 1], pz + weight[k] * seen[a + 2]
+        nearer = x * x + y * y + z * z
         if nearer >= squared:
             break
-        x, y, z, squared, px, py, pz = vx, vy, vz, nearer, qx, qy, qz
-    distance = sqrt(squared)
-    nx, ny, nz = -x / distance, -y / distance, -z / distance
-    wx, wy, wz, _, _, _ = most_overlap(core, place, vertices, nx, ny, nz)
-    return APART, -(wx * nx + wy * ny + wz * nz), nx, ny, nz, px, py, pz
+        squared = nearer
+    if apart <= APART_LEAST:
+        return MEETING, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    return APART, apart, nx, ny, nz, qx, qy, qz
