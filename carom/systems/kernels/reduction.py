@@ -51,7 +51,7 @@ def reduce_area(place, gaps, names, count, nx, ny, nz):
 
 @inlined
 def write_points(
-    place, gaps, names, count, x, y, z, nx, ny, nz, side, radius, other_radius,
+    place, gaps, names, count, x, y, z, nx, ny, nz, side, radius,
     taken, feature, normal, depth, point,
 ):  # fmt: skip
     """Write points of the first core, counted from x, and their gaps to the second as contacts; return what is taken.
@@ -59,7 +59,7 @@ def write_points(
     n points from first to second; ``side`` is -1 where the caller counts the two the other way round.
     """
     for k in range(count):
-        gap = gaps[k] - radius - other_radius
+        gap = gaps[k] - radius
         lever = radius + 0.5 * gap
         feature[taken], depth[taken] = names[k], -gap
         normal[taken, 0], normal[taken, 1], normal[taken, 2] = side * nx, side * ny, side * nz
