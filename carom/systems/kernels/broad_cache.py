@@ -6,8 +6,8 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import FAT
-from carom.systems.kernels.kernel import inlined, kernel
-from carom.systems.kernels.spatial import turn
+from carom.systems.kernels.frames import turned
+from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.shapes.plane import Plane
 
 HALF_SPACE = Plane.number
@@ -15,16 +15,18 @@ REBUILD = -1  # what `find_leavers` returns where the whole structure must be bu
 ENDLESS = 1e300  # m; a bound beyond this is taken for infinite
 
 
-@inlined
-def below_half_space(nx, ny, nz, ox, oy, oz, offset, lx, ly, lz, ux, uy, uz):
-    """Tell whether the deepest corner of a box from l to u lies in the half space through ``offset`` beyond o.
+@woven
+def meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper):
+    """Tell whether the deepest corner of the bounds of row ``box`` lies in the half space of row ``plane``.
 
-    An axis along the surface counts for nothing, also where the box has no end along it.
+    An axis along the surface counts for nothing, also where the bounds have no end along it.
     """
-    x = lx - ox if nx > 0.0 else ux - ox if nx < 0.0 else 0.0
-    y = ly - oy if ny > 0.0 else uy - oy if ny < 0.0 else 0.0
-    z = lz - oz if nz > 0.0 else uz - oz if nz < 0.0 else 0.0
-    return nx * x + ny * y + nz * z <= offset
+    nx, ny, nz = turned(pose_rotation, plane, size[plane, 0], size[plane, 1], size[plane, 2])
+    depth = size[plane, 3]
+    for k, n in enumerate((nx, ny, nz)):
+        corner = lower[box, k] if n > 0.0 else upper[box, k]
+        depth -= n * (corner - pose_position[plane, k]) if n != 0.0 else 0.0
+    return depth >= 0.0
 
 
 @kernel("fat_lower", "fat_upper", "known", "seat", "leavers")
@@ -90,15 +92,7 @@ def keep_overlapping(pairs, shape, size, pose_position, pose_rotation, lower, up
             found[count, 0], found[count, 1] = i, j
             if flat or shape[j] == HALF_SPACE:
                 plane, box = (i, j) if flat else (j, i)
-                nx, ny, nz = turn(
-                    pose_rotation[plane, 0], pose_rotation[plane, 1], pose_rotation[plane, 2], pose_rotation[plane, 3],
-                    size[plane, 0], size[plane, 1], size[plane, 2],
-                )  # fmt: skip
-                meets = below_half_space(
-                    nx, ny, nz, pose_position[plane, 0], pose_position[plane, 1], pose_position[plane, 2],
-                    size[plane, 3], lower[box, 0], lower[box, 1], lower[box, 2],
-                    upper[box, 0], upper[box, 1], upper[box, 2],
-                )  # fmt: skip
+                meets = meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper)
                 count += 1 if meets else 0
                 continue
             # No branch: which of these bounds overlap is past foreseeing, and a wrong guess costs more than the test.

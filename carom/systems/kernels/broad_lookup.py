@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.broad_cache import HALF_SPACE, below_half_space
+from carom.systems.kernels.broad_cache import HALF_SPACE, meets_half_space
 from carom.systems.kernels.grid import AGAINST_ALL, IN_GRID, IN_TREE, cell_along
 from carom.systems.kernels.kernel import kernel
-from carom.systems.kernels.spatial import turn
 
 
 @kernel("found")
@@ -87,15 +86,7 @@ def look_up(
                 continue
             if flat or shape[j] == HALF_SPACE:
                 plane, box = (i, j) if flat else (j, i)
-                nx, ny, nz = turn(
-                    pose_rotation[plane, 0], pose_rotation[plane, 1], pose_rotation[plane, 2], pose_rotation[plane, 3],
-                    size[plane, 0], size[plane, 1], size[plane, 2],
-                )  # fmt: skip
-                meets = below_half_space(
-                    nx, ny, nz, pose_position[plane, 0], pose_position[plane, 1], pose_position[plane, 2],
-                    size[plane, 3], fat_lower[box, 0], fat_lower[box, 1], fat_lower[box, 2],
-                    fat_upper[box, 0], fat_upper[box, 1], fat_upper[box, 2],
-                )  # fmt: skip
+                meets = meets_half_space(plane, box, size, pose_position, pose_rotation, fat_lower, fat_upper)
             else:
                 meets = (
                     lx <= fat_upper[j, 0] and fat_lower[j, 0] <= ux and ly <= fat_upper[j, 1]
