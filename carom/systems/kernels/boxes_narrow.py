@@ -7,12 +7,12 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, FACE_CONE, LEAST_PART
 from carom.systems.kernels.edges import EDGE_FEATURES, along_other, crossing_edges, edge_normal, nearest_corner
-from carom.systems.kernels.faces import FEATURES, MOST_OVER, keep_four, points_over
+from carom.systems.kernels.faces import FEATURES, MOST_OVER, points_over
 from carom.systems.kernels.frames import placed, turned
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.parting import EDGES, FACES, LANES, OWN, PLACE, ROWS, TURN, VIEW, after, part, put_in
+from carom.systems.kernels.reduction import reduce_area
 
-MOST_KEPT = 4
 EDGES_FROM = 12 * FEATURES  # features: of 6 faces of either box, then of pairs of edges, then of corners
 CORNERS_FROM = EDGES_FROM + EDGE_FEATURES
 
@@ -31,7 +31,7 @@ def measure_boxes(
     arithmetic, swapping boxes of different size turns normals and changes no other bit.
     """
     view, way, place = np.zeros((ROWS, LANES)), np.empty(3), np.empty(3)
-    over, over_feature = np.empty(3 * MOST_OVER), np.empty(MOST_OVER, np.int64)
+    over, height, over_feature = np.empty(3 * MOST_OVER), np.empty(MOST_OVER), np.empty(MOST_OVER, np.int64)
     for k in range(len(which)):
         lane = k % LANES
         if lane == 0:
@@ -62,23 +62,21 @@ def measure_boxes(
         found, on_face = 0, False
         for side in range(0 if facing_i >= FACE_CONE else 1, 2 if facing_o >= FACE_CONE else 1):
             f, t, facing, c = (face_i, towards_o, 1.0, i) if side == 0 else (face_o, towards_i, -1.0, o)
-            found, deepest = points_over(view, lane, side * VIEW, f, t, reach, over, over_feature)
+            found, deepest = points_over(view, lane, side * VIEW, f, t, reach, over, height, over_feature)
             if abs(deepest + gap) > 2.0 * BIAS + (1.0 - FACE_CONE) * abs(gap):
                 continue
             on_face = True
-            if found > MOST_KEPT:
-                found = keep_four(found, over, over_feature)
+            found = reduce_area(over, height, over_feature, found, 0.0, 0.0, 1.0)
             along = t * facing * sense
             nx, ny, nz = turned(
                 rotation, c, along if f == 0 else 0.0, along if f == 1 else 0.0, along if f == 2 else 0.0
             )
             number = FEATURES * (6 * side + 2 * f + (1 if t > 0.0 else 0))
             for q in range(found):
-                height = over[3 * q + 2]
-                place[f] = t * (view[side * VIEW + OWN + f, lane] + 0.5 * height)
+                place[f] = t * (view[side * VIEW + OWN + f, lane] + 0.5 * height[q])
                 place[after(f)], place[after(after(f))] = over[3 * q], over[3 * q + 1]
                 x, y, z = placed(position, rotation, c, place[0], place[1], place[2])
-                depth[taken + q], feature[taken + q] = -height, number + over_feature[q]
+                depth[taken + q], feature[taken + q] = -height[q], number + over_feature[q]
                 normal[taken + q, 0], normal[taken + q, 1], normal[taken + q, 2] = nx, ny, nz
                 point[taken + q, 0], point[taken + q, 1], point[taken + q, 2] = x, y, z
             break

@@ -1,4 +1,4 @@
-"""Two faces of boxes: the points at which one lies over the other, and which four of them stand for all."""
+"""Two faces of boxes: the points at which one lies over the other."""
 
 from __future__ import annotations
 
@@ -13,13 +13,14 @@ LEAST_DIVISOR, STEEP = 1e-30, 1e30
 
 
 @woven
-def points_over(view, lane, at, axis, sign, reach, over, feature):
+def points_over(view, lane, at, axis, sign, reach, over, height, feature):
     """Find the points of the other box's facing face that lie over a face of the own box and under ``reach``.
 
-    Return their number and the depth of the deepest. ``over`` gets (along the next axis, along the one after, height)
-    of each. A point is a corner of the other face, an edge of it crossing a side of the own face, or an own corner
-    under the other face (Gottschalk 1996, section 4; Ericson, Real-Time Collision Detection, 5.3.3, for edges). A
-    corner counts as within if it sticks out by BIAS, so that equal boxes in a stack share no two points for one.
+    Return their number and the depth of the deepest. ``over`` gets (along the next axis, along the one after, 0) of
+    each, ``height`` how high it is. A point is a corner of the other face, an edge of it crossing a side of the own
+    face, or an own corner under the other face (Gottschalk 1996, section 4; Ericson, Real-Time Collision Detection,
+    5.3.3, for edges). A corner counts as within if it sticks out by BIAS, so that equal boxes in a stack share no two
+    points for one.
     """
     u, v = after(axis), after(after(axis))
     turn = at + TURN
@@ -69,7 +70,8 @@ def points_over(view, lane, at, axis, sign, reach, over, feature):
                 continue
             deepest = max(deepest, -w)
             if w <= reach:
-                over[3 * found], over[3 * found + 1], over[3 * found + 2] = ou + t * fu, ov + t * fv, w
+                over[3 * found], over[3 * found + 1], over[3 * found + 2] = ou + t * fu, ov + t * fv, 0.0
+                height[found] = w
                 feature[found] = number + crossed if crossed >= 0 else low | (last << along)
                 found += 1
     inverse = 1.0 / (ku * mv - kv * mu)  # the other face is never seen edge-on: it faces the own one most
@@ -79,7 +81,7 @@ def points_over(view, lane, at, axis, sign, reach, over, feature):
         w = cw + a * kw + b * mw
         if (w <= reach) & (abs(a) < hk - BIAS) & (abs(b) < hm - BIAS):
             deepest = max(deepest, -w)
-            over[3 * found], over[3 * found + 1], over[3 * found + 2] = pu + cu, pv + cv, w
+            over[3 * found], over[3 * found + 1], over[3 * found + 2], height[found] = pu + cu, pv + cv, 0.0, w
             feature[found] = OWN_CORNERS + corner
             found += 1
     return found, deepest
@@ -89,35 +91,3 @@ def points_over(view, lane, at, axis, sign, reach, over, feature):
 def reciprocal(x):
     """Return 1 / x, and a large number for 0."""
     return 1.0 / x if abs(x) > LEAST_DIVISOR else STEEP
-
-
-@inlined
-def keep_four(found, over, feature):
-    """Keep the deepest point, the farthest from it, and the widest to both sides; return how many are left.
-
-    Of points as good to BIAS the first counts, so that the choice stays while they are.
-    """
-    deepest, height = 0, over[2]
-    for i in range(1, found):
-        w = over[3 * i + 2]
-        deepest, height = (i, w) if w < height - BIAS else (deepest, height)
-    u, v = over[3 * deepest], over[3 * deepest + 1]
-    farthest, most = deepest, 0.0
-    for i in range(found):
-        du, dv = over[3 * i] - u, over[3 * i + 1] - v
-        squared = du * du + dv * dv
-        farthest, most = (i, squared) if squared > most * (1.0 + BIAS) else (farthest, most)
-    fu, fv = over[3 * farthest] - u, over[3 * farthest + 1] - v
-    slack = BIAS * most
-    left, right, leftmost, rightmost = -1, -1, 0.0, 0.0
-    for i in range(found):
-        side = fu * (over[3 * i + 1] - v) - fv * (over[3 * i] - u)
-        left, leftmost = (i, side) if side > leftmost + slack else (left, leftmost)
-        right, rightmost = (i, side) if side < rightmost - slack else (right, rightmost)
-    kept = 0
-    for i in range(found):
-        for d in range(3):
-            over[3 * kept + d] = over[3 * i + d]
-        feature[kept] = feature[i]
-        kept += 1 if i in (deepest, farthest, left, right) else 0
-    return kept
