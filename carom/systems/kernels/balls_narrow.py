@@ -6,6 +6,7 @@ from __future__ import annotations
 from carom.systems.kernels.balls import HALF_SPACE, gap_of_ball
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.narrow import kind_and_extent
+from carom.systems.kernels.writing import write_point
 
 
 @kernel("start", "count", "feature", "normal", "depth", "point")
@@ -37,10 +38,11 @@ def measure_balls(
         if gap > reaches[p]:
             continue
         lever = radius + 0.5 * gap
-        count[p], feature[taken], depth[taken] = 1, 0, -gap
-        normal[taken, 0], normal[taken, 1], normal[taken, 2] = -nx, -ny, -nz
-        point[taken, 0] = position[i, 0] - lever * nx
-        point[taken, 1] = position[i, 1] - lever * ny
-        point[taken, 2] = position[i, 2] - lever * nz
+        count[p] = 1
+        write_point(
+            taken, 0, gap, -nx, -ny, -nz,
+            position[i, 0] - lever * nx, position[i, 1] - lever * ny, position[i, 2] - lever * nz,
+            feature, normal, depth, point,
+        )  # fmt: skip
         taken += 1
     return taken

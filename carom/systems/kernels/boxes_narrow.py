@@ -12,6 +12,7 @@ from carom.systems.kernels.frames import placed, turned
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.parting import EDGES, FACES, LANES, OWN, PLACE, ROWS, TURN, VIEW, after, part, put_in
 from carom.systems.kernels.reduction import reduce_area
+from carom.systems.kernels.writing import write_point
 
 EDGES_FROM = 12 * FEATURES  # features: of 6 faces of either box, then of pairs of edges, then of corners
 CORNERS_FROM = EDGES_FROM + EDGE_FEATURES
@@ -76,9 +77,9 @@ def measure_boxes(
                 place[f] = t * (view[side * VIEW + OWN + f, lane] + 0.5 * height[q])
                 place[after(f)], place[after(after(f))] = over[3 * q], over[3 * q + 1]
                 x, y, z = placed(position, rotation, c, place[0], place[1], place[2])
-                depth[taken + q], feature[taken + q] = -height[q], number + over_feature[q]
-                normal[taken + q, 0], normal[taken + q, 1], normal[taken + q, 2] = nx, ny, nz
-                point[taken + q, 0], point[taken + q, 1], point[taken + q, 2] = x, y, z
+                write_point(
+                    taken + q, number + over_feature[q], height[q], nx, ny, nz, x, y, z, feature, normal, depth, point
+                )
             break
         if not on_face:
             c, inside, number = i, False, 0
@@ -91,12 +92,10 @@ def measure_boxes(
                 number += CORNERS_FROM
             if not gap <= reach:
                 continue
-            found, depth[taken], feature[taken] = 1, -gap, number
             nx, ny, nz = turned(rotation, c, sense * way[0], sense * way[1], sense * way[2])
-            normal[taken, 0], normal[taken, 1], normal[taken, 2] = nx, ny, nz
-            point[taken, 0], point[taken, 1], point[taken, 2] = placed(
-                position, rotation, c, place[0], place[1], place[2]
-            )
+            x, y, z = placed(position, rotation, c, place[0], place[1], place[2])
+            write_point(taken, number, gap, nx, ny, nz, x, y, z, feature, normal, depth, point)
+            found = 1
         count[p] = found
         taken += found
     return taken

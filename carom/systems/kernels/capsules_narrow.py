@@ -10,6 +10,7 @@ from carom.systems.kernels.frames import turned, turned_back
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.segments import beside, direction_between, nearest_of_segments
 from carom.systems.kernels.spatial import cross
+from carom.systems.kernels.writing import write_point
 
 ALONE = 2  # feature; points of capsules side by side are 0 and 1 along the first
 
@@ -40,11 +41,12 @@ def measure_balls_on_capsules(
             x, y, z = 1.0, 0.0, 0.0
         nx, ny, nz = turned(rotation, o, x, y, z)
         lever = size[i, 0] + 0.5 * gap
-        count[p], feature[taken], depth[taken] = 1, 0, -gap
-        normal[taken, 0], normal[taken, 1], normal[taken, 2] = -nx, -ny, -nz
-        point[taken, 0] = position[i, 0] - lever * nx
-        point[taken, 1] = position[i, 1] - lever * ny
-        point[taken, 2] = position[i, 2] - lever * nz
+        count[p] = 1
+        write_point(
+            taken, 0, gap, -nx, -ny, -nz,
+            position[i, 0] - lever * nx, position[i, 1] - lever * ny, position[i, 2] - lever * nz,
+            feature, normal, depth, point,
+        )  # fmt: skip
         taken += 1
     return taken
 
@@ -91,11 +93,13 @@ def measure_capsules(
             if gap > reach:
                 continue
             lever = radius_i + 0.5 * gap
-            feature[taken], depth[taken] = end if two else ALONE, -gap
-            normal[taken, 0], normal[taken, 1], normal[taken, 2] = sense * nx, sense * ny, sense * nz
-            point[taken, 0] = position[i, 0] + s * ux + lever * nx
-            point[taken, 1] = position[i, 1] + s * uy + lever * ny
-            point[taken, 2] = position[i, 2] + s * uz + lever * nz
+            write_point(
+                taken, end if two else ALONE, gap, sense * nx, sense * ny, sense * nz,
+                position[i, 0] + s * ux + lever * nx,
+                position[i, 1] + s * uy + lever * ny,
+                position[i, 2] + s * uz + lever * nz,
+                feature, normal, depth, point,
+            )  # fmt: skip
             taken += 1
         count[p] = taken - start[p]
     return taken

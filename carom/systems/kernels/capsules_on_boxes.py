@@ -10,6 +10,7 @@ import numpy as np
 from carom.systems.constants import BIAS, FACE_CONE, LEAST_PART, PARALLEL_EDGES
 from carom.systems.kernels.frames import placed, turned, turned_back
 from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.writing import write_point
 
 FAR = 1e300
 ALONE = 12  # feature; the two points over face f (x, y, z; the upper faces are the odd ones) are 2 f and 2 f + 1
@@ -68,10 +69,11 @@ def measure_capsules_on_boxes(
                 continue
             lever = 0.5 * (gap + radius)
             x, y, z = placed(position, rotation, i, 0.0, s, 0.0)
-            feature[taken] = 4 * axis + (2 if side > 0.0 else 0) + end if two else ALONE
-            depth[taken] = radius - gap
-            normal[taken, 0], normal[taken, 1], normal[taken, 2] = -nx, -ny, -nz
-            point[taken, 0], point[taken, 1], point[taken, 2] = x - lever * nx, y - lever * ny, z - lever * nz
+            name = 4 * axis + (2 if side > 0.0 else 0) + end if two else ALONE
+            write_point(
+                taken, name, gap - radius, -nx, -ny, -nz, x - lever * nx, y - lever * ny, z - lever * nz,
+                feature, normal, depth, point,
+            )  # fmt: skip
             taken += 1
         count[p] = taken - start[p]
     return taken

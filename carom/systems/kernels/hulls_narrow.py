@@ -10,9 +10,10 @@ from carom.systems.kernels.areas import points_of_area
 from carom.systems.kernels.distance import APART, FAR, distance_apart
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.polyhedra import place_faces, place_vertices, polyhedron_of
-from carom.systems.kernels.reduction import reduce_area, write_points
+from carom.systems.kernels.reduction import reduce_area
 from carom.systems.kernels.separation import most_apart
 from carom.systems.kernels.spatial import turn
+from carom.systems.kernels.writing import write_points
 
 
 @inlined

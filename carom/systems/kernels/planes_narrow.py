@@ -5,6 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.frames import placed, turned, turned_back
 from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.writing import write_point
 
 FLAT = 1e-9  # part of a half edge: axes leaning less towards the plane than another one by this count as equal
 
@@ -49,11 +50,12 @@ def measure_boxes_on_planes(
             gap = height + lx * x + ly * y + lz * z
             if gap > reach:
                 continue
-            at = taken + found
             px, py, pz = placed(position, rotation, i, x, y, z)
-            feature[at], depth[at] = corner, -gap
-            normal[at, 0], normal[at, 1], normal[at, 2] = -nx, -ny, -nz
-            point[at, 0], point[at, 1], point[at, 2] = px - 0.5 * gap * nx, py - 0.5 * gap * ny, pz - 0.5 * gap * nz
+            write_point(
+                taken + found, corner, gap, -nx, -ny, -nz,
+                px - 0.5 * gap * nx, py - 0.5 * gap * ny, pz - 0.5 * gap * nz,
+                feature, normal, depth, point,
+            )  # fmt: skip
             found += 1
         count[p] = found
         taken += found
@@ -80,9 +82,10 @@ def measure_capsules_on_planes(
             if not gap <= reaches[p]:
                 continue
             lever = radius + 0.5 * gap
-            feature[taken], depth[taken] = end, -gap
-            normal[taken, 0], normal[taken, 1], normal[taken, 2] = -nx, -ny, -nz
-            point[taken, 0], point[taken, 1], point[taken, 2] = x - lever * nx, y - lever * ny, z - lever * nz
+            write_point(
+                taken, end, gap, -nx, -ny, -nz, x - lever * nx, y - lever * ny, z - lever * nz,
+                feature, normal, depth, point,
+            )  # fmt: skip
             taken += 1
         count[p] = taken - start[p]
     return taken

@@ -1,10 +1,10 @@
-"""Which points stand for a contact area, and writing them down."""
+"""Which points stand for a contact area."""
 
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS
-from carom.systems.kernels.kernel import inlined, woven
+from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.spatial import cross
 
 MOST = 4
@@ -43,24 +43,3 @@ def reduce_area(place, gaps, names, count, nx, ny, nz):
             place[3 * kept + d] = place[3 * k + d]
         kept += 1 if k in (deepest, farthest, left, right) else 0
     return kept
-
-
-@inlined
-def write_points(
-    place, gaps, names, count, x, y, z, nx, ny, nz, side, radius,
-    taken, feature, normal, depth, point,
-):  # fmt: skip
-    """Write points of the first core, counted from x, and their gaps to the second as contacts; return what is taken.
-
-    n points from first to second; ``side`` is -1 where the caller counts the two the other way round.
-    """
-    for k in range(count):
-        gap = gaps[k] - radius
-        lever = radius + 0.5 * gap
-        feature[taken], depth[taken] = names[k], -gap
-        normal[taken, 0], normal[taken, 1], normal[taken, 2] = side * nx, side * ny, side * nz
-        point[taken, 0] = x + place[3 * k] + lever * nx
-        point[taken, 1] = y + place[3 * k + 1] + lever * ny
-        point[taken, 2] = z + place[3 * k + 2] + lever * nz
-        taken += 1
-    return taken
