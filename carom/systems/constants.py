@@ -130,7 +130,7 @@ LEAST_PART = 1e-9
 # Squared sine of an angle below which two edges have no common normal of their own: other axes are as good to 1e-7 m.
 PARALLEL_EDGES = 1e-14
 
-# Squared sine of 5.7 degrees, up to which two capsules may lie along each other and have two points. Larger is of no
+# Squared sine of 5.7 degrees, up to which a capsule may lie along another or an edge and have two points. Larger is no
 # use: the points are taken only if they are as deep as the nearest ones, to BIAS.
 ALONG = 0.01
 

@@ -230,3 +230,34 @@ def test_a_tower_of_prisms_stands(sides: int) -> None:
     for k, body in enumerate(tower):
         assert simulation[body].transform.position == pytest.approx([0.0, 0.5 + k, 0.0], abs=1e-3)
         assert np.abs(simulation[body].motion.linear).max() < 1e-6
+
+
+def test_a_capsule_along_an_edge_has_two_points() -> None:
+    """Both ends of what is beside the edge, as on a box of the same size; where it turns away from the edge, one."""
+    generator = np.random.default_rng(7)
+    poses, half = 600, np.array([0.15, 0.25, 0.4])
+    along = generator.integers(3, size=poses)
+    side = np.where(generator.random((poses, 3)) < 0.5, -1.0, 1.0) * (along[:, None] != np.arange(3))
+    way = side * generator.uniform(0.3, 1.0, (poses, 3))
+    way /= np.sqrt((way**2).sum(axis=1))[:, None]
+    tilt = np.where(np.arange(poses) % 3 == 0, 1e-2, 1e-6)[:, None] * generator.normal(size=(poses, 3))
+    edge, quarters = np.eye(3)[along], np.array([(0.0, 0.0, -1.0, 1.0), (0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 1.0)])
+    turn = quaternion.normalise(np.concatenate([tilt, np.ones((poses, 1))], axis=1))
+    turn = quaternion.multiply(turn, quaternion.normalise(quarters)[along])
+    turned = quaternion.rotate(turn, np.array([[0.0, 1.0, 0.0]]))
+    lower = 0.35 * np.abs((turned * way).sum(axis=1))
+    at = side * half + edge * generator.uniform(-0.2, 0.2, (poses, 1)) + way * (0.19 + lower)[:, None]
+    still = np.tile(quaternion.IDENTITY, (poses, 1))
+    placed = Placed(at, turn, np.zeros((poses, 3)), still)
+    hull, box = measure("capsule", "cube", placed, REACH), measure("capsule", "box", placed, REACH)
+    nearly = np.arange(poses) % 3 > 0
+    assert (box.count[nearly] == 2).all() and (hull.count[nearly] == 2).all()
+    assert (hull.count <= box.count).all() and (hull.count < box.count).any()
+    assert hull.depth[hull.deepest()] == pytest.approx(box.depth[box.deepest()], abs=2e-6)
+    for k in np.nonzero(nearly)[0]:
+        rows = [slice(found.start[k], found.start[k] + found.count[k]) for found in (hull, box)]
+        ends = [
+            found.point[row][np.argsort(found.point[row] @ edge[k])]
+            for found, row in zip((hull, box), rows, strict=True)
+        ]
+        assert ends[0] == pytest.approx(ends[1], abs=1e-4)

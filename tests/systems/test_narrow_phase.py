@@ -247,12 +247,24 @@ def test_a_capsule_on_a_box(shift: float, turned: Any, ends: set[float]) -> None
     assert answer.normal == pytest.approx(np.tile((0.0, -1.0, 0.0), (len(ends), 1)), abs=1e-9)
 
 
-def test_a_capsule_over_an_edge_has_one_point() -> None:
-    """Beside the edge of a box the way out is from the edge, not from a face."""
-    way = np.array([0.6, 0.8, 0.0])
-    answer = lone(Capsule(0.1, 1.0), CUBE, -np.array([0.5, 0.5, 0.0]) - 0.09 * way, about(X, 90.0))
-    assert answer.depth == pytest.approx([0.01], abs=1e-12)
-    assert answer.normal == pytest.approx(-way[None], abs=1e-9)
+WAY = (0.6, 0.8, 0.0)  # out of an edge along z
+
+
+@pytest.mark.parametrize(
+    ("axis", "degrees", "points"),
+    [(WAY, 0.0, 2), (WAY, 2.0, 1), ((-0.8, 0.6, 0.0), 0.01, 2), ((-0.8, 0.6, 0.0), 8.0, 1)],
+)
+def test_a_capsule_along_an_edge_has_two_points(axis: tuple[float, float, float], degrees: float, points: int) -> None:
+    """The way out is from the edge, not from a face; one that crosses the edge, or stands up from it, has one point."""
+    turned = quaternion.multiply(about(axis, degrees), about(X, 90.0))
+    away = np.array([0.5, 0.5, 0.2]) + (0.09 + 0.5 * np.sin(np.radians(degrees)) * (axis != WAY)) * np.array(WAY)
+    answer = lone(Capsule(0.1, 1.0), CUBE, -away, turned, reach=0.02)
+    assert answer.count == [points]
+    assert answer.depth.max() == pytest.approx(0.01, abs=1e-4)
+    assert answer.normal == pytest.approx(np.tile(-np.array(WAY), (points, 1)), abs=1e-3)
+    if points == 2:
+        assert rounded(np.round(answer.point[:, 2:] + 0.2, 3)) == {(-0.3,), (0.5,)}
+        assert len(set(answer.feature.tolist())) == 2
 
 
 def test_parallel_capsules_have_two_points() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, FLAT_COSINE
-from carom.systems.kernels.clipping import clip_loop, clip_segment, write_loop
+from carom.systems.kernels.clipping import beside_edge, clip_loop, clip_segment, write_loop
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.polyhedra import POINT, SEGMENT, face_towards
 
@@ -27,7 +27,9 @@ def points_of_area(
         on_q, cosine_q = face_towards(hulls, q, v, middle, end, planes, split, -nx, -ny, -nz)
         face_p, face_q = hulls.face_start[p] + on_p, hulls.face_start[q] + on_q
         if max(cosine_p, cosine_q) < FLAT_COSINE:
-            corners = 0
+            if p == SEGMENT and gap > BIAS:
+                found = beside_edge(hulls, q, v, middle, gap, nx, ny, nz, px, py, pz, reach, place, gaps, names)
+                least = gap if found > 0 else least
         elif p == SEGMENT:
             reference = split + on_q
             corners = clip_segment(hulls, face_q, v, middle, -nx, -ny, -nz, polygon, tag)

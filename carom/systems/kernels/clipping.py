@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import OVER_EDGE
+from carom.systems.constants import ALONG, BIAS, FACE_CONE, OVER_EDGE
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.spatial import cross
 
@@ -93,3 +93,42 @@ def clip_segment(hulls, face, v, begin, nx, ny, nz, polygon, tag):
     polygon[3], polygon[4], polygon[5] = v[0] + high * ux, v[1] + high * uy, v[2] + high * uz
     tag[0], tag[1] = 1, 2
     return 2
+
+
+@inlined
+def beside_edge(hulls, p, v, begin, gap, nx, ny, nz, px, py, pz, reach, place, gaps, names):
+    """Write the ends of what of the segment between the first two vertices lies along an edge of a polyhedron.
+
+    They are ``gap`` apart along n, which leads from the point x of the segment to the polyhedron outside of it. Return
+    how many ends are nearer than ``reach`` in that direction, to FACE_CONE; 0 where no edge is beside the segment or
+    both ends are farther than x.
+    """
+    ux, uy, uz = v[3] - v[0], v[4] - v[1], v[5] - v[2]
+    length, foremost = ux * ux + uy * uy + uz * uz, nx * px + ny * py + nz * pz + gap + BIAS
+    for edge in range(hulls.edge_start[p], hulls.edge_start[p + 1]):
+        i, j = 3 * (begin + hulls.edges[edge, 0]), 3 * (begin + hulls.edges[edge, 1])
+        if min(nx * v[i] + ny * v[i + 1] + nz * v[i + 2], nx * v[j] + ny * v[j + 1] + nz * v[j + 2]) > foremost:
+            continue
+        wx, wy, wz = v[j] - v[i], v[j + 1] - v[i + 1], v[j + 2] - v[i + 2]
+        x, y, z = cross(ux, uy, uz, wx, wy, wz)
+        width, along = wx * wx + wy * wy + wz * wz, ux * wx + uy * wy + uz * wz
+        if x * x + y * y + z * z >= ALONG * length * width:
+            continue
+        dx, dy, dz = v[0] - v[i], v[1] - v[i + 1], v[2] - v[i + 2]
+        first = dx * wx + dy * wy + dz * wz
+        one, other = -first / along, (width - first) / along
+        low, high = max(0.0, min(one, other)), min(1.0, max(one, other))
+        if low >= high:
+            continue
+        found, least = 0, reach
+        for end in range(2):
+            t = high if end == 1 else low
+            s = (first + t * along) / width
+            x, y, z = dx + t * ux - s * wx, dy + t * uy - s * wy, dz + t * uz - s * wz
+            gaps[found], names[found] = sqrt(x * x + y * y + z * z), 1 + end
+            place[3 * found], place[3 * found + 1], place[3 * found + 2] = v[0] + t * ux, v[1] + t * uy, v[2] + t * uz
+            least = min(least, gaps[found])
+            found += 1 if gaps[found] <= reach and -(nx * x + ny * y + nz * z) >= FACE_CONE * gaps[found] else 0
+        if least <= gap + BIAS:
+            return found
+    return 0

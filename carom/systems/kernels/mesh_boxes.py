@@ -6,11 +6,11 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, OVER_EDGE, PARALLEL_EDGES
-from carom.systems.kernels.capsules_on_boxes import ALONG, HALF, MIDDLE, beyond, nearest_to_box
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.mesh_axes import FAR, ON_FACE, ON_POINT, ON_TRIANGLE, settled
 from carom.systems.kernels.mesh_surface import CORNER, EDGE, falls_away, leads
 from carom.systems.kernels.mesh_tree import TRIANGLE
+from carom.systems.kernels.segment_and_box import ALONG, HALF, MIDDLE, beyond, nearest_to_box
 from carom.systems.kernels.spatial import cross, turn
 
 FRAME, CORNERS = 12, 24  # of the scratch: the box's middle and axes in the mesh's frame, the triangle in the box's
