@@ -13,7 +13,8 @@ from carom.systems.kernels.hulls_narrow import most_of
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.nearing import MOST_STEPS
 from carom.systems.kernels.parting_cores import part
-from carom.systems.kernels.reduction import reduce_area, write_points
+from carom.systems.kernels.reduction import reduce_area
+from carom.systems.kernels.writing import write_points
 from carom.systems.shapes.rim import RIM_POINTS
 
 

@@ -116,7 +116,7 @@ def measure_hulls(
             names[0] = 0  # a lone point is the pair itself, however the bodies roll
         count[pair] = found
         taken = write_points(
-            place, gaps, names, found, x, y, z, nx, ny, nz, side, radius, taken, feature, normal, depth, point
+            place, gaps, names, found, x, y, z, nx, ny, nz, side, radius, 0.0, taken, feature, normal, depth, point
         )
     return taken
 
@@ -151,6 +151,6 @@ def measure_hulls_on_planes(
         found = reduce_area(place, gaps, names, found, -nx, -ny, -nz)
         count[pair] = found
         taken = write_points(
-            place, gaps, names, found, x, y, z, -nx, -ny, -nz, 1.0, 0.0, taken, feature, normal, depth, point
+            place, gaps, names, found, x, y, z, -nx, -ny, -nz, 1.0, 0.0, 0.0, taken, feature, normal, depth, point
         )
     return taken

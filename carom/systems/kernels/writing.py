@@ -16,7 +16,7 @@ def write_point(at, name, gap, nx, ny, nz, x, y, z, feature, normal, depth, poin
 
 @inlined
 def write_points(
-    place, gaps, names, count, x, y, z, nx, ny, nz, side, radius,
+    place, gaps, names, count, x, y, z, nx, ny, nz, side, radius, other_radius,
     taken, feature, normal, depth, point,
 ):  # fmt: skip
     """Write points of the first core, counted from x, and their gaps to the second as contacts; return what is taken.
@@ -24,7 +24,7 @@ def write_points(
     n points from first to second; ``side`` is -1 where the caller counts the two the other way round.
     """
     for k in range(count):
-        gap = gaps[k] - radius
+        gap = gaps[k] - radius - other_radius
         lever = radius + 0.5 * gap
         write_point(
             taken, names[k], gap, side * nx, side * ny, side * nz,
