@@ -179,6 +179,11 @@ SAME_SPOT = 1e-3
 # lose points on bent land; smaller ones give more points than it takes.
 SAME_NORMAL = 0.985
 
+# Part of the depth under a triangle. A body that overlaps it by less, seen along an axis that leads past a convex edge
+# or corner of the mesh, meets the triangles beyond. Larger: thin bodies lose points near edges. Smaller: a body that
+# grazes the corner of a block is lifted over all of its height.
+BORDER = 0.05
+
 # Part of a body's width within which two points of a manifold are one, and how far it may sink into edges of triangles
 # that face away from its middle. Larger: points are lost; smaller: twins of triangles that meet in a corner stay.
 SAME_PLACE = 1e-3

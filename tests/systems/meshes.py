@@ -32,6 +32,14 @@ def sheet(cells: int, width: float, rough: float, shift: float = 0.0, seed: int 
     return Geometry(vertices, faces, "sheet")
 
 
+def block() -> Geometry:
+    """Return a box of 4 x 2 x 4 m as twelve triangles, its top at height 0."""
+    import trimesh
+
+    mesh = trimesh.creation.box(extents=(4.0, 2.0, 4.0))
+    return Geometry(np.array(mesh.vertices) - [0.0, 1.0, 0.0], np.array(mesh.faces, np.int64), "block")
+
+
 def nearest(geometry: Geometry, places: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the distance of each place (n, 3) to all triangles, the nearest place and its normal, by brute force.
 

@@ -102,7 +102,7 @@ def happen(simulation: Simulation, generator: Random, saved: list[Any]) -> None:
     world, spread = simulation.world, 3.0
     rows = world.row_numbers(Collider)
     some = rows[generator.random(len(rows)) < generator.choice([0.0, 0.05, 0.3, 1.0])]
-    chance = generator.integers(12)
+    chance = generator.integers(13)
     with world.edit(Transform) as transform:
         transform.position[some] += generator.normal(size=(len(some), 3)) * 10.0 ** generator.uniform(-6.0, 1.0)
     if chance == 0 and len(rows) > 2:
@@ -126,12 +126,27 @@ def happen(simulation: Simulation, generator: Random, saved: list[Any]) -> None:
     elif chance == 8:
         with world.edit(Motion) as motion:
             motion.linear[some] *= 10.0
+    elif chance == 9:  # what another size or shape is to the broad phase, of planes their own numbers
+        with world.edit(Collider) as collider:
+            factor = 10.0 ** generator.uniform(-1.0, 1.0)
+            for column in (collider.bound_half, collider.bound_radius, collider.size):
+                column[some] *= factor
+    elif chance == 10 and len(rows):
+        stand_or_move(world, world.entities(rows[[generator.integers(len(rows))]]).tolist()[0])
+
+
+def stand_or_move(world: World, entity: int) -> None:
+    """Make a body of what was none, or the other way round."""
+    if RigidBody in world[entity]:
+        world.detach(entity, RigidBody)
+    elif world[Collider].shape[world.row(entity)] != Plane.number:
+        world.attach(entity, RigidBody())
 
 
 @given(st.integers(0, 2**32), st.integers(2, 40), st.sampled_from([0.01, 1.0, 30.0]))
 @settings(deadline=None, max_examples=60)
 def test_the_pairs_are_those_of_brute_force(seed: int, count: int, spread: float) -> None:
-    """Whatever comes, goes, moves, changes its layer or is restored, with a cache that saw it all or nothing of it."""
+    """Whatever comes, goes, moves, grows, stands still, changes layer or is restored, as a cache saw all or none."""
     generator = np.random.default_rng(seed)
     simulation = Simulation()
     simulation.layers({"left": ["left", "default"], "right": ["right", "left"], "ghost": []})

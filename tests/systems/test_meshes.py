@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
-from meshes import Coal, laid, nearest, sheet
+from meshes import block, laid, nearest, sheet
 
 from carom.ecs.column import Floats
 from carom.ecs.relations.contact import Contact
@@ -29,14 +27,6 @@ BODIES: dict[str, tuple[Shape, Floats, float]] = {  # with the turn in which it 
     "sphere": (Sphere(0.5), LEVEL, 0.5),
     "capsule": (Capsule(0.3, 0.8), LYING, 0.3),
 }
-
-
-def block() -> Geometry:
-    """Return a box of 4 x 2 x 4 m as twelve triangles, its top at height 0."""
-    import trimesh
-
-    mesh = trimesh.creation.box(extents=(4.0, 2.0, 4.0))
-    return Geometry(np.array(mesh.vertices) - [0.0, 1.0, 0.0], np.array(mesh.faces, np.int64), "block")
 
 
 def test_the_tree_holds_every_triangle_once_within_its_bounds() -> None:
@@ -122,31 +112,6 @@ def test_balls_over_land_against_brute_force(radius: float) -> None:
             assert found.point[deepest] == pytest.approx(there + quaternion.rotate(turn, middle), abs=1e-9)
     assert seen > 1000
     assert behind > 300
-
-
-@pytest.mark.parametrize("key", ["box", "capsule"])
-def test_solids_over_land_against_coal(key: str) -> None:
-    """Of bodies apart from the land the gap is the distance, to 1e-8; none within reach is missed, no other found."""
-    import coal
-
-    land = sheet(13, 8.0, 1.0, 0.3)
-    shape: Any = Box((0.6, 0.4, 1.0)) if key == "box" else Capsule(0.25, 0.9)
-    geometry = coal.Box(*shape.size) if key == "box" else coal.Capsule(shape.radius, shape.length)
-    oracle = Coal(land, geometry, key == "capsule")
-    generator = np.random.default_rng(5)
-    places = generator.uniform([-3.0, 0.5, -3.0], [3.0, 2.0, 3.0], (1000, 3))
-    turns = quaternion.normalise(generator.normal(size=(1000, 4)))
-    reach, seen, beyond = 0.3, 0, 0
-    for place, turn, found in zip(places, turns, laid(land, shape, 1000).measure(places, turns, reach), strict=True):
-        gap = oracle.distance(place, turn)
-        if 1e-6 < gap < reach:
-            seen += 1
-            assert -found.depth.max() == pytest.approx(gap, abs=1e-8)
-        elif gap > reach:
-            beyond += 1
-            assert len(found.depth) == 0
-    assert seen > 100
-    assert beyond > 100
 
 
 def test_a_box_is_the_hull_of_its_corners() -> None:

@@ -6,20 +6,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.ecs.column import Floats, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.spatial.vector import cross, dot
 from carom.systems.constants import COPLANAR, NO_AREA
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.welding import weld
 
-Ends = tuple[Integers, Integers]
+Edges = tuple[Integers, Integers, Integers]
 
 
 class Surface(NamedTuple):
     """Triangles whose corners are shared where their places are the same.
 
     Edge k of a triangle runs from its corner k to the next. The neighbours of corner v, along edges, are the entries
-    of ``fan`` from ``fan_start[v]`` to ``fan_start[v + 1]``.
+    of ``fan`` from ``fan_start[v]`` to ``fan_start[v + 1]``: twice their numbers, and 1 where the edge is active.
     """
 
     vertices: Floats  # (v, 3)
@@ -51,11 +51,11 @@ def linked(geometry: Geometry) -> Surface:
     folded = (dot(m, n) < 0.0) & (dot(cross(m, n), along) > -COPLANAR)  # back to back: a sheet's edge
     active[one] = active[other] = (dot(cross(m, n), along) > COPLANAR) | folded
     bits = active.reshape(-1, 3) @ np.array([1, 2, 4])
-    return Surface(vertices, faces, source, normals, across.reshape(-1, 3), bits, *_fans(*edges, len(vertices)))
+    return Surface(vertices, faces, source, normals, across.reshape(-1, 3), bits, *_fans(*edges, active, len(vertices)))
 
 
-def _edges(starts: Integers, ends: Integers, count: int) -> tuple[Ends, Integers, Integers]:
-    """Return the two ends of each edge, and pairs of directed edges along one, forth and back, with no third."""
+def _edges(starts: Integers, ends: Integers, count: int) -> tuple[Edges, Integers, Integers]:
+    """Return both ends of each edge and its first directed one; and pairs of those, forth and back, with no third."""
     keys = np.minimum(starts, ends) * count + np.maximum(starts, ends)
     order = np.argsort(keys, kind="stable")
     ranked = keys[order]
@@ -66,13 +66,15 @@ def _edges(starts: Integers, ends: Integers, count: int) -> tuple[Ends, Integers
     alone[:-1] &= np.diff(first) > 1
     one, other = order[first[alone]], order[first[alone] + 1]
     opposed = starts[one] == ends[other]
-    distinct = np.concatenate([ranked[:1], ranked[1:][~repeated]])
-    return (distinct // count, distinct % count), one[opposed], other[opposed]
+    distinct = order[np.concatenate([[True], ~repeated])]
+    lower, upper = np.minimum(starts, ends)[distinct], np.maximum(starts, ends)[distinct]
+    return (lower, upper, distinct), one[opposed], other[opposed]
 
 
-def _fans(lower: Integers, upper: Integers, count: int) -> tuple[Integers, Integers]:
+def _fans(lower: Integers, upper: Integers, edges: Integers, active: Booleans, count: int) -> tuple[Integers, Integers]:
     """Return where the neighbours of each vertex start among all, and those, in order."""
     from_, to = np.concatenate([upper, lower]), np.concatenate([lower, upper])
     starts = np.zeros(count + 1, np.int64)
     np.cumsum(np.bincount(from_, minlength=count), out=starts[1:])
-    return starts, to[np.argsort(from_, kind="stable")]  # edges come in order of both their ends
+    order = np.argsort(from_, kind="stable")  # edges come in order of both their ends
+    return starts, (2 * to + np.tile(active[edges], 2))[order]

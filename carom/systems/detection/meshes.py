@@ -34,7 +34,7 @@ class Meshes(NamedTuple):
     links: Indices  # 8 per triangle: corners, the neighbours' corners across its edges, active edges, source face
     vertices: Floats  # 3 per corner
     fan_start: Indices
-    fan: Indices
+    fan: Indices  # twice a neighbouring corner, and 1 where the edge to it is active
 
 
 class PackedMeshes(Packed[Meshes, Meshes]):
@@ -102,7 +102,7 @@ def joined(trees: dict[int, Meshes]) -> Meshes:
             tree._replace(
                 nodes=(tree.nodes.reshape(-1, 3) + np.array([node, triangle, 0], np.int32)).ravel(),
                 links=links.ravel(),
-                fan=tree.fan + np.int32(corner),
+                fan=tree.fan + np.int32(2 * corner),
             )
         )
         fans.append(tree.fan_start[1:] + np.int32(edge))

@@ -54,7 +54,7 @@ def measure_balls_on_meshes(
         while near > len(names):
             names, points = grown(names), grown(points)
         touching = 0
-        behind = behind_of(triangles, links, found, near, x, y, z)
+        behind = behind_of(triangles, links, found, near, x, y, z, far)
         if behind >= 0:
             cx, cy, cz, _ = nearest_on_triangle(triangles, behind, x, y, z)
             dx, dy, dz = cx - x, cy - y, cz - z
@@ -63,11 +63,10 @@ def measure_balls_on_meshes(
             nx, ny, nz = triangles[a + 9], triangles[a + 10], triangles[a + 11]
             if distance > LEAST_PART:
                 nx, ny, nz = dx / distance, dy / distance, dz / distance
-            if distance <= far:
-                half = -0.5 * (distance + radius)
-                touching = add_point(
-                    points, names, 0, nx, ny, nz, cx + half * nx, cy + half * ny, cz + half * nz, 2.0 * half, 0
-                )
+            half = -0.5 * (distance + radius)
+            touching = add_point(
+                points, names, 0, nx, ny, nz, cx + half * nx, cy + half * ny, cz + half * nz, 2.0 * half, 0
+            )
         for c in range(near):
             t = found[c]
             a = TRIANGLE * t

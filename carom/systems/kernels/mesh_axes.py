@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import BIAS, OVER_EDGE, PARALLEL_EDGES
+from carom.systems.constants import BIAS, BORDER, OVER_EDGE, PARALLEL_EDGES
 from carom.systems.kernels.distance import outermost
 from carom.systems.kernels.kernel import inlined, woven
-from carom.systems.kernels.mesh_surface import CORNER, EDGE, falls_away, leads
+from carom.systems.kernels.mesh_surface import CORNER, EDGE, falls_away, is_tip, leads
 from carom.systems.kernels.mesh_tree import TRIANGLE
 from carom.systems.kernels.spatial import cross
 
@@ -56,7 +56,7 @@ def most_apart_from_triangle(
         over = over and least <= OVER_EDGE
         if most < min(gap, 0.0):
             active &= ~(1 << k)  # all of the core is on this side of the edge, so that it meets something nearer
-    most = gap
+    most, border = gap, -1e300
     for f in range(faces):
         x, y, z = planes[4 * f], planes[4 * f + 1], planes[4 * f + 2]
         corner, back = 0, 1e300
@@ -69,10 +69,14 @@ def most_apart_from_triangle(
         if back > far:
             return FAR, back, nx, ny, nz, face, px, py, pz
         most = max(most, back)
-        if back > gap + BIAS and falls_away(links, vertices, fan_start, fan, t, CORNER + corner, -x, -y, -z):
+        if back <= gap + BIAS:
+            continue
+        if is_tip(links, vertices, fan_start, fan, t, corner, -x, -y, -z):
             kind, gap, face, nx, ny, nz = ON_FACE, back, f, -x, -y, -z
+        elif active & (1 << corner | 1 << (corner + 2) % 3):
+            border = max(border, back)
     if active == 0:
-        return settled(kind, over, gap, most), gap, nx, ny, nz, face, px, py, pz
+        return settled(kind, over, gap, most, border), gap, nx, ny, nz, face, px, py, pz
     for k in range(3):
         if active & (1 << k) == 0:
             continue
@@ -107,6 +111,8 @@ def most_apart_from_triangle(
             ):
                 continue
             most = max(most, apart)
+            if x * triangles[a + 9] + y * triangles[a + 10] + z * triangles[a + 11] < 0.0:
+                border = max(border, apart)
             cx, cy, cz = cross(dx, dy, dz, ux, uy, uz)  # how far along both the edges cross, seen along the normal
             across = (x * cx + y * cy + z * cz) * scale
             cx, cy, cz = cross(dx, dy, dz, wx, wy, wz)
@@ -114,11 +120,12 @@ def most_apart_from_triangle(
             if across < 0.0 or across > 1.0 or along < 0.0 or along > 1.0:
                 continue
             if not falls_away(links, vertices, fan_start, fan, t, EDGE + k, x, y, z):
+                border = max(border, apart)
                 continue
             kind, gap, nx, ny, nz = ON_POINT, apart, x, y, z
             px, py, pz = v[s] + across * wx, v[s + 1] + across * wy, v[s + 2] + across * wz
     if most <= 0.0 or gap > far:
-        return settled(kind, over, gap, most), gap, nx, ny, nz, face, px, py, pz
+        return settled(kind, over, gap, most, border), gap, nx, ny, nz, face, px, py, pz
     shortest, sx, sy, sz, qx, qy, qz, part = 1e300, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0
     for k in range(3):
         if active & (1 << k) == 0:
@@ -148,7 +155,7 @@ def most_apart_from_triangle(
                 elif along == 1.0:
                     part = CORNER + (k + 1) % 3
     distance = sqrt(shortest)
-    if distance > gap + BIAS:
+    if shortest > max(gap, 0.0) * max(gap, 0.0) + OVER_EDGE * OVER_EDGE:  # beside what the gap is measured over
         x, y, z = sx / distance, sy / distance, sz / distance
         _, low = outermost(v, 0, end, -x, -y, -z)
         outer = -low >= x * qx + y * qy + z * qz - BIAS
@@ -156,14 +163,20 @@ def most_apart_from_triangle(
             outer = outer and not leads(vertices, 3 * links[8 * t + part], 3 * links[8 * t + (part + 2) % 3], x, y, z)
         if outer and falls_away(links, vertices, fan_start, fan, t, part, x, y, z):
             return ON_POINT if distance <= far else FAR, distance, x, y, z, face, qx, qy, qz
-    return settled(kind, over, gap, most), gap, nx, ny, nz, face, px, py, pz
+    return settled(kind, over, gap, most, border), gap, nx, ny, nz, face, px, py, pz
 
 
 @inlined
-def settled(kind, over, gap, most):
-    """Return the kind of what is known but for this: is the core over the triangle, and apart after all."""
+def settled(kind, over, gap, most, border):
+    """Return the kind of what is known but for this: is the core over the triangle, and apart after all.
+
+    What overlaps a triangle by less than BORDER of its depth along ``border``, the best of the axes beyond convex edges
+    that the mesh is not outermost along, meets what is beyond there instead.
+    """
     if kind == ON_TRIANGLE:
-        return (ASIDE if most > BIAS and gap < 0.0 else kind) if over else FAR
+        if not over or (gap < 0.0 and BORDER * (gap + BIAS) < border):
+            return FAR
+        return ASIDE if most > BIAS and gap < 0.0 else kind
     return FAR if most > BIAS and gap < 0.0 else kind
 
 

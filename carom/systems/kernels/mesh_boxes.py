@@ -8,13 +8,13 @@ from math import sqrt
 from carom.systems.constants import BIAS, OVER_EDGE, PARALLEL_EDGES
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.mesh_axes import FAR, ON_FACE, ON_POINT, ON_TRIANGLE, settled
-from carom.systems.kernels.mesh_surface import CORNER, EDGE, falls_away, leads
+from carom.systems.kernels.mesh_surface import CORNER, EDGE, falls_away, is_tip, leads
 from carom.systems.kernels.mesh_tree import TRIANGLE
 from carom.systems.kernels.segment_and_box import ALONG, HALF, MIDDLE, beyond, nearest_to_box
 from carom.systems.kernels.spatial import cross, turn
 
-FRAME, CORNERS = 12, 24  # of the scratch: the box's middle and axes in the mesh's frame, the triangle in the box's
-BOX_ROOM = 33
+FRAME, CORNERS, NORMAL = 12, 24, 33  # of the scratch: middle and axes in the mesh's frame, the triangle in the box's
+BOX_ROOM = 36
 
 
 @woven
@@ -68,8 +68,9 @@ def most_apart_from_box(own, triangles, links, vertices, fan_start, fan, t, far)
         if max(low, -high) - own[HALF + d] > far:
             return FAR, far, nx, ny, nz, face, px, py, pz
     mx, my, mz = into_box(own, nx, ny, nz)
-    gap = -(mx * own[CORNERS] + my * own[CORNERS + 1] + mz * own[CORNERS + 2])
-    gap -= hx * abs(mx) + hy * abs(my) + hz * abs(mz)
+    own[NORMAL], own[NORMAL + 1], own[NORMAL + 2] = mx, my, mz
+    level = mx * own[CORNERS] + my * own[CORNERS + 1] + mz * own[CORNERS + 2]
+    gap = -level - hx * abs(mx) - hy * abs(my) - hz * abs(mz)
     if gap > far:
         return FAR, gap, nx, ny, nz, face, px, py, pz
     kind, active, over = ON_TRIANGLE, links[8 * t + 6], True
@@ -90,7 +91,7 @@ def most_apart_from_box(own, triangles, links, vertices, fan_start, fan, t, far)
         face = 2 if my > 0.0 else 3
     else:
         face = 4 if mz > 0.0 else 5
-    most = gap
+    most, border = gap, -1e300
     for d in range(3):
         for side in range(2):
             sign = 1.0 if side == 1 else -1.0
@@ -105,10 +106,12 @@ def most_apart_from_box(own, triangles, links, vertices, fan_start, fan, t, far)
                 continue
             i = FRAME + 3 + 3 * d
             x, y, z = -sign * own[i], -sign * own[i + 1], -sign * own[i + 2]
-            if falls_away(links, vertices, fan_start, fan, t, CORNER + corner, x, y, z):
+            if is_tip(links, vertices, fan_start, fan, t, corner, x, y, z):
                 kind, gap, face, nx, ny, nz = ON_FACE, back, 2 * d + side, x, y, z
+            elif active & (1 << corner | 1 << (corner + 2) % 3):
+                border = max(border, back)
     if active == 0:
-        return settled(kind, over, gap, most), gap, nx, ny, nz, face, px, py, pz
+        return settled(kind, over, gap, most, border), gap, nx, ny, nz, face, px, py, pz
     for k in range(3):
         if active & (1 << k) == 0:
             continue
@@ -128,9 +131,12 @@ def most_apart_from_box(own, triangles, links, vertices, fan_start, fan, t, far)
             vj = -own[HALF + j] if y > 0.0 else own[HALF + j]
             di, dj = vi - own[b + i], vj - own[b + j]
             apart = x * di + y * dj
-            if apart <= gap + BIAS:
+            low = vi * own[NORMAL + i] + vj * own[NORMAL + j] - own[HALF + d] * abs(own[NORMAL + d]) - level
+            if apart <= gap + BIAS or low > far:
                 continue
             most = max(most, apart)
+            if x * own[NORMAL + i] + y * own[NORMAL + j] < 0.0:
+                border = max(border, apart)
             along = (di * ui + dj * uj) / squared
             across = own[b + d] + along * (own[c + d] - own[b + d])
             if along < 0.0 or along > 1.0 or abs(across) > own[HALF + d]:
@@ -140,6 +146,7 @@ def most_apart_from_box(own, triangles, links, vertices, fan_start, fan, t, far)
                 x * own[ai] + y * own[aj], x * own[ai + 1] + y * own[aj + 1], x * own[ai + 2] + y * own[aj + 2],
             )  # fmt: skip
             if not falls_away(links, vertices, fan_start, fan, t, EDGE + k, fx, fy, fz):
+                border = max(border, apart)
                 continue
             kind, gap, nx, ny, nz = ON_POINT, apart, fx, fy, fz
             ad = FRAME + 3 + 3 * d
@@ -147,7 +154,7 @@ def most_apart_from_box(own, triangles, links, vertices, fan_start, fan, t, far)
             py = own[FRAME + 1] + vi * own[ai + 1] + vj * own[aj + 1] + across * own[ad + 1]
             pz = own[FRAME + 2] + vi * own[ai + 2] + vj * own[aj + 2] + across * own[ad + 2]
     if most <= 0.0 or gap > far:
-        return settled(kind, over, gap, most), gap, nx, ny, nz, face, px, py, pz
+        return settled(kind, over, gap, most, border), gap, nx, ny, nz, face, px, py, pz
     shortest, qx, qy, qz, dx, dy, dz, part = 1e300, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0
     for k in range(3):
         if active & (1 << k) == 0:
@@ -170,7 +177,7 @@ def most_apart_from_box(own, triangles, links, vertices, fan_start, fan, t, far)
             elif s == half:
                 part = CORNER + (k + 1) % 3
     distance = sqrt(shortest)
-    if distance > gap + BIAS:
+    if shortest > max(gap, 0.0) * max(gap, 0.0) + OVER_EDGE * OVER_EDGE:  # beside what the gap is measured over
         x, y, z = out_of_box(own, -dx / distance, -dy / distance, -dz / distance)
         outer = part >= CORNER or not leads(
             vertices, 3 * links[8 * t + part], 3 * links[8 * t + (part + 2) % 3], x, y, z
@@ -179,4 +186,4 @@ def most_apart_from_box(own, triangles, links, vertices, fan_start, fan, t, far)
             qx, qy, qz = out_of_box(own, qx, qy, qz)
             kind = ON_POINT if distance <= far else FAR
             return kind, distance, x, y, z, face, own[FRAME] + qx, own[FRAME + 1] + qy, own[FRAME + 2] + qz
-    return settled(kind, over, gap, most), gap, nx, ny, nz, face, px, py, pz
+    return settled(kind, over, gap, most, border), gap, nx, ny, nz, face, px, py, pz

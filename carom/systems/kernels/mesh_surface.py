@@ -56,9 +56,31 @@ def falls_away(links, vertices, fan_start, fan, t, part, x, y, z):
         return beyond < 0 or not leads(vertices, at, 3 * beyond, x, y, z)
     corner = links[8 * t + part - CORNER]
     for k in range(fan_start[corner], fan_start[corner + 1]):
-        if leads(vertices, 3 * corner, 3 * fan[k], x, y, z):
+        if leads(vertices, 3 * corner, 3 * (fan[k] >> 1), x, y, z):
             return False
     return True
+
+
+@inlined
+def is_tip(links, vertices, fan_start, fan, t, corner, x, y, z):
+    """Tell whether a mesh falls away from a direction about a triangle's corner, and the direction leads out of it.
+
+    Seen from inside, a hollow falls away too. The edge that falls least is on the border of the cone that all of them
+    lie in: convex at a tip, hollow in a hollow. LEANING is let off.
+    """
+    i = links[8 * t + corner]
+    most, most_convex = -2.0, -2.0
+    for k in range(fan_start[i], fan_start[i + 1]):
+        at, to = 3 * i, 3 * (fan[k] >> 1)
+        ux, uy = vertices[to] - vertices[at], vertices[to + 1] - vertices[at + 1]
+        uz = vertices[to + 2] - vertices[at + 2]
+        cosine = (x * ux + y * uy + z * uz) / sqrt(ux * ux + uy * uy + uz * uz)
+        if cosine > LEANING:
+            return False
+        most = max(most, cosine)
+        if fan[k] & 1:
+            most_convex = max(most_convex, cosine)
+    return most_convex >= most - LEANING
 
 
 @inlined
@@ -72,8 +94,11 @@ def leads(vertices, i, j, x, y, z):
 
 
 @inlined
-def behind_of(triangles, links, found, near, x, y, z):
-    """Return the triangle a point is behind, of those found; -1 where it is in front of the nearest of them."""
+def behind_of(triangles, links, found, near, x, y, z, within):
+    """Return the triangle a point is behind, of those found; -1 where it is in front of the nearest of them.
+
+    Also where that one is farther than ``within``.
+    """
     hidden = False
     for c in range(near):
         a = TRIANGLE * found[c]
@@ -83,7 +108,7 @@ def behind_of(triangles, links, found, near, x, y, z):
             break
     if not hidden:
         return -1
-    nearest, side, behind = 1e300, 0.0, -1
+    nearest, side, behind = within, 0.0, -1
     for c in range(near):
         t = found[c]
         cx, cy, cz, part = nearest_on_triangle(triangles, t, x, y, z)

@@ -34,8 +34,8 @@ def measure_solids_on_meshes(
     """Measure pairs of a capsule, box or hull and a mesh, in the form of `measure_balls`.
 
     Triangle by triangle, then made into manifolds. Those that face away from the solid's middle are only touched at
-    their edges and corners. A solid whose middle is behind the triangle nearest to it is pushed out to the front, as if
-    that triangle had no end.
+    their edges and corners. A solid whose middle is behind the triangle nearest to it, but not farther than its own
+    corners are from it, is pushed out to the front, as if that triangle had no end.
     """
     triangles, links, vertices, fan_start, fan = (
         meshes.triangles, meshes.links, meshes.vertices, meshes.fan_start, meshes.fan,
@@ -66,16 +66,18 @@ def measure_solids_on_meshes(
             place_box(own, sx, sy, sz, x, y, z, tx, ty, tz, tw)
         reach = reaches[pair]
         far = radius + reach
-        lx, ly, lz, hx, hy, hz = 1e300, 1e300, 1e300, -1e300, -1e300, -1e300
+        farthest, lx, ly, lz, hx, hy, hz = 0.0, 1e300, 1e300, 1e300, -1e300, -1e300, -1e300
         for i in range(end):
             lx, ly, lz = min(lx, v[3 * i]), min(ly, v[3 * i + 1]), min(lz, v[3 * i + 2])
             hx, hy, hz = max(hx, v[3 * i]), max(hy, v[3 * i + 1]), max(hz, v[3 * i + 2])
+            dx, dy, dz = v[3 * i] - x, v[3 * i + 1] - y, v[3 * i + 2] - z
+            farthest = max(farthest, dx * dx + dy * dy + dz * dz)
         width = 0.5 * sqrt((hx - lx) * (hx - lx) + (hy - ly) * (hy - ly) + (hz - lz) * (hz - lz)) + radius
         near, found = all_triangles(
             root[geometry[m]], bounds, nodes, triangles,
             lx - far, ly - far, lz - far, hx + far, hy + far, hz + far, found,
         )  # fmt: skip
-        behind = behind_of(triangles, links, found, near, x, y, z)
+        behind = behind_of(triangles, links, found, near, x, y, z, sqrt(farthest) + far)
         touching = 0
         if behind >= 0:
             a = TRIANGLE * behind
@@ -145,7 +147,7 @@ def measure_solids_on_meshes(
                     back = 0.5 * (points[i + 6] + 2.0 * radius)
                     if back - 0.5 * radius < 0.0 and behind_of(
                         triangles, links, found, near,
-                        points[i + 3] + back * nx, points[i + 4] + back * ny, points[i + 5] + back * nz,
+                        points[i + 3] + back * nx, points[i + 4] + back * ny, points[i + 5] + back * nz, 1e300,
                     ) < 0:  # fmt: skip
                         touching -= 1
                         names[k] = names[touching]
