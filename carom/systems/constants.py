@@ -226,3 +226,11 @@ CURVED_STEP, CURVED_TURN = 1e-5, 0.2
 # Cosine of 11 degrees: faces turned so nearly alike belong to one round place. Smaller: a place beside it that is less
 # deep may be overlooked; larger: the search goes on in vain.
 CURVED_ALIKE = 0.98
+
+# Part of its length by which two straight sides may be beside each other where they count as touching. Larger: points
+# hang in the air beside rods that cross; smaller: rods that lie along each other all but exactly rock on one point.
+ASKEW = 1e-3
+
+# Cosine of 14 microradians, within which the faces of a growing polytope are in one plane. Smaller: the point of a
+# contact is taken from another face; larger: rounding parts a plane.
+ONE_PLANE = 1.0 - 1e-10

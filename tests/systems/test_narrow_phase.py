@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from batches import Answer, Batch, measure_batch, random_batch, separation, smaller
-from pairs import Pair, Poses
+from fcl_batches import fcl_batch
 
 from carom.ecs.spatial import quaternion
 from carom.systems.constants import BIAS, FACE_CONE, PARALLEL_EDGES
@@ -171,23 +171,16 @@ def test_boxes_are_parted_the_shortest_way_there_is(least: float) -> None:
     assert (as_good | ~turned)[meets].all()
 
 
-@pytest.mark.parametrize("name", ["box-box", "box-plane", "sphere-capsule"])
-def test_fcl_agrees_where_it_is_exact(name: str) -> None:
-    """Overlaps of up to 5 % have FCL's depth, to 1e-9 m; of boxes FCL takes a face unless an edge is better by 5 %."""
+@pytest.mark.parametrize("name", PAIRS)
+def test_fcl_agrees(name: str) -> None:
+    """Overlaps of up to 5 % have the depth that FCL's path finds, to twice BIAS, by which boxes keep to their faces."""
     a, b = PAIRS[name]
     batch, distance, _ = random_batch(a, b, 300, seed=3)
-    pair, origin = Pair(a, b), np.zeros(3)
     depth, _ = measure_batch(a, b, batch, 0.0).deepest()
-    checked = 0
-    for p in np.nonzero(distance < -1e-4)[0]:
-        points = pair.measure(Poses(origin, batch.rotation_a[p], batch.position_b[p], batch.rotation_b[p]))
-        found = max(d for _, _, d in points)
-        if name == "box-box":
-            assert depth[p] - 2e-6 <= found <= 1.06 * depth[p] + 2e-6
-        else:
-            assert found == pytest.approx(depth[p], abs=1e-9)
-        checked += 1
-    assert checked > 50
+    found, _ = fcl_batch(a, b, batch, 0.0).deepest()
+    deep = distance < -1e-4
+    assert deep.sum() > 50
+    assert np.abs(found[deep] - depth[deep]).max() < 2.0 * BIAS
 
 
 def lone(a: Shape, b: Shape, at: Any, rotation_a: Any = LEVEL, rotation_b: Any = LEVEL, reach: float = 0.0) -> Answer:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import BRACKET, CURVED_ALIKE, CURVED_FROM, LEAN, SEEN, SLIVER
+from carom.systems.constants import BRACKET, CURVED_ALIKE, CURVED_FROM, LEAN, ONE_PLANE, SEEN, SLIVER
 from carom.systems.kernels.cores import most_overlap
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.smooth import is_round, settle
@@ -142,7 +142,8 @@ def expand(core, place, vertices, x, y, z, corner, face, plane, rim):
         if overlap - low <= BRACKET:
             nx, ny, nz, beside = mx, my, mz, 1e300
             for f in range(faces):  # of several in one plane the origin is seen through one only
-                if plane[4 * f + 3] <= low + BRACKET:
+                alike = mx * plane[4 * f] + my * plane[4 * f + 1] + mz * plane[4 * f + 2]
+                if plane[4 * f + 3] <= low + BRACKET and alike >= ONE_PLANE:
                     out, ax, ay, az = point_within(corner, face, plane, f)
                     if out < beside:
                         beside, px, py, pz = out, ax, ay, az

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import ALONG, OVER_EDGE
+from carom.systems.constants import ALONG, ASKEW, OVER_EDGE
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.outlines import LABELS
 from carom.systems.kernels.spatial import cross
@@ -74,7 +74,10 @@ def over_face(
 
 @inlined
 def beside_line(line, other, gap, nx, ny, nz, reach, place, gaps, names):
-    """Write the ends of what of two lines, first and second body's, is side by side; 0 where they cross or miss."""
+    """Write the ends of what of two lines, first and second body's, is side by side; return 0 where they miss.
+
+    Seen along n that is where they are within ASKEW of the length beside each other.
+    """
     ux, uy, uz = line[3] - line[0], line[4] - line[1], line[5] - line[2]
     vx, vy, vz = other[3] - other[0], other[4] - other[1], other[5] - other[2]
     cx, cy, cz = cross(ux, uy, uz, vx, vy, vz)
@@ -88,6 +91,15 @@ def beside_line(line, other, gap, nx, ny, nz, reach, place, gaps, names):
     if low > high:
         low, high = high, low
     low, high = max(low, 0.0), min(high, 1.0)
+    sx, sy, sz = cross(nx, ny, nz, ux, uy, uz)
+    slack = ASKEW * (sx * sx + sy * sy + sz * sz)
+    turned = (sx * vx + sy * vy + sz * vz) * length / along  # how far the other line moves aside along the first
+    beside = sx * ox + sy * oy + sz * oz - begin * turned
+    if abs(turned) > slack:
+        first, last = (-slack - beside) / turned, (slack - beside) / turned
+        low, high = max(low, min(first, last)), min(high, max(first, last))
+    elif abs(beside) > 2.0 * slack:
+        return 0
     if low >= high:
         return 0
     found = 0

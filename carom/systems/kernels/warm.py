@@ -16,6 +16,7 @@ def warm() -> None:
             pool.submit(compile_systems, True),
             pool.submit(compile_systems, False),
             pool.submit(compile_stand_ins),
+            pool.submit(compile_for_fcl),
         ]
         for task in tasks:
             task.result()
@@ -62,6 +63,22 @@ def compile_stand_ins() -> None:
         measure_pairs(world, pairs, np.ones(len(pairs)))
     room = np.empty((2 * len(pairs), 2), np.int64)
     renew_pairs(pairs, pairs, np.zeros(world.capacity, np.bool_), room)  # of bodies that leave their fat bounds
+
+
+def compile_for_fcl() -> None:
+    """Measure two boxes as FCL sees them."""
+    look_for_vectors(there=False)
+
+    import numpy as np
+
+    from carom.systems.detection.narrow import measure_pairs
+    from carom.systems.simulation import Simulation
+
+    simulation = Simulation(checked=False)
+    for _ in range(2):
+        simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={"mass": 1.0})
+    with simulation.world.faces(None):
+        measure_pairs(simulation.world, np.array([[0, 1]]), np.zeros(1), "fcl")
 
 
 def compile_systems(heavy: bool) -> None:
