@@ -13,7 +13,7 @@ from carom.systems.kernels.spatial import product, turn
 # branch. Rows of a lane are what one box sees of the other, in its own frame: the other's axes as columns of a matrix,
 # the other's centre, its own half edges and the other's. The view of the other box follows, then what parts the two,
 # and what is put in: their orientations and the way between their centres.
-LANES = 16
+LANES = 32
 TURN, PLACE, OWN, OTHER, VIEW = 0, 9, 12, 15, 18
 FACES, EDGES, FIRST, SECOND, WAY, ROWS = 36, 40, 42, 46, 50, 53
 FAR = 1e300
