@@ -14,7 +14,12 @@ from carom.systems.shapes.triangles import Triangles
 
 @dataclass(frozen=True)
 class Mesh(Triangles):
-    """A watertight triangle mesh; static, since FCL cannot measure how deep two meshes overlap."""
+    """A watertight triangle mesh; static, since FCL cannot measure how deep two meshes overlap.
+
+    Balls, capsules, boxes and hulls meet it by kernels. Cylinders, cones and ellipsoids have none: FCL tells theirs by
+    2 ms a pair, once they overlap, triangle by triangle, with normals of edges within flat areas and depths up to 3 cm
+    off. A hull of as many corners as its rim needs is the better wheel on land.
+    """
 
     key: ClassVar[str] = "mesh"
     number: ClassVar[int] = 7
