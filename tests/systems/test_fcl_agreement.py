@@ -126,9 +126,9 @@ def test_every_contact_is_valid(posed: Posed) -> None:
 def test_points_are_on_both_bodies(posed: Posed) -> None:
     """Half the depth to either side of a point, no direction of many finds it outside of the shape there.
 
-    But for what may stand over an edge, more so in acute corners, and for straight round sides that are askew.
+    But for what may stand over an edge, more so in acute corners, and for straight sides that are askew.
     """
-    askew = all(shape.key in ("capsule", "cylinder", "cone") for shape in (posed.a, posed.b))
+    askew = not {"sphere", "point", "ellipsoid"} & {posed.a.key, posed.b.key}
     answer, batch = posed.answer, posed.batch
     pose = np.repeat(np.arange(POSES), answer.count)
     half = 0.5 * answer.depth[:, None] * answer.normal

@@ -103,6 +103,18 @@ def test_straight_sides_along_each_other_have_two_points(a: Any, b: Any) -> None
     assert [depth for _, _, depth in points] == [pytest.approx(1e-3, abs=1e-8)] * 2
 
 
+@pytest.mark.parametrize(("above", "height"), [(ROD, 0.2), (CAN, 0.4)])
+def test_what_lies_along_an_edge_has_two_points(above: Any, height: float) -> None:
+    """On the edge of a box or hull that stands on its own edge: the ends of what is side by side, 0.8 m apart."""
+    ridge = quaternion.from_axis_angle(np.array([1.0, 0.0, 0.0]), np.pi / 4.0)
+    solid = Convex.stated(points=[(x, y, z) for x in (-0.4, 0.4) for y in (-0.4, 0.4) for z in (-0.4, 0.4)])
+    poses = Poses(np.zeros(3), ridge, np.array([0.0, 0.4 * np.sqrt(2.0) + height - 1e-3, 0.0]), LYING)
+    for below in (CUBE, solid):
+        points = Pair(below, above).measure(poses, 0.01)
+        assert sorted(round(float(place[0]), 4) for place, _, _ in points) == [-0.4, 0.4]
+        assert [depth for _, _, depth in points] == [pytest.approx(1e-3, abs=1e-8)] * 2
+
+
 def test_a_hull_on_a_cylinder_has_the_corners_of_its_face() -> None:
     """The hull of a cube is measured as the cube is, to OVER_EDGE: its shape goes second, and that face is cut."""
     points = []

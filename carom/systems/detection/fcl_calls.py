@@ -12,8 +12,6 @@ import numpy as np
 
 from carom.ecs.column import Booleans, Floats
 
-NO_DIRECTION = (0.0, 0.0, 0.0)
-
 
 def ask_fcl(staying: list[Any], moving: list[Any], turns: Floats, shifts: Floats) -> tuple[Booleans, Floats]:
     """Return which pairs FCL sees overlap, and its normals from the first to the second, zero where it has none.
@@ -23,16 +21,13 @@ def ask_fcl(staying: list[Any], moving: list[Any], turns: Floats, shifts: Floats
     """
     from fcl import CollisionRequest, CollisionResult, collide
 
-    request = CollisionRequest(num_max_contacts=1, enable_contact=True)
-    overlaps = np.zeros(len(staying), np.bool_)
-    normals: list[Any] = []
+    request, found = CollisionRequest(num_max_contacts=1, enable_contact=True), CollisionResult()
+    contacts = found.contacts  # emptied each time: a new result would take a tenth of the call
+    overlaps, normals = np.zeros(len(staying), np.bool_), np.zeros((len(staying), 3))
     for k, (one, two, turn, shift) in enumerate(zip(staying, moving, turns, shifts, strict=True)):
         two.setQuatRotation(turn)
         two.setTranslation(shift)
-        found = CollisionResult()
         if collide(one, two, request, found):
-            overlaps[k] = True
-            normals.append(found.contacts[0].normal)
-        else:
-            normals.append(NO_DIRECTION)
-    return overlaps, np.array(normals, np.float64)
+            overlaps[k], normals[k] = True, contacts[0].normal
+            contacts.clear()
+    return overlaps, normals

@@ -24,7 +24,8 @@ def points_between(
     """Write the points of the first core that are nearer than ``reach`` to the second along n; return how many.
 
     A face turned to the normal has what the other turns to it clipped by its sides, a half space all of it, and lines
-    side by side have two points. All others have one, the point x; it is added where rounding has cut away the deepest.
+    and edges side by side have two points. All others have one, the point x; it is added where rounding has cut away
+    the deepest.
     """
     corners, others, cosine, other_cosine = NONE, NONE, 0.0, 0.0
     half_space = core[CORE + KIND] == HALF_SPACE
@@ -40,7 +41,7 @@ def points_between(
             others, other_cosine = count, turned
     flat = corners > 2 and cosine >= FLAT_COSINE
     other_flat = others > 2 and other_cosine >= FLAT_COSINE
-    found = 0
+    found, lines = 0, False
     if half_space:
         found = over_half_space(gap, nx, ny, nz, px, py, pz, reach, one, one_tag, corners, spot, gaps, names)
     elif (flat and others > 1) or (other_flat and corners > 1):
@@ -52,20 +53,43 @@ def points_between(
         found = over_face(
             face, face_tag, sides, plane, polygon, tag, count, on_first, gap, nx, ny, nz, reach, spot, gaps, names
         )
-    elif corners == 2 and others == 2:
+    elif corners > 1 and others > 1:
+        keep_foremost_edge(one, corners, nx, ny, nz)
+        keep_foremost_edge(two, others, -nx, -ny, -nz)
+        lines = True
         found = beside_line(one, two, gap, nx, ny, nz, reach, spot, gaps, names)
     least = 1e300
     for c in range(found):
         least = min(least, gaps[c])
     if least > gap + 2.0 * BIAS:
-        if corners == 2 and others == 2:
-            found = 0  # lines that cross touch at one point
+        if lines:
+            found = 0  # those that cross touch at one point
         gaps[found], names[found] = gap, 0
         spot[3 * found], spot[3 * found + 1], spot[3 * found + 2] = px, py, pz
         return found + 1
     for c in range(found):
         gaps[c] -= least - gap  # rounding: the deepest is as deep as the pair
     return found
+
+
+@inlined
+def keep_foremost_edge(polygon, count, x, y, z):
+    """Move the edge of an outline that is foremost along a direction to its front; a line is its own edge."""
+    best, most = 0, -1e300
+    for k in range(count if count > 2 else 0):
+        i, j = 3 * k, 3 * (k + 1 if k + 1 < count else 0)
+        here, there = (
+            x * polygon[i] + y * polygon[i + 1] + z * polygon[i + 2],
+            x * polygon[j] + y * polygon[j + 1] + z * polygon[j + 2],
+        )
+        if min(here, there) > most + BIAS:
+            best, most = k, min(here, there)
+    if best > 0:
+        i, j = 3 * best, 3 * (best + 1 if best + 1 < count else 0)
+        ax, ay, az, bx, by, bz = (
+            polygon[i], polygon[i + 1], polygon[i + 2], polygon[j], polygon[j + 1], polygon[j + 2],
+        )  # fmt: skip
+        polygon[0], polygon[1], polygon[2], polygon[3], polygon[4], polygon[5] = ax, ay, az, bx, by, bz
 
 
 @inlined

@@ -10,6 +10,8 @@ from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.outlines import LABELS
 from carom.systems.kernels.spatial import cross
 
+AHEAD_X, AHEAD_Y, AHEAD_Z = 0.36, 0.48, 0.8  # the end farther along it in the first frame is numbered 2
+
 
 @inlined
 def over_face(
@@ -102,14 +104,14 @@ def beside_line(line, other, gap, nx, ny, nz, reach, place, gaps, names):
         return 0
     if low >= high:
         return 0
-    found = 0
+    found, ahead = 0, AHEAD_X * ux + AHEAD_Y * uy + AHEAD_Z * uz > 0.0
     for k in range(2):
         s = low if k == 0 else high
         t = (s - begin) * length / along
         x, y, z = line[0] + s * ux, line[1] + s * uy, line[2] + s * uz
         apart = nx * (other[0] + t * vx - x) + ny * (other[1] + t * vy - y) + nz * (other[2] + t * vz - z)
         if apart <= reach:
-            gaps[found], names[found] = max(apart, gap), 1 + k
+            gaps[found], names[found] = max(apart, gap), 1 + k if ahead else 2 - k
             place[3 * found], place[3 * found + 1], place[3 * found + 2] = x, y, z
             found += 1
     return found
