@@ -50,7 +50,7 @@ def sum_forces(world: World, dt: float) -> None:
         force.force, force.torque, external.force, external.torque,
         flight.start_position, flight.start_rotation, flight.start_linear, flight.start_angular,
         transform.position, transform.rotation, motion.linear, motion.angular,
-        flight.felt, flight.angular_acceleration, flight.time, flight.touching,
+        flight.felt, flight.angular_acceleration, flight.time, flight.turned, flight.touching,
     )  # fmt: skip
 
 

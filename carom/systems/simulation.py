@@ -41,6 +41,7 @@ from carom.systems.layers import Layers
 from carom.systems.observer import Observer
 from carom.systems.places import extended
 from carom.systems.progress import Progress
+from carom.systems.resting import Resting
 from carom.systems.settings import Random, Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.step import STEP
@@ -65,7 +66,7 @@ class Simulation:
         self.clock = Clock()
         self._earlier = EarlierPoses()
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
-        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
+        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes(), Resting())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 

@@ -14,7 +14,7 @@ from carom.systems.forces.wind import apply_wind
 from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
 from carom.systems.progress import begin_step, begin_substep
-from carom.systems.response import drift, hold, settle, sort_out_contacts
+from carom.systems.response import drift, hold, relax, settle, sort_out_contacts
 from carom.systems.settings import Settings
 
 
@@ -46,7 +46,8 @@ STEP = Schedule(
         kick,  # each body's arc
         hold,  # velocities that respect resting contacts
         drift,  # the flight along the arcs, with impacts at their exact times
-        settle,  # overlap pushed out, origins placed
+        settle,  # origins placed, and how deep contacts have come to be
+        relax,  # velocities without what pushed overlap out
         repeat=substeps,
     ),
     Phase(

@@ -59,7 +59,7 @@ def test_equal_states_have_none(pair: tuple[World, World], stood: Snapshot) -> N
     b.despawn(ghost)
     a.despawn(a.spawn(Transform()))
     with b.edit(Contact) as contact:
-        contact.blow[:] = 7.0
+        contact.rolling[:] = 7.0
     assert first_difference(a, b) is None
     for world in (a, b):
         world.despawn(world.find("box1"))

@@ -23,6 +23,12 @@ class Flight(Component):
     start_rotation: Floats = column(4, unit="1", doc="rotation at the start of the substep", role="derived")
     start_linear: Floats = column(3, unit="m/s", doc="velocity at the start of the substep", role="derived")
     start_angular: Floats = column(3, unit="rad/s", doc="angular velocity at the start of the substep", role="derived")
-    start_center: Floats = column(3, unit="m", doc="centre of mass at the start of the substep", role="derived")
+    start_center: Floats = column(
+        3,
+        unit="m",
+        doc="centre of mass at the start of the substep, or when contacts were detected in it",
+        role="derived",
+    )
+    turned: Floats = column(3, unit="rad", doc="turn since then", role="derived")
     detected_center: Floats = column(3, unit="m", doc="centre of mass when contacts were last detected", role="derived")
     reach: Floats = column(unit="m", doc="how far from there the detection holds", role="derived")

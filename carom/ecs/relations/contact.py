@@ -37,7 +37,6 @@ class Contact(Relation):
         dtype="bool",
         role="derived",
     )
-    blow: Floats = column(unit="m/s", doc="closing speed the resting stage answered as an impact", role="derived")
     strikes: Integers = column(unit="1", doc="impacts in this substep so far", dtype="int64", role="derived")
     plastic: Integers = column(unit="1", doc="those after which the pair kept together", dtype="int64", role="derived")
     row_a: Integers = column(unit="1", doc="row of a", role="derived", holds="rows")

@@ -19,6 +19,7 @@ from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.detection.sensors import sense
 from carom.systems.kernels.contacts import complete_contacts, renew_contacts
 from carom.systems.kernels.narrow import reach_of_pairs
+from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 
@@ -27,7 +28,7 @@ from carom.systems.shapes.geometry import Geometries
     reads=(Transform, Motion, RigidBody, Collider, Material, Settings, Geometries),
     writes=(
         ColliderPose, Contact, Enter, Inside, Answered, Flight, BroadPhase, FclObjects, PackedHulls, PackedMeshes,
-        Commands,
+        Commands, Resting,
     ),
 )  # fmt: skip
 def find_contacts(world: World, dt: float) -> None:
@@ -76,3 +77,4 @@ def store(world: World, found: Found) -> None:
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
         contact.other_position, contact.other_rotation,
     )  # fmt: skip
+    world[Resting].group(contact)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product
@@ -79,6 +81,17 @@ def pressed_by_forces(a, b, nx, ny, nz, felt):
 
 
 @inlined
+def pushed(a, b, felt):
+    """Return the greater of what forces do to two bodies (m/s2)."""
+    squared = 0.0
+    if a >= 0:
+        squared = felt[a, 0] ** 2 + felt[a, 1] ** 2 + felt[a, 2] ** 2
+    if b >= 0:
+        squared = max(squared, felt[b, 0] ** 2 + felt[b, 1] ** 2 + felt[b, 2] ** 2)
+    return sqrt(squared)
+
+
+@inlined
 def pressing_of(i, o, nx, ny, nz, acceleration):
     """Return how fast two bodies accelerate towards each other along the normal n from o to i."""
     pressing = -(nx * acceleration[i, 0] + ny * acceleration[i, 1] + nz * acceleration[i, 2])
@@ -103,14 +116,16 @@ def stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration):
 
 @inlined
 def advance_body(
-    i, now, bend, center, rotation, linear, angular, time, acceleration, angular_acceleration, inertia, principal_axes
-):
+    i, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
+    inertia, principal_axes,
+):  # fmt: skip
     """Bring one body along its arc to ``now``: half the turning kick, free rotation, the other half."""
     t = now - time[i]
     for k in range(3):
         center[i, k] += linear[i, k] * t + bend * acceleration[i, k] * t * t
         linear[i, k] += acceleration[i, k] * t
         angular[i, k] += bend * angular_acceleration[i, k] * t
+        turned[i, k] += angular[i, k] * t
     qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
     ax, ay, az, aw = principal_axes[i, 0], principal_axes[i, 1], principal_axes[i, 2], principal_axes[i, 3]
     qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)

@@ -7,6 +7,7 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.components.material import Combine
 from carom.ecs.entity import INDEX_MASK
+from carom.systems.constants import SAME_POINT
 from carom.systems.kernels.balls import BOX, HALF_SPACE
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
@@ -133,30 +134,52 @@ def renew_contacts(
 ):  # fmt: skip
     """Replace the contacts by those found, keeping what a contact of the same colliders and feature held.
 
-    Both lists are sorted by rows and feature, so that one pass matches them.
+    Both lists are sorted by rows and feature, so that one pass matches them. Where corners and edges change places
+    under bodies that hardly move, a point of another feature within SAME_POINT takes over what the old one held.
     """
     count, used = len(found_a), len(handles)
-    kept = np.zeros((count, 11))
-    rested, counted = np.zeros(count, np.bool_), np.zeros((count, 2), np.int64)
-    o = 0
-    for c in range(count):
-        x, y, f = found_a[c], found_b[c], found_feature[c]
+    match, taken = np.full(count, -1), np.zeros(old_count, np.bool_)
+    o, c = 0, 0
+    while c < count:
+        x, y = found_a[c], found_b[c]
+        end = c + 1
+        while end < count and found_a[end] == x and found_b[end] == y:
+            end += 1
         while o < old_count:
             p, q = a[o] & INDEX_MASK, b[o] & INDEX_MASK  # ids, then the rows of those ids
             p, q = p + row_shift[p], q + row_shift[q]
             living = p < used and q < used and handles[p] == a[o] and handles[q] == b[o]  # others have lost their order
-            if living and (p > x or (p == x and (q > y or (q == y and feature[o] >= f)))):
+            if living and (p > x or (p == x and q >= y)):
                 break
             o += 1
-        if o == old_count or feature[o] != f:
-            continue
-        if a[o] != handles[x] or b[o] != handles[y]:
-            continue
-        rested[c], counted[c, 0], counted[c, 1] = resting[o], strikes[o], plastic[o]
-        kept[c, 0], kept[c, 7] = warm_normal[o], impulse[o]
-        for k in range(3):
-            kept[c, 1 + k], kept[c, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
-            kept[c, 8 + k] = friction_impulse[o, k]
+        until = o
+        while until < old_count and a[until] == handles[x] and b[until] == handles[y]:
+            until += 1
+        for new in range(c, end):
+            for old in range(o, until):
+                if feature[old] == found_feature[new]:
+                    match[new], taken[old] = old, True
+        for new in range(c, end):
+            nearest = SAME_POINT * SAME_POINT
+            for old in range(o, until if match[new] < 0 else o):
+                away = 0.0
+                for k in range(3):
+                    away += (point[old, k] - found_point[new, k]) ** 2
+                if not taken[old] and away < nearest:
+                    match[new], nearest = old, away
+            if match[new] >= 0:
+                taken[match[new]] = True
+        o, c = until, end
+    kept = np.zeros((count, 11))
+    rested, counted = np.zeros(count, np.bool_), np.zeros((count, 2), np.int64)
+    for c in range(count):
+        o = match[c]
+        if o >= 0:
+            rested[c], counted[c, 0], counted[c, 1] = resting[o], strikes[o], plastic[o]
+            kept[c, 0], kept[c, 7] = warm_normal[o], impulse[o]
+            for k in range(3):
+                kept[c, 1 + k], kept[c, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
+                kept[c, 8 + k] = friction_impulse[o, k]
     for c in range(count):
         x, y = found_a[c], found_b[c]
         a[c], b[c], feature[c] = handles[x], handles[y], found_feature[c]

@@ -48,11 +48,11 @@ def predict_middle(
             angular[i, k] += half * last_angular_acceleration[i, k]
 
 
-@kernel("position", "rotation", "linear", "angular", "felt", "angular_acceleration", "time", "touching")
+@kernel("position", "rotation", "linear", "angular", "felt", "angular_acceleration", "time", "turned", "touching")
 def accelerate(
     rows, inverse_mass, inverse_inertia, principal_axes, force, torque, external_force, external_torque,
     start_position, start_rotation, start_linear, start_angular,
-    position, rotation, linear, angular, felt, angular_acceleration, time, touching,
+    position, rotation, linear, angular, felt, angular_acceleration, time, turned, touching,
 ):  # fmt: skip
     """Turn forces into accelerations at the middle of the substep and bring the bodies back to its start."""
     for i in rows:
@@ -72,6 +72,7 @@ def accelerate(
             position[i, k] = start_position[i, k]
             linear[i, k] = start_linear[i, k]
             angular[i, k] = start_angular[i, k]
+            turned[i, k] = 0.0
         for k in range(4):
             rotation[i, k] = start_rotation[i, k]
         time[i] = 0.0

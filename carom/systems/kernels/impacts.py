@@ -9,6 +9,7 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import IMPACTS_AT_LEAST, IMPACTS_PER_PAIR, PATIENCE
 from carom.systems.kernels.balls import NEVER
+from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.strikes import foresee, strike
@@ -20,40 +21,49 @@ TIME, SPEED, IMPULSE, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 6, 9, 12
 
 
 @kernel(
-    "center", "rotation", "linear", "angular", "time", "acceleration", "resting", "impulse", "friction_impulse",
-    "strikes", "plastic",
+    "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
+    "impulse", "friction_impulse", "strikes", "plastic",
 )  # fmt: skip
 def fly(
     rows, start, h, left, bend, clock,
-    center, rotation, linear, angular, time, acceleration, angular_acceleration, felt, detected_center, reach,
+    center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
+    felt, detected_center, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes,
+    count, beginning, body_a, body_b, normal, depth, offset_a, offset_b,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
     friction, restitution, resting, impulse, friction_impulse, strikes, plastic, events,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts.
 
     Returns (time reached, reason, events, cut, impacts logged, pair of each, log). ``left`` is the time from the
-    substep's end to the step's. Pairs are rows of the contact table with ``kind`` >= 0; their first body is the ball.
+    substep's end to the step's. Pairs are the ``count`` manifolds that begin at rows of the contact table: those of
+    ``kind`` >= 0 are of a ball on an exact arc (`strike`), the others strike with all their points at once (`blow`).
     Where a body comes to move faster than its detection foresaw, everything is brought to that instant; the caller
     detects anew and calls again. What the substep has counted so far goes on: ``events``, and for each pair
     ``strikes`` and ``plastic``, else detection in the middle would renew the patience with endless rows of impacts.
     ``cut`` counts impacts beyond the cap, which are let pass.
     """
-    pairs = np.nonzero(kind >= 0)[0]
+    pairs, ends = np.empty(count, np.int64), np.empty(count, np.int64)
+    taken = 0
+    for m in range(count):
+        if kind[beginning[m]] >= 0 or not resting[beginning[m]]:
+            pairs[taken], ends[taken] = beginning[m], beginning[m + 1]
+            taken += 1
+    pairs, ends = pairs[:taken], ends[:taken]
     most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * len(pairs)
 
     # Which pairs each body takes part in, as slices of one array.
     begin = np.zeros(len(inverse_mass) + 1, np.int64)
     for p in pairs:
-        begin[ball[p] + 1] += 1
-        if other[p] >= 0:
-            begin[other[p] + 1] += 1
+        for body in (body_a[p], body_b[p]):
+            if body >= 0:
+                begin[body + 1] += 1
     for i in range(1, len(begin)):
         begin[i] += begin[i - 1]
     place = begin.copy()
     of_body = np.empty(begin[-1], np.int64)
     for m in range(len(pairs)):
-        for body in (ball[pairs[m]], other[pairs[m]]):
+        for body in (body_a[pairs[m]], body_b[pairs[m]]):
             if body >= 0:
                 of_body[place[body]] = m
                 place[body] += 1
@@ -77,8 +87,16 @@ def fly(
         for index in range(seek_count):
             m = seek[index]
             p = pairs[m]
+            if kind[p] < 0:
+                foreseen = foresee_blow(
+                    p, ends[m], now, h, bend, center, linear, angular, time, acceleration,
+                    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, resting,
+                )  # fmt: skip
+                enter_time(soonest, leaves + m, foreseen)
+                continue
+            blown = (not first or start > 0.0) and restitution[p] > 0.0 and plastic[p] < PATIENCE
             foreseen = foresee(
-                p, ball[p], other[p], now, h, (not first or start > 0.0) and plastic[p] < PATIENCE, bend,
+                p, ball[p], other[p], now, h, blown, bend,
                 center, rotation, linear, angular, time, acceleration, felt,
                 kind, radius, extent, other_position, other_rotation, resting,
             )  # fmt: skip
@@ -102,38 +120,55 @@ def fly(
             cut += 1
             now = h
             break
-        i, o = ball[p], other[p]
+        i, o = body_a[p], body_b[p]
+        if kind[p] >= 0:
+            i, o = ball[p], other[p]
         for body in (i, o):
             if body >= 0 and time[body] < now:
                 advance_body(
-                    body, now, bend, center, rotation, linear, angular, time, acceleration, angular_acceleration,
-                    inertia, principal_axes,
+                    body, now, bend, center, rotation, turned, linear, angular, time, acceleration,
+                    angular_acceleration, inertia, principal_axes,
                 )  # fmt: skip
-        speed, normal, nx, ny, nz, px, py, pz, jx, jy, jz, together = strike(
-            p, i, o, h, strikes[p], center, rotation, linear, angular, acceleration, felt,
-            inverse_mass, inverse_inertia, principal_axes,
-            kind, radius, extent, other_position, other_rotation, friction, restitution,
-        )  # fmt: skip
+        along_a = -1.0 if kind[p] < 0 else -sign[p]  # of the normal and the friction below, which act on the first
+        if kind[p] < 0:
+            nx, ny, nz = -normal[p, 0], -normal[p, 1], -normal[p, 2]
+            speed, pressed, px, py, pz, fx, fy, fz, together = blow(
+                p, ends[m], h, strikes[p], center, rotation, linear, angular, acceleration, felt,
+                inverse_mass, inverse_inertia, principal_axes,
+                body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, friction, restitution,
+                impulse, friction_impulse,
+            )  # fmt: skip
+            fx, fy, fz = -fx, -fy, -fz
+            at = i if i >= 0 else o
+            px, py, pz = center[at, 0] + px, center[at, 1] + py, center[at, 2] + pz
+        else:
+            speed, pressed, nx, ny, nz, px, py, pz, jx, jy, jz, together = strike(
+                p, i, o, h, strikes[p], center, rotation, linear, angular, acceleration, felt,
+                inverse_mass, inverse_inertia, principal_axes,
+                kind, radius, extent, other_position, other_rotation, friction, restitution,
+            )  # fmt: skip
+            fx, fy, fz = jx - pressed * nx, jy - pressed * ny, jz - pressed * nz
+            impulse[p] += pressed
+            for k, f in enumerate((fx, fy, fz)):
+                friction_impulse[p, k] += along_a * f
         enter_time(soonest, leaves + m, NEVER)
-        resting[p] = together  # from now on only a blow makes it an impact, else plastic pairs would never end
+        for c in range(p, ends[m]):
+            resting[c] = together  # from now on only a blow makes it an impact, else plastic pairs would never end
         plastic[p] += together
         strikes[p] += 1
         events += 1
         if speed > 0.0:
-            impulse[p] += normal
             if log_count == len(log_pair):
                 longer, longer_pair = np.empty((2 * log_count, WIDTH)), np.empty(2 * log_count, np.int64)
                 longer[:log_count], longer_pair[:log_count] = log, log_pair
                 log, log_pair = longer, longer_pair
             log_pair[log_count] = p
-            log[log_count, TIME], log[log_count, SPEED], log[log_count, IMPULSE] = clock + now, speed, normal
-            # The ball is a where sign is 1: the normal from a to b points away from it, and b feels the reaction.
-            for k, (j, n, at) in enumerate(((jx, nx, px), (jy, ny, py), (jz, nz, pz))):
-                rubbing = -sign[p] * (j - normal * n)
-                friction_impulse[p, k] += rubbing
-                log[log_count, FRICTION + k] = rubbing
-                log[log_count, NORMAL + k] = -sign[p] * n
-                log[log_count, POINT + k] = at
+            log[log_count, TIME], log[log_count, SPEED], log[log_count, IMPULSE] = clock + now, speed, pressed
+            # The normal from a to b points away from a ball that is a, and b feels the reaction.
+            for k, (f, n, at_k) in enumerate(((fx, nx, px), (fy, ny, py), (fz, nz, pz))):
+                log[log_count, FRICTION + k] = along_a * f
+                log[log_count, NORMAL + k] = along_a * n
+                log[log_count, POINT + k] = at_k
             log_count += 1
 
         # Both bodies are on new arcs: foresee all their pairs anew, and see whether detection still covers them.
@@ -141,7 +176,7 @@ def fly(
             if body < 0:
                 continue
             for slot in range(begin[body], begin[body + 1]):
-                if of_body[slot] != m or (body == i and not together):
+                if of_body[slot] != m or (not together and (body == i or i < 0)):
                     seek[seek_count] = of_body[slot]
                     seek_count += 1
             away, quick, push = 0.0, 0.0, 0.0
@@ -157,8 +192,8 @@ def fly(
     for i in rows:
         if time[i] < now:
             advance_body(
-                i, now, bend, center, rotation, linear, angular, time, acceleration, angular_acceleration,
-                inertia, principal_axes,
+                i, now, bend, center, rotation, turned, linear, angular, time, acceleration,
+                angular_acceleration, inertia, principal_axes,
             )  # fmt: skip
     return now, reason, events, cut, log_count, log_pair, log
 

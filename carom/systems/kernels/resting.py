@@ -1,229 +1,239 @@
-"""The resting stage: the impulses that hold resting contacts, and the arcs that follow from them."""
+"""The resting stage: impulses that hold contacts, by soft steps over manifolds."""
 
 from __future__ import annotations
 
 from math import sqrt
 
-import numpy as np
-
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SOLVED, SWEEPS
-from carom.systems.kernels.bodies import push_at, surface_velocity, turn_at, yielding
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.constants import POINT_SWEEPS, PUSH_SPEED, RELAX_SWEEPS, ROLL_SWEEPS
+from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.manifolds import (
+    AWAY,
+    GIVE,
+    LEVER_A,
+    LEVER_B,
+    MASS,
+    MIDDLE_A,
+    MIDDLE_B,
+    ROLL,
+    SPIN,
+    TANGENT,
+    about,
+)  # fmt: skip
 from carom.systems.kernels.spatial import cross
 
 
-@kernel(
-    "linear", "angular", "acceleration", "angular_acceleration", "touching",
-    "blow", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling",
-)  # fmt: skip
-def hold_contacts(
-    count, h, rest_pull, bends, body_a, body_b, normal, depth, offset_a, offset_b, kind, resting,
-    friction, restitution, rolling, spinning,
-    inverse_mass, inverse_inertia, principal, rotation, start_linear, start_angular,
-    linear, angular, acceleration, angular_acceleration, touching,
-    blow, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling,
+@kernel("linear", "angular", "warm_normal", "warm_friction", "warm_rolling")
+def press_contacts(
+    count, h, start, soft, rigid, body_a, body_b, normal, depth, resting, friction, rolling, spinning,
+    inverse_mass, spread, known, known_point, linear, angular, warm_normal, warm_friction, warm_rolling,
 ):  # fmt: skip
-    """Find impulses by which resting contacts do not close, stick or slide within the cone, and roll with resistance.
+    """Apply the impulses of the substep before, then solve every manifold once with its overlap pushed out.
 
-    Projected Gauss-Seidel over accumulated impulses with warm starts (Catto, Iterative Dynamics with Temporal
-    Coherence, 2005); friction is a disc, not a pyramid. Shapes without exact impacts bounce here: what closes faster
-    than the rest speed at the start of the substep is given back times the restitution. Returns how many did. With
-    ``bends`` the arcs of balls follow (`bend_arcs`).
+    ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`press_manifold`). Those with
+    something that cannot move come last, so that what is under a pile has the last word.
     """
-    members = np.nonzero(resting[:count])[0]
-    n = len(members)
-    tangent = np.empty((n, 6))
-    give = np.empty((n, 5))  # 1/K of the normal, K of the two tangents (3), wanted parting speed
-    for m in range(n):
-        c = members[m]
-        a, b = body_a[c], body_b[c]
-        nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
-        rax, ray, raz = offset_a[c, 0], offset_a[c, 1], offset_a[c, 2]
-        rbx, rby, rbz = offset_b[c, 0], offset_b[c, 1], offset_b[c, 2]
-        if abs(nx) < 0.6:
-            tx, ty, tz = cross(nx, ny, nz, 1.0, 0.0, 0.0)
-        else:
-            tx, ty, tz = cross(nx, ny, nz, 0.0, 1.0, 0.0)
-        inverse = 1.0 / sqrt(tx * tx + ty * ty + tz * tz)
-        tx, ty, tz = tx * inverse, ty * inverse, tz * inverse
-        ux, uy, uz = cross(nx, ny, nz, tx, ty, tz)
-        tangent[m, 0], tangent[m, 1], tangent[m, 2] = tx, ty, tz
-        tangent[m, 3], tangent[m, 4], tangent[m, 5] = ux, uy, uz
-        knn, ktt, ktu, kuu = 0.0, 0.0, 0.0, 0.0
-        for body, rx, ry, rz in ((a, rax, ray, raz), (b, rbx, rby, rbz)):
-            knn += yielding(
-                body, nx, ny, nz, nx, ny, nz, rx, ry, rz, inverse_mass, inverse_inertia, principal, rotation
-            )
-            ktt += yielding(
-                body, tx, ty, tz, tx, ty, tz, rx, ry, rz, inverse_mass, inverse_inertia, principal, rotation
-            )
-            ktu += yielding(
-                body, tx, ty, tz, ux, uy, uz, rx, ry, rz, inverse_mass, inverse_inertia, principal, rotation
-            )
-            kuu += yielding(
-                body, ux, uy, uz, ux, uy, uz, rx, ry, rz, inverse_mass, inverse_inertia, principal, rotation
-            )
-        determinant = ktt * kuu - ktu * ktu
-        give[m, 0] = 1.0 / knn if knn > 0.0 else 0.0
-        give[m, 1], give[m, 2], give[m, 3] = kuu / determinant, -ktu / determinant, ktt / determinant
-        wanted = depth[c] / h if depth[c] < 0.0 else 0.0
-        blow[c] = 0.0
-        if kind[c] < 0:
-            ax, ay, az = surface_velocity(a, rax, ray, raz, start_linear, start_angular)
-            bx, by, bz = surface_velocity(b, rbx, rby, rbz, start_linear, start_angular)
-            closing = -(nx * (bx - ax) + ny * (by - ay) + nz * (bz - az))
-            if closing > REST_SPEED_FACTOR * rest_pull * h + APPROACH:
-                blow[c] = closing
-                if restitution[c] > 0.0:
-                    wanted = restitution[c] * closing
-        give[m, 4] = wanted
-        j = warm_normal[c]
-        jx, jy, jz = j * nx + warm_friction[c, 0], j * ny + warm_friction[c, 1], j * nz + warm_friction[c, 2]
-        push_at(a, -1.0, jx, jy, jz, rax, ray, raz, linear, angular, inverse_mass, inverse_inertia, principal, rotation)
-        push_at(b, 1.0, jx, jy, jz, rbx, rby, rbz, linear, angular, inverse_mass, inverse_inertia, principal, rotation)
-        wx, wy, wz = warm_rolling[c, 0], warm_rolling[c, 1], warm_rolling[c, 2]
-        turn_at(a, -1.0, wx, wy, wz, angular, inverse_inertia, principal, rotation)
-        turn_at(b, 1.0, wx, wy, wz, angular, inverse_inertia, principal, rotation)
+    for m in range(count):
+        first, end = start[m], start[m + 1]
+        if not resting[first]:
+            continue
+        a, b = body_a[first], body_b[first]
+        nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
+        fx, fy, fz, wx, wy, wz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for c in range(first, end):
+            press(c, warm_normal[c], a, b, nx, ny, nz, inverse_mass, spread, known_point, linear, angular)
+            fx, fy, fz = fx + warm_friction[c, 0], fy + warm_friction[c, 1], fz + warm_friction[c, 2]
+            wx, wy, wz = wx + warm_rolling[c, 0], wy + warm_rolling[c, 1], wz + warm_rolling[c, 2]
+        rub(m, fx, fy, fz, a, b, inverse_mass, spread, known, linear, angular)
+        twist(a, -wx, -wy, -wz, spread, angular)
+        twist(b, wx, wy, wz, spread, angular)
+    for last in (False, True):
+        for m in range(count):
+            first = start[m]
+            a, b = body_a[first], body_b[first]
+            if resting[first] and stands(a, b, inverse_mass) == last:
+                rate, hardness, give_way = rigid if last else soft
+                press_manifold(
+                    m, first, start[m + 1], h, rate, hardness, give_way, a, b,
+                    normal, depth, friction, rolling, spinning,
+                    inverse_mass, spread, known, known_point, linear, angular,
+                    warm_normal, warm_friction, warm_rolling,
+                )  # fmt: skip
 
-    for _ in range(SWEEPS):
-        change = 0.0
-        for m in range(n):
-            c = members[m]
-            a, b = body_a[c], body_b[c]
-            nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
-            rax, ray, raz = offset_a[c, 0], offset_a[c, 1], offset_a[c, 2]
-            rbx, rby, rbz = offset_b[c, 0], offset_b[c, 1], offset_b[c, 2]
-            ax, ay, az = surface_velocity(a, rax, ray, raz, linear, angular)
-            bx, by, bz = surface_velocity(b, rbx, rby, rbz, linear, angular)
-            off = nx * (bx - ax) + ny * (by - ay) + nz * (bz - az) - give[m, 4]
-            before = warm_normal[c]
-            warm_normal[c] = max(0.0, before - give[m, 0] * off)
-            j = warm_normal[c] - before
-            if give[m, 0] > 0.0:
-                change = max(change, abs(j) / give[m, 0])
-            jx, jy, jz = j * nx, j * ny, j * nz
-            push_at(
-                a, -1.0, jx, jy, jz, rax, ray, raz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
-            )
-            push_at(
-                b, 1.0, jx, jy, jz, rbx, rby, rbz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
-            )
-            most = friction[c] * warm_normal[c]
-            slides = True
-            if friction[c] > 0.0:
-                ax, ay, az = surface_velocity(a, rax, ray, raz, linear, angular)
-                bx, by, bz = surface_velocity(b, rbx, rby, rbz, linear, angular)
-                sx, sy, sz = bx - ax, by - ay, bz - az
-                tx, ty, tz = tangent[m, 0], tangent[m, 1], tangent[m, 2]
-                ux, uy, uz = tangent[m, 3], tangent[m, 4], tangent[m, 5]
-                vt, vu = tx * sx + ty * sy + tz * sz, ux * sx + uy * sy + uz * sz
-                px, py, pz = warm_friction[c, 0], warm_friction[c, 1], warm_friction[c, 2]
-                ft = tx * px + ty * py + tz * pz - (give[m, 1] * vt + give[m, 2] * vu)
-                fu = ux * px + uy * py + uz * pz - (give[m, 2] * vt + give[m, 3] * vu)
-                size = sqrt(ft * ft + fu * fu)
-                slides = size > most
-                if slides:
-                    ft, fu = ft * (most / size), fu * (most / size)
-                fx, fy, fz = ft * tx + fu * ux, ft * ty + fu * uy, ft * tz + fu * uz
-                jx, jy, jz = fx - px, fy - py, fz - pz
-                warm_friction[c, 0], warm_friction[c, 1], warm_friction[c, 2] = fx, fy, fz
-                change = max(change, sqrt(jx * jx + jy * jy + jz * jz) / max(give[m, 1], give[m, 3]))
-                push_at(
-                    a, -1.0, jx, jy, jz, rax, ray, raz,
-                    linear, angular, inverse_mass, inverse_inertia, principal, rotation,
-                )  # fmt: skip
-                push_at(
-                    b, 1.0, jx, jy, jz, rbx, rby, rbz,
-                    linear, angular, inverse_mass, inverse_inertia, principal, rotation,
-                )  # fmt: skip
-            if rolling[c] > 0.0 or spinning[c] > 0.0:
-                sx, sy, sz = 0.0, 0.0, 0.0
-                ease, lever = 0.0, 0.0
-                for body, sense, rx, ry, rz in ((a, -1.0, rax, ray, raz), (b, 1.0, rbx, rby, rbz)):
-                    if body >= 0:
-                        sx, sy, sz = (
-                            sx + sense * angular[body, 0],
-                            sy + sense * angular[body, 1],
-                            sz + sense * angular[body, 2],
-                        )
-                        ease += max(inverse_inertia[body, 0], inverse_inertia[body, 1], inverse_inertia[body, 2])
-                        lever += rx * rx + ry * ry + rz * rz
-                px, py, pz = warm_rolling[c, 0], warm_rolling[c, 1], warm_rolling[c, 2]
-                jx, jy, jz = px - sx / ease, py - sy / ease, pz - sz / ease
-                along = nx * jx + ny * jy + nz * jz
-                jx, jy, jz = jx - along * nx, jy - along * ny, jz - along * nz
-                size = sqrt(jx * jx + jy * jy + jz * jz)
-                most = 0.0 if slides else rolling[c] * warm_normal[c]  # what slides does not roll
-                if size > most:
-                    jx, jy, jz = jx * (most / size), jy * (most / size), jz * (most / size)
-                most = spinning[c] * warm_normal[c]
-                along = min(max(along, -most), most)
-                jx, jy, jz = jx + along * nx, jy + along * ny, jz + along * nz
-                warm_rolling[c, 0], warm_rolling[c, 1], warm_rolling[c, 2] = jx, jy, jz
-                jx, jy, jz = jx - px, jy - py, jz - pz
-                change = max(change, sqrt((jx * jx + jy * jy + jz * jz) * lever) * ease)
-                turn_at(a, -1.0, jx, jy, jz, angular, inverse_inertia, principal, rotation)
-                turn_at(b, 1.0, jx, jy, jz, angular, inverse_inertia, principal, rotation)
-        if change <= SOLVED:
-            break
-    blows = 0
-    for m in range(n):
-        c = members[m]
-        impulse[c] += warm_normal[c]
-        for k in range(3):
-            friction_impulse[c, k] += warm_friction[c, k]
-        if warm_normal[c] == 0.0:
-            blow[c] = 0.0
-        elif blow[c] > 0.0:
-            blows += 1
-    if bends:
-        bend_arcs(
-            count, h, body_a, body_b, normal, kind, resting, touching, start_linear, start_angular,
-            linear, angular, acceleration, angular_acceleration,
-        )  # fmt: skip
-    return blows
+
+@kernel("linear", "angular", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
+def relax_contacts(
+    count, h, start, body_a, body_b, normal, depth, resting, friction, rolling, spinning,
+    inverse_mass, spread, known, known_point, linear, angular,
+    impulse, friction_impulse, warm_normal, warm_friction, warm_rolling,
+):  # fmt: skip
+    """Take out of the velocities what pushed overlap out, and sum up the impulses."""
+    for _ in range(RELAX_SWEEPS):
+        for last in (False, True):
+            for m in range(count):
+                first = start[m]
+                a, b = body_a[first], body_b[first]
+                if resting[first] and stands(a, b, inverse_mass) == last:
+                    press_manifold(
+                        m, first, start[m + 1], h, 0.0, 1.0, 0.0, a, b, normal, depth, friction, rolling, spinning,
+                        inverse_mass, spread, known, known_point, linear, angular,
+                        warm_normal, warm_friction, warm_rolling,
+                    )  # fmt: skip
+    for m in range(count):
+        if resting[start[m]]:
+            for c in range(start[m], start[m + 1]):
+                impulse[c] += warm_normal[c]
+                for k in range(3):
+                    friction_impulse[c, k] += warm_friction[c, k]
 
 
 @inlined
-def bend_arcs(
-    count, h, body_a, body_b, normal, kind, resting, touching, start_linear, start_angular,
-    linear, angular, acceleration, angular_acceleration,
-):  # fmt: skip
-    """Let balls that only rest on others fly the substep at constant acceleration instead of at their last velocity.
+def stands(a, b, inverse_mass):
+    """Tell whether one of two bodies cannot be moved."""
+    return a < 0 or b < 0 or inverse_mass[a] == 0.0 or inverse_mass[b] == 0.0
 
-    What friction and rolling resistance took is spread over the substep, which makes sliding and rolling exact between
-    changes of state, and speeds right at impacts in between. Along the contact normals the velocity stays the last one.
+
+@woven
+def press_manifold(
+    m, first, end, h, rate, hardness, give_way, a, b, normal, depth, friction, rolling, spinning,
+    inverse_mass, spread, known, known_point, linear, angular, warm_normal, warm_friction, warm_rolling,
+):  # fmt: skip
+    """Solve one manifold once: its points one after the other, then friction, spinning and rolling of all together.
+
+    Overlap leaves at ``rate`` (1/s) times itself. A soft contact is a spring and a damper, stepped implicitly, of which
+    ``hardness`` (part of the mass) and ``give_way`` (part of the impulse given up) remain: Catto, Soft Constraints, GDC
+    2011, and Solver2D, 2024 (soft step). A gap may close until the end of the substep.
     """
-    for c in range(count):
-        if resting[c] and kind[c] < 0:
-            for body in (body_a[c], body_b[c]):
-                if body >= 0:
-                    touching[body] = False
-    for c in range(count):
-        if not resting[c]:
-            continue
-        for body in (body_a[c], body_b[c]):
-            if body >= 0 and touching[body]:
+    nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
+    for _ in range(POINT_SWEEPS if end - first > 1 else 1):
+        for c in range(first, end):
+            off = 0.0
+            if a >= 0:
+                off -= nx * linear[a, 0] + ny * linear[a, 1] + nz * linear[a, 2]
                 for k in range(3):
-                    acceleration[body, k] = (linear[body, k] - start_linear[body, k]) / h
-                    angular_acceleration[body, k] = (angular[body, k] - start_angular[body, k]) / h
-    for c in range(count):
-        if not resting[c]:
-            continue
-        for body in (body_a[c], body_b[c]):
-            if body >= 0 and touching[body]:
-                along = 0.0
+                    off -= known_point[c, LEVER_A + k] * angular[a, k]
+            if b >= 0:
+                off += nx * linear[b, 0] + ny * linear[b, 1] + nz * linear[b, 2]
                 for k in range(3):
-                    along += normal[c, k] * acceleration[body, k]
-                for k in range(3):
-                    acceleration[body, k] -= along * normal[c, k]
-    for c in range(count):
-        if not resting[c]:
-            continue
-        for body in (body_a[c], body_b[c]):
-            if body >= 0 and touching[body]:
-                touching[body] = False  # each body once
-                for k in range(3):
-                    linear[body, k] -= h * acceleration[body, k]
-                    angular[body, k] -= h * angular_acceleration[body, k]
+                    off += known_point[c, LEVER_B + k] * angular[b, k]
+            before, hard, yielding = warm_normal[c], 1.0, 0.0
+            if depth[c] < 0.0:
+                off -= depth[c] / h
+            elif rate > 0.0:
+                off -= min(rate * depth[c], PUSH_SPEED)
+                hard, yielding = hardness, give_way
+            warm_normal[c] = max(0.0, before - hard * known_point[c, MASS] * off - yielding * before)
+            press(c, warm_normal[c] - before, a, b, nx, ny, nz, inverse_mass, spread, known_point, linear, angular)
+    total, twisting = 0.0, 0.0
+    px, py, pz, qx, qy, qz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for c in range(first, end):
+        total += warm_normal[c]
+        twisting += warm_normal[c] * known_point[c, AWAY]
+        px, py, pz = px + warm_friction[c, 0], py + warm_friction[c, 1], pz + warm_friction[c, 2]
+        qx, qy, qz = qx + warm_rolling[c, 0], qy + warm_rolling[c, 1], qz + warm_rolling[c, 2]
+    if friction[first] == 0.0 and spinning[first] == 0.0:
+        return
+    tx, ty, tz = known[m, TANGENT], known[m, TANGENT + 1], known[m, TANGENT + 2]
+    ux, uy, uz = known[m, TANGENT + 3], known[m, TANGENT + 4], known[m, TANGENT + 5]
+    most = friction[first] * total
+    most_spin = spinning[first] * total + friction[first] * twisting
+    for _ in range(ROLL_SWEEPS if rolling[first] > 0.0 else 1):
+        sx, sy, sz = slip(m, a, b, known, linear, angular)
+        vt, vu = tx * sx + ty * sy + tz * sz, ux * sx + uy * sy + uz * sz
+        ft = tx * px + ty * py + tz * pz - (known[m, GIVE] * vt + known[m, GIVE + 1] * vu)
+        fu = ux * px + uy * py + uz * pz - (known[m, GIVE + 1] * vt + known[m, GIVE + 2] * vu)
+        size = sqrt(ft * ft + fu * fu)
+        slides = size > most
+        if slides:
+            ft, fu = ft * (most / size), fu * (most / size)
+        fx, fy, fz = ft * tx + fu * ux, ft * ty + fu * uy, ft * tz + fu * uz
+        rub(m, fx - px, fy - py, fz - pz, a, b, inverse_mass, spread, known, linear, angular)
+        px, py, pz = fx, fy, fz
+        if most_spin == 0.0 and rolling[first] == 0.0:
+            break
+        sx, sy, sz = 0.0, 0.0, 0.0
+        if a >= 0:
+            sx, sy, sz = -angular[a, 0], -angular[a, 1], -angular[a, 2]
+        if b >= 0:
+            sx, sy, sz = sx + angular[b, 0], sy + angular[b, 1], sz + angular[b, 2]
+        spin = nx * sx + ny * sy + nz * sz
+        along = nx * qx + ny * qy + nz * qz
+        wx = qx - along * nx - known[m, ROLL] * (sx - spin * nx)
+        wy = qy - along * ny - known[m, ROLL] * (sy - spin * ny)
+        wz = qz - along * nz - known[m, ROLL] * (sz - spin * nz)
+        size = sqrt(wx * wx + wy * wy + wz * wz)
+        most_roll = 0.0 if slides else rolling[first] * total  # what slides does not roll
+        if size > most_roll:
+            wx, wy, wz = wx * (most_roll / size), wy * (most_roll / size), wz * (most_roll / size)
+        along = min(max(along - known[m, SPIN] * spin, -most_spin), most_spin)
+        wx, wy, wz = wx + along * nx, wy + along * ny, wz + along * nz
+        twist(a, qx - wx, qy - wy, qz - wz, spread, angular)
+        twist(b, wx - qx, wy - qy, wz - qz, spread, angular)
+        qx, qy, qz = wx, wy, wz
+    share = 1.0 / (end - first)
+    for c in range(first, end):
+        warm_friction[c, 0], warm_friction[c, 1], warm_friction[c, 2] = px * share, py * share, pz * share
+        warm_rolling[c, 0], warm_rolling[c, 1], warm_rolling[c, 2] = qx * share, qy * share, qz * share
+
+
+@inlined
+def press(c, j, a, b, nx, ny, nz, inverse_mass, spread, known_point, linear, angular):
+    """Press the bodies of contact c apart along its normal by the impulse j."""
+    if a >= 0:
+        move(a, -j * nx, -j * ny, -j * nz, inverse_mass, linear)
+        x, y, z = known_point[c, LEVER_A], known_point[c, LEVER_A + 1], known_point[c, LEVER_A + 2]
+        twist(a, -j * x, -j * y, -j * z, spread, angular)
+    if b >= 0:
+        move(b, j * nx, j * ny, j * nz, inverse_mass, linear)
+        x, y, z = known_point[c, LEVER_B], known_point[c, LEVER_B + 1], known_point[c, LEVER_B + 2]
+        twist(b, j * x, j * y, j * z, spread, angular)
+
+
+@inlined
+def rub(m, jx, jy, jz, a, b, inverse_mass, spread, known, linear, angular):
+    """Apply an impulse on b, and its reaction on a, at the middle of a manifold."""
+    if a >= 0:
+        move(a, -jx, -jy, -jz, inverse_mass, linear)
+        x, y, z = cross(known[m, MIDDLE_A], known[m, MIDDLE_A + 1], known[m, MIDDLE_A + 2], jx, jy, jz)
+        twist(a, -x, -y, -z, spread, angular)
+    if b >= 0:
+        move(b, jx, jy, jz, inverse_mass, linear)
+        x, y, z = cross(known[m, MIDDLE_B], known[m, MIDDLE_B + 1], known[m, MIDDLE_B + 2], jx, jy, jz)
+        twist(b, x, y, z, spread, angular)
+
+
+@inlined
+def slip(m, a, b, known, linear, angular):
+    """Return the velocity of b against a at the middle of a manifold."""
+    sx, sy, sz = 0.0, 0.0, 0.0
+    if a >= 0:
+        x, y, z = cross(
+            angular[a, 0], angular[a, 1], angular[a, 2],
+            known[m, MIDDLE_A], known[m, MIDDLE_A + 1], known[m, MIDDLE_A + 2],
+        )  # fmt: skip
+        sx, sy, sz = -linear[a, 0] - x, -linear[a, 1] - y, -linear[a, 2] - z
+    if b >= 0:
+        x, y, z = cross(
+            angular[b, 0], angular[b, 1], angular[b, 2],
+            known[m, MIDDLE_B], known[m, MIDDLE_B + 1], known[m, MIDDLE_B + 2],
+        )  # fmt: skip
+        sx, sy, sz = sx + linear[b, 0] + x, sy + linear[b, 1] + y, sz + linear[b, 2] + z
+    return sx, sy, sz
+
+
+@inlined
+def move(i, jx, jy, jz, inverse_mass, linear):
+    """Apply an impulse to the centre of body i."""
+    linear[i, 0] += inverse_mass[i] * jx
+    linear[i, 1] += inverse_mass[i] * jy
+    linear[i, 2] += inverse_mass[i] * jz
+
+
+@inlined
+def twist(i, tx, ty, tz, spread, angular):
+    """Apply an angular impulse to body i, if it is one."""
+    if i >= 0:
+        wx, wy, wz = about(i, tx, ty, tz, spread)
+        angular[i, 0] += wx
+        angular[i, 1] += wy
+        angular[i, 2] += wz

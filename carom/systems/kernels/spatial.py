@@ -86,3 +86,15 @@ def freely_turned(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t):  # type: ignore[no
     mx, my, mz = turn(-qx, -qy, -qz, qw, gx, gy, gz)
     wx, wy, wz = turn(qx, qy, qz, qw, mx / ix, my / iy, mz / iz)
     return qx, qy, qz, qw, wx, wy, wz
+
+
+@inlined
+def plane_axes(nx, ny, nz):  # type: ignore[no-untyped-def]
+    """Return two unit vectors that span the plane of the unit normal n, right-handed with it.
+
+    Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6 (1), 2017.
+    """
+    sign = 1.0 if nz >= 0.0 else -1.0
+    p = -1.0 / (sign + nz)
+    q = nx * ny * p
+    return 1.0 + sign * nx * nx * p, sign * q, -sign * nx, q, sign + ny * ny * p, -ny

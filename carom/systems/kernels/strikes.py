@@ -11,6 +11,7 @@ from carom.systems.kernels.bodies import (
     pressed_by_forces,
     pressing_of,
     push_at,
+    pushed,
     stop_pressing,
     surface_velocity,
     turned_by,
@@ -26,7 +27,8 @@ def foresee(
 ):  # fmt: skip
     """Return when the bodies of pair p strike each other within the substep, NEVER if they do not.
 
-    A resting pair is held by the solver; only a blow on one of its bodies (``blown``) makes it an impact.
+    A resting pair is held by the solver; only a blow on one of its bodies makes it an impact, where it
+    would bounce (``blown``).
     """
     if resting[p] and not blown:
         return NEVER
@@ -121,15 +123,6 @@ def strike(
     if bounce == 0.0:
         stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration)
     return -vn, normal, nx, ny, nz, px, py, pz, jx, jy, jz, bounce == 0.0
-
-
-@inlined
-def pushed(i, o, felt):
-    """Return the greater of what forces do to two bodies (m/s2)."""
-    squared = felt[i, 0] ** 2 + felt[i, 1] ** 2 + felt[i, 2] ** 2
-    if o >= 0:
-        squared = max(squared, felt[o, 0] ** 2 + felt[o, 1] ** 2 + felt[o, 2] ** 2)
-    return sqrt(squared)
 
 
 @inlined

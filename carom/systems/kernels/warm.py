@@ -6,7 +6,7 @@ import multiprocessing
 from concurrent.futures import ProcessPoolExecutor
 
 #: Systems whose kernels take about half of the time to compile; the other process compiles all others.
-HEAVY = ("hold", "drift", "settle")
+HEAVY = ("hold", "drift", "settle", "relax")
 
 
 def warm() -> None:

@@ -1,0 +1,204 @@
+"""Impacts of bodies without exact arcs: when a manifold closes, and what all its points do at once."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import APPROACH, BLOW_SWEEPS, PATIENCE, REST_SPEED_FACTOR, SOLVED, TOUCH
+from carom.systems.kernels.balls import NEVER
+from carom.systems.kernels.bodies import (
+    pressed_by_forces,
+    pressing_of,
+    push_at,
+    pushed,
+    stop_pressing,
+    surface_velocity,
+    yielding,
+)
+from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.spatial import cross
+
+
+@inlined
+def depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned):
+    """Return the depth of contact c where its bodies are now; ``depth`` is that at the start of the substep.
+
+    Its point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
+    """
+    moved = 0.0
+    if a >= 0:
+        x, y, z = cross(turned[a, 0], turned[a, 1], turned[a, 2], offset_a[c, 0], offset_a[c, 1], offset_a[c, 2])
+        for k, turn in enumerate((x, y, z)):
+            moved += normal[c, k] * (center[a, k] - start_center[a, k] + turn)
+    if b >= 0:
+        x, y, z = cross(turned[b, 0], turned[b, 1], turned[b, 2], offset_b[c, 0], offset_b[c, 1], offset_b[c, 2])
+        for k, turn in enumerate((x, y, z)):
+            moved -= normal[c, k] * (center[b, k] - start_center[b, k] + turn)
+    return depth[c] + moved
+
+
+@inlined
+def foresee_blow(
+    first, end, now, h, bend, center, linear, angular, time, acceleration,
+    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, resting,
+):  # fmt: skip
+    """Return when the first point of a manifold closes within the substep, NEVER if none does or it is held.
+
+    Accelerations of the arcs count along the normal, turning as it is now.
+    """
+    if resting[first]:
+        return NEVER
+    a, b = body_a[first], body_b[first]
+    nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
+    pull, gained, covered = (
+        0.0,
+        0.0,
+        0.0,
+    )  # a against b, along the normal: acceleration, and since the bodies' own times
+    for body, sense in ((a, 1.0), (b, -1.0)):
+        if body >= 0:
+            late = now - time[body]
+            along = sense * (nx * acceleration[body, 0] + ny * acceleration[body, 1] + nz * acceleration[body, 2])
+            pull, gained, covered = (
+                pull + along,
+                gained + 2.0 * bend * along * late,
+                covered + bend * along * late * late,
+            )
+    soonest = NEVER
+    for c in range(first, end):
+        closing = gained
+        gap = -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned) - covered
+        for body, offset, sense in ((a, offset_a, 1.0), (b, offset_b, -1.0)):
+            if body >= 0:
+                x, y, z = surface_velocity(body, offset[c, 0], offset[c, 1], offset[c, 2], linear, angular)
+                speed = sense * (nx * x + ny * y + nz * z)
+                gap -= speed * (now - time[body])
+                closing += speed
+        if gap <= 0.0:
+            if closing > APPROACH:
+                return now
+            continue
+        root = closing * closing + 4.0 * bend * pull * gap  # of gap = closing t + bend pull t^2
+        if root >= 0.0 and closing + sqrt(root) > 0.0:
+            soonest = min(soonest, now + 2.0 * gap / (closing + sqrt(root)))
+    return soonest if soonest <= h else NEVER
+
+
+@inlined
+def blow(
+    first, end, h, struck_before, center, rotation, linear, angular, acceleration, felt,
+    inverse_mass, inverse_inertia, principal,
+    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, friction, restitution,
+    impulse, friction_impulse,
+):  # fmt: skip
+    """Let all touching points of a manifold strike at once: each parts at its restitution, within Coulomb's cone.
+
+    Returns (closing speed, normal impulse, its point from the centre of a or, where a is static, of b, friction impulse
+    on b (3), whether they stay together).
+    Gauss-Seidel over the points of one pair; of four points in a plane, whichever solution gives the same motion.
+    """
+    a, b = body_a[first], body_b[first]
+    nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
+    pressing = pressed_by_forces(a, b, nx, ny, nz, felt)
+    if struck_before >= PATIENCE:
+        pressing = max(pressing, pushed(a, b, felt))
+    if a >= 0:
+        pressing = max(pressing, pressing_of(a, b, -nx, -ny, -nz, acceleration))
+    else:
+        pressing = max(pressing, pressing_of(b, a, nx, ny, nz, acceleration))
+    n = end - first
+    ease, wanted, given = np.zeros(n), np.zeros(n), np.zeros((n, 4))
+    speed = 0.0
+    for m in range(n):
+        c = first + m
+        away = -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned)
+        if away > TOUCH:
+            continue
+        pax, pay, paz = offset_a[c, 0], offset_a[c, 1], offset_a[c, 2]
+        pbx, pby, pbz = offset_b[c, 0], offset_b[c, 1], offset_b[c, 2]
+        k = yielding(a, nx, ny, nz, nx, ny, nz, pax, pay, paz, inverse_mass, inverse_inertia, principal, rotation)
+        k += yielding(b, nx, ny, nz, nx, ny, nz, pbx, pby, pbz, inverse_mass, inverse_inertia, principal, rotation)
+        ease[m] = 1.0 / k if k > 0.0 else 0.0
+        ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
+        bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
+        closing = -(nx * (bx - ax) + ny * (by - ay) + nz * (bz - az))
+        speed = max(speed, closing)
+        wanted[m] = closing
+    if speed <= APPROACH:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, True
+    bounce = restitution[first] if speed > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
+    for m in range(n):
+        wanted[m] = bounce * max(0.0, wanted[m])
+    for _ in range(BLOW_SWEEPS):
+        change = 0.0
+        for m in range(n):
+            if ease[m] == 0.0:
+                continue
+            c = first + m
+            pax, pay, paz = offset_a[c, 0], offset_a[c, 1], offset_a[c, 2]
+            pbx, pby, pbz = offset_b[c, 0], offset_b[c, 1], offset_b[c, 2]
+            ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
+            bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
+            off = nx * (bx - ax) + ny * (by - ay) + nz * (bz - az) - wanted[m]
+            before = given[m, 0]
+            given[m, 0] = max(0.0, before - ease[m] * off)
+            j = given[m, 0] - before
+            change = max(change, abs(j) / ease[m])
+            jx, jy, jz = j * nx, j * ny, j * nz
+            push_at(
+                a, -1.0, jx, jy, jz, pax, pay, paz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
+            )
+            push_at(
+                b, 1.0, jx, jy, jz, pbx, pby, pbz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
+            )
+            if friction[first] == 0.0:
+                continue
+            ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
+            bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
+            sx, sy, sz = bx - ax, by - ay, bz - az
+            along = nx * sx + ny * sy + nz * sz
+            sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
+            size = sqrt(sx * sx + sy * sy + sz * sz)
+            if size <= SOLVED:
+                continue
+            tx, ty, tz = sx / size, sy / size, sz / size
+            k = yielding(a, tx, ty, tz, tx, ty, tz, pax, pay, paz, inverse_mass, inverse_inertia, principal, rotation)
+            k += yielding(b, tx, ty, tz, tx, ty, tz, pbx, pby, pbz, inverse_mass, inverse_inertia, principal, rotation)
+            px, py, pz = given[m, 1], given[m, 2], given[m, 3]
+            fx, fy, fz = px - sx / k, py - sy / k, pz - sz / k
+            size = sqrt(fx * fx + fy * fy + fz * fz)
+            most = friction[first] * given[m, 0]
+            if size > most:
+                fx, fy, fz = fx * (most / size), fy * (most / size), fz * (most / size)
+            given[m, 1], given[m, 2], given[m, 3] = fx, fy, fz
+            jx, jy, jz = fx - px, fy - py, fz - pz
+            change = max(change, sqrt(jx * jx + jy * jy + jz * jz) * k)
+            push_at(
+                a, -1.0, jx, jy, jz, pax, pay, paz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
+            )
+            push_at(
+                b, 1.0, jx, jy, jz, pbx, pby, pbz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
+            )
+        if change <= SOLVED * max(1.0, speed):
+            break
+    if bounce == 0.0:  # what presses them is taken out of their arcs, as a contact force would
+        if b >= 0:
+            stop_pressing(b, a, nx, ny, nz, inverse_mass, acceleration)
+        else:
+            stop_pressing(a, b, -nx, -ny, -nz, inverse_mass, acceleration)
+    total, px, py, pz, fx, fy, fz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for m in range(n):
+        c, j = first + m, given[m, 0]
+        total += j
+        at = offset_a if a >= 0 else offset_b
+        px, py, pz = px + j * at[c, 0], py + j * at[c, 1], pz + j * at[c, 2]
+        fx, fy, fz = fx + given[m, 1], fy + given[m, 2], fz + given[m, 3]
+        impulse[c] += j
+        for k in range(3):
+            friction_impulse[c, k] += given[m, 1 + k]
+    if total > 0.0:
+        px, py, pz = px / total, py / total, pz / total
+    return speed, total, px, py, pz, fx, fy, fz, bounce == 0.0
