@@ -68,6 +68,11 @@ BLOW_SWEEPS = 200
 # points far off turn bodies for a substep. Smaller: stacks edge on edge, whose corners change places, begin anew.
 SAME_POINT = 0.1
 
+# Part of the smaller shape's longest half extent by which points may slip or sink, and turn in radians, before a pair
+# is measured anew. Larger: contacts are where the shapes no longer are. Smaller: piles are measured at every tremble,
+# and tremble.
+RECYCLED_SLIP, RECYCLED_TURN = 1e-3, 2e-3
+
 # Points of a manifold; a pair with more on one plane has several.
 MANIFOLD_POINTS = 4
 

@@ -171,7 +171,7 @@ def test_the_floor_carries_the_weight_of_a_stack() -> None:
 
 
 def test_a_pile_of_boxes_comes_to_rest_without_overlap() -> None:
-    """Sixty boxes of all sizes dropped into a bin: after 8 s none moves by more than 1 cm/s or is 2 cm deep."""
+    """Sixty boxes of all sizes dropped into a bin: after 10 s none moves by more than 0.1 mm/s or is 5 mm deep."""
     simulation = on_ground()
     for x, z in ((3.0, 0.0), (-3.0, 0.0), (0.0, 3.0), (0.0, -3.0)):
         size = (1.0, 20.0, 7.0) if x else (7.0, 20.0, 1.0)
@@ -188,10 +188,10 @@ def test_a_pile_of_boxes_comes_to_rest_without_overlap() -> None:
                 "rotation": tuple(turn / np.linalg.norm(turn)),
             },
         )
-    simulation.step(480)
+    simulation.step(600)
     placed = positions(simulation)
     assert (np.abs(placed[:, [0, 2]]) < 2.5).all()
     assert (placed[:, 1] > 0.1).all()
     contact = simulation.world[Contact]
-    assert contact.depth[: contact.count].max() <= 0.02
-    assert fastest(simulation) <= 0.01
+    assert contact.depth[: contact.count].max() <= 0.005
+    assert fastest(simulation) <= 1e-4

@@ -214,7 +214,10 @@ def test_coplanar_triangles_are_one_face() -> None:
 
 @pytest.mark.parametrize("sides", [3, 4, 6, 20])
 def test_a_tower_of_prisms_stands(sides: int) -> None:
-    """Five prisms, each turned against the one below, stay for five seconds within 1 mm of where they were built."""
+    """Five prisms, each turned against the one below, stay for ten seconds and come to rest.
+
+    On the springs of their contacts they sink by 1.4 to 1.7 mm, and lean while they settle by as much on half a metre.
+    """
     turn = np.arange(sides) * 2.0 * np.pi / sides
     ring = [(0.5 * np.cos(t), y, 0.5 * np.sin(t)) for t in turn for y in (-0.5, 0.5)]
     simulation = Simulation(dt=1 / 60)
@@ -226,10 +229,10 @@ def test_a_tower_of_prisms_stands(sides: int) -> None:
         tower.append(
             simulation.add(collider=prism, body={}, transform={"position": (0.0, 0.5 + k, 0.0), "rotation": rotation})
         )
-    simulation.step(300)
+    simulation.step(600)
     for k, body in enumerate(tower):
-        assert simulation[body].transform.position == pytest.approx([0.0, 0.5 + k, 0.0], abs=1e-3)
-        assert np.abs(simulation[body].motion.linear).max() < 1e-6
+        assert simulation[body].transform.position == pytest.approx([0.0, 0.5 + k, 0.0], abs=3e-3)
+        assert np.abs(simulation[body].motion.linear).max() < 1e-9
 
 
 def test_a_capsule_along_an_edge_has_two_points() -> None:

@@ -9,7 +9,7 @@ class Contact(Relation):
 
     The normal points from a to b and is unit; depth > 0 is overlap and depth < 0 a gap within the step's reach; the
     point lies midway. Impulses are summed over the step. Rows live from step to step by feature, which keeps the warm
-    starts.
+    starts; those of a pair that hardly moves are not found anew but go with their shapes.
     """
 
     kept = True
@@ -26,11 +26,17 @@ class Contact(Relation):
     warm_rolling: Floats = column(
         3, unit="N m s", doc="angular impulse of rolling and spinning friction of the last substep"
     )
+    seat_a: Floats = column(3, unit="m", doc="point on a where it was found, frame of a")
+    seat_b: Floats = column(3, unit="m", doc="point on b where it was found, frame of b")
+    lean_a: Floats = column(3, unit="1", doc="normal as it was found, frame of a")
+    lean_b: Floats = column(3, unit="1", doc="normal as it was found, frame of b")
+    seat_depth: Floats = column(unit="m", doc="overlap with which it was found")
+    form: Floats = column(unit="1", doc="what the two shapes were when it was found, as one number")
+    by_fcl: Booleans = column(unit="1", doc="answered by FCL, not by a kernel", dtype="bool")
     friction: Floats = column(unit="1", doc="combined friction", role="derived")
     restitution: Floats = column(unit="1", doc="combined restitution", role="derived")
     rolling: Floats = column(unit="m", doc="rolling friction times radius", role="derived")
     spinning: Floats = column(unit="m", doc="spinning friction times radius", role="derived")
-    by_fcl: Booleans = column(unit="1", doc="answered by FCL, not by a kernel", dtype="bool", role="derived")
     resting: Booleans = column(
         unit="1",
         doc="held together in the last substep, at rest or after a plastic impact",

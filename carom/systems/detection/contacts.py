@@ -15,10 +15,12 @@ from carom.systems.detection.broad import BroadPhase, overlapping
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
-from carom.systems.detection.narrow import Found, measure_pairs
+from carom.systems.detection.narrow import Found
+from carom.systems.detection.recycling import measure_what_moved
 from carom.systems.detection.sensors import sense
 from carom.systems.kernels.contacts import complete_contacts, renew_contacts
 from carom.systems.kernels.narrow import reach_of_pairs
+from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
@@ -51,7 +53,7 @@ def detect(world: World) -> None:
     pairs = overlapping(world)
     reaches = np.empty(len(pairs))
     reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
-    store(world, sense(world, measure_pairs(world, pairs, reaches)))
+    store(world, sense(world, measure_what_moved(world, pairs, reaches)))
 
 
 def store(world: World, found: Found) -> None:
@@ -65,6 +67,12 @@ def store(world: World, found: Found) -> None:
         found.by_fcl, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
         contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
         contact.warm_rolling, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic,
+        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
+    )  # fmt: skip
+    seat_contacts(
+        count, found.recycled, found.row_a, found.row_b, found.normal, found.depth, found.point,
+        collider.shape, collider.size, collider.geometry, pose.position, pose.rotation,
+        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
     complete_contacts(
         count, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,

@@ -67,6 +67,7 @@ class Found(NamedTuple):
     depth: Floats
     point: Floats
     by_fcl: Booleans
+    recycled: Booleans
 
     def take(self, which: Any) -> Found:
         """Return some of the contacts."""
@@ -133,10 +134,11 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     taken = keep_sound(world, pairs, reaches, points)
     found = Found(
         np.empty(taken, np.int64), np.empty(taken, np.int64), np.empty(taken, np.int64),
-        np.empty((taken, 3)), np.empty(taken), np.empty((taken, 3)), np.empty(taken, np.bool_),
+        np.empty((taken, 3)), np.empty(taken), np.empty((taken, 3)),
+        np.empty(taken, np.bool_), np.zeros(taken, np.bool_),
     )  # fmt: skip
     collect_points(
         pairs, order, first, by_fcl, points.start, points.count,
-        points.feature, points.normal, points.depth, points.point, *found,
+        points.feature, points.normal, points.depth, points.point, *found[:-1],
     )  # fmt: skip
     return found

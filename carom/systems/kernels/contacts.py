@@ -125,12 +125,14 @@ def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass)
 @kernel(
     "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
     "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
+    "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form",
 )  # fmt: skip
 def renew_contacts(
     old_count, handles, row_shift,
     found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl,
     a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
     warm_normal, warm_friction, warm_rolling, impulse, friction_impulse, strikes, plastic,
+    seat_a, seat_b, lean_a, lean_b, seat_depth, form,
 ):  # fmt: skip
     """Replace the contacts by those found, keeping what a contact of the same colliders and feature held.
 
@@ -170,7 +172,7 @@ def renew_contacts(
             if match[new] >= 0:
                 taken[match[new]] = True
         o, c = until, end
-    kept = np.zeros((count, 11))
+    kept = np.zeros((count, 25))
     rested, counted = np.zeros(count, np.bool_), np.zeros((count, 2), np.int64)
     for c in range(count):
         o = match[c]
@@ -180,6 +182,9 @@ def renew_contacts(
             for k in range(3):
                 kept[c, 1 + k], kept[c, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
                 kept[c, 8 + k] = friction_impulse[o, k]
+                kept[c, 11 + k], kept[c, 14 + k] = seat_a[o, k], seat_b[o, k]
+                kept[c, 17 + k], kept[c, 20 + k] = lean_a[o, k], lean_b[o, k]
+            kept[c, 23], kept[c, 24] = seat_depth[o], form[o]
     for c in range(count):
         x, y = found_a[c], found_b[c]
         a[c], b[c], feature[c] = handles[x], handles[y], found_feature[c]
@@ -190,3 +195,6 @@ def renew_contacts(
             normal[c, k], point[c, k] = found_normal[c, k], found_point[c, k]
             warm_friction[c, k], warm_rolling[c, k] = kept[c, 1 + k], kept[c, 4 + k]
             friction_impulse[c, k] = kept[c, 8 + k]
+            seat_a[c, k], seat_b[c, k] = kept[c, 11 + k], kept[c, 14 + k]
+            lean_a[c, k], lean_b[c, k] = kept[c, 17 + k], kept[c, 20 + k]
+        seat_depth[c], form[c] = kept[c, 23], kept[c, 24]

@@ -1,0 +1,143 @@
+"""Recycling: contacts of pairs that hardly move against each other go with their shapes instead of being found anew.
+
+What detection finds changes its mind about which corners and edges stand for two faces as often as rounding does. What
+stays where it is keeps its points, which is what lets piles come to rest (and costs less).
+"""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.ecs.entity import INDEX_MASK
+from carom.systems.constants import RECYCLED_SLIP, RECYCLED_TURN
+from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE
+from carom.systems.kernels.spatial import turn
+
+
+@inlined
+def form_of(i, shape, size, geometry):
+    """Return a number that another shape or size would not give."""
+    return (
+        1.1 * shape[i] + 1.3 * geometry[i] + 1.7 * size[i, 0] + 1.9 * size[i, 1] + 2.3 * size[i, 2] + 2.9 * size[i, 3]
+    )
+
+
+@kernel("stays", "feature", "normal", "depth", "point", "row_a", "row_b", "by_fcl")
+def recycle_contacts(
+    pairs, reaches, old_count, handles, row_shift,
+    shape, size, geometry, bound_half, bound_radius, position, rotation,
+    a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, form, old_feature, old_by_fcl,
+    stays, row_a, row_b, feature, normal, depth, point, by_fcl,
+):  # fmt: skip
+    """Write the contacts, where their shapes are now, of all pairs that have hardly moved; return how many they are.
+
+    A pair ``stays`` unless one is a ball, which rolls, one of its points has slipped or sunk by RECYCLED_SLIP of the
+    smaller shape, or one shape has turned against the other. ``seat``, ``lean`` and ``seat_depth`` say where the points
+    and the normal were found on the two shapes.
+    """
+    used, count, o = len(handles), 0, 0
+    for p in range(len(pairs)):
+        x, y = pairs[p, 0], pairs[p, 1]
+        stays[p] = False
+        while o < old_count:
+            q, r = a[o] & INDEX_MASK, b[o] & INDEX_MASK  # ids, then the rows of those ids
+            q, r = q + row_shift[q], r + row_shift[r]
+            living = q < used and r < used and handles[q] == a[o] and handles[r] == b[o]
+            if living and (q > x or (q == x and r >= y)):
+                break
+            o += 1
+        if o == old_count or a[o] != handles[x] or b[o] != handles[y]:
+            continue
+        if is_ball(x, shape) or is_ball(y, shape):
+            continue
+        if form[o] != form_of(x, shape, size, geometry) + 7.0 * form_of(y, shape, size, geometry):
+            continue
+        slip = RECYCLED_SLIP * min(reach_of(x, bound_half, bound_radius), reach_of(y, bound_half, bound_radius))
+        begin, stayed = count, True
+        while o < old_count and a[o] == handles[x] and b[o] == handles[y]:
+            nx, ny, nz = turned(x, o, lean_a, rotation)
+            mx, my, mz = turned(y, o, lean_b, rotation)
+            ax, ay, az = turned(x, o, seat_a, rotation)
+            bx, by, bz = turned(y, o, seat_b, rotation)
+            ax, ay, az = ax + position[x, 0], ay + position[x, 1], az + position[x, 2]
+            bx, by, bz = bx + position[y, 0], by + position[y, 1], bz + position[y, 2]
+            dx, dy, dz = ax - bx, ay - by, az - bz
+            deep = nx * dx + ny * dy + nz * dz
+            aside = dx * dx + dy * dy + dz * dz - deep * deep
+            leant = (nx - mx) ** 2 + (ny - my) ** 2 + (nz - mz) ** 2
+            if (
+                leant > RECYCLED_TURN * RECYCLED_TURN
+                or aside > slip * slip
+                or abs(deep - seat_depth[o]) > slip
+                or -deep > reaches[p]
+            ):
+                stayed = False
+            row_a[count], row_b[count], feature[count], by_fcl[count] = x, y, old_feature[o], old_by_fcl[o]
+            depth[count] = deep
+            normal[count, 0], normal[count, 1], normal[count, 2] = nx, ny, nz
+            point[count, 0], point[count, 1], point[count, 2] = 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz)
+            count += 1
+            o += 1
+        stays[p] = stayed
+        if not stayed:
+            count = begin
+    return count
+
+
+@inlined
+def reach_of(i, bound_half, bound_radius):
+    """Return the longest half extent of a collider (m)."""
+    return bound_radius[i] + max(bound_half[i, 0], bound_half[i, 1], bound_half[i, 2])
+
+
+@inlined
+def is_ball(i, shape):
+    """Tell whether a collider is a ball or a point."""
+    return shape[i] == SPHERE_SHAPE or shape[i] == POINT_SHAPE
+
+
+@inlined
+def turned(i, c, column, rotation):
+    """Return a vector of contact c as collider i, in whose frame it is, is turned now."""
+    return turn(
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3], column[c, 0], column[c, 1], column[c, 2]
+    )
+
+
+@kernel("seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form")
+def seat_contacts(
+    count, recycled, row_a, row_b, normal, depth, point, shape, size, geometry, position, rotation,
+    seat_a, seat_b, lean_a, lean_b, seat_depth, form,
+):  # fmt: skip
+    """Write where the points and the normals of contacts that were found anew are on the two shapes."""
+    for c in range(count):
+        if recycled[c]:
+            continue
+        a, b = row_a[c], row_b[c]
+        half = 0.5 * depth[c]
+        nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
+        for i, sense, seat, lean in ((a, half, seat_a, lean_a), (b, -half, seat_b, lean_b)):
+            qx, qy, qz, qw = -rotation[i, 0], -rotation[i, 1], -rotation[i, 2], rotation[i, 3]
+            x = point[c, 0] + sense * nx - position[i, 0]
+            y = point[c, 1] + sense * ny - position[i, 1]
+            z = point[c, 2] + sense * nz - position[i, 2]
+            seat[c, 0], seat[c, 1], seat[c, 2] = turn(qx, qy, qz, qw, x, y, z)
+            lean[c, 0], lean[c, 1], lean[c, 2] = turn(qx, qy, qz, qw, nx, ny, nz)
+        seat_depth[c] = depth[c]
+        form[c] = form_of(a, shape, size, geometry) + 7.0 * form_of(b, shape, size, geometry)
+
+
+@kernel("source")
+def merge_contacts(row_a, row_b, count, fresh_a, fresh_b, source):
+    """Merge ``count`` recycled and the fresh contacts, both sorted by pair: ``source`` is a recycled one, or ~fresh."""
+    i, j = 0, 0
+    for c in range(count + len(fresh_a)):
+        first = j == len(fresh_a)
+        if not first and i < count:
+            first = row_a[i] < fresh_a[j] or (row_a[i] == fresh_a[j] and row_b[i] < fresh_b[j])
+        if first:
+            source[c] = i
+            i += 1
+        else:
+            source[c] = ~j
+            j += 1

@@ -1,0 +1,98 @@
+"""Contacts of what hardly moves are recycled: they go with their shapes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carom.ecs import Collider, Transform
+from carom.ecs.relations.contact import Contact
+from carom.systems.detection.answered import Answered
+from carom.systems.simulation import Simulation
+
+BOX = {"box": {"size": (1.0, 1.0, 1.0)}}
+
+
+@pytest.fixture
+def pair() -> tuple[Simulation, int]:
+    """Return a box that has stood on a floor of boxes for a second, and that box."""
+    simulation = Simulation()
+    simulation.add(collider={"box": {"size": (4.0, 1.0, 4.0)}})
+    box = simulation.add(collider=BOX, body={}, transform={"position": (0.0, 1.0, 0.0)})
+    simulation.step(60)
+    return simulation, box
+
+
+def measured(simulation: Simulation, steps: int = 1) -> int:
+    """Return how many pairs the next steps measure."""
+    answered = simulation.world[Answered]
+    before = answered.kernels + answered.fcl
+    simulation.step(steps)
+    return answered.kernels + answered.fcl - before
+
+
+def test_what_stands_is_not_measured_again(pair: tuple[Simulation, int]) -> None:
+    """Its four points keep their features."""
+    simulation, _ = pair
+    contact = simulation.world[Contact]
+    features = contact.feature[: contact.count].copy()
+    assert measured(simulation, 60) == 0
+    contact = simulation.world[Contact]
+    assert contact.feature[: contact.count].tolist() == features.tolist()
+    assert contact.count == 4
+
+
+def test_recycled_contacts_go_with_their_shapes(pair: tuple[Simulation, int]) -> None:
+    """Moved by less than a thousandth of its half extent, its depths follow to the last digits."""
+    simulation, box = pair
+    simulation[box].transform.position = (2e-4, 1.0003, -3e-4)
+    assert measured(simulation) == 0
+    contact = simulation.world[Contact]
+    assert contact.point[: contact.count, 1] == pytest.approx(0.5 + 0.5 * 0.0003, abs=2e-5)
+    assert np.sort(contact.point[: contact.count, 0]) == pytest.approx([-0.4999, -0.4999, 0.5001, 0.5001], abs=2e-4)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda simulation, box: setattr(simulation[box].transform, "position", (0.002, 1.0, 0.0)),
+        lambda simulation, box: setattr(simulation[box].transform, "position", (0.0, 1.002, 0.0)),
+        lambda simulation, box: setattr(simulation[box].transform, "rotation", (0.0, 0.002, 0.0, 1.0)),
+    ],
+    ids=["slipped", "lifted", "turned"],
+)
+def test_what_moves_is_measured_again(pair: tuple[Simulation, int], change: object) -> None:
+    """By two thousandths of its half extent, or by four thousandths of a radian."""
+    simulation, box = pair
+    assert callable(change)
+    change(simulation, box)
+    assert measured(simulation) == 1
+
+
+def test_another_size_is_measured_again(pair: tuple[Simulation, int]) -> None:
+    """Though nothing has moved."""
+    simulation, box = pair
+    world = simulation.world
+    with world.edit(Collider) as collider:
+        row = world.row(box)
+        collider.size[row, 0], collider.bound_half[row, 0] = 0.6, 0.3
+    assert measured(simulation) == 1
+    contact = world[Contact]
+    assert np.abs(contact.point[: contact.count, 0]).max() == pytest.approx(0.3, abs=1e-9)
+
+
+def test_a_rolling_ball_is_measured_in_every_step() -> None:
+    """The points of balls do not go with them."""
+    simulation = Simulation()
+    simulation.add(collider={"plane": {}})
+    ball = simulation.add(
+        collider={"sphere": {"radius": 0.5}},
+        body={},
+        transform={"position": (0.0, 0.5, 0.0)},
+        motion={"linear": (1e-4, 0.0, 0.0)},
+    )
+    assert measured(simulation, 10) == 10
+    contact = simulation.world[Contact]
+    assert contact.point[0, 0] == pytest.approx(
+        simulation.world[Transform].position[simulation.world.row(ball), 0], abs=1e-6
+    )
