@@ -259,3 +259,7 @@ ASKEW = 1e-3
 # Cosine of 14 microradians, within which the faces of a growing polytope are in one plane. Smaller: the point of a
 # contact is taken from another face; larger: rounding parts a plane.
 ONE_PLANE = 1.0 - 1e-10
+
+# Part of its length by which the first four corners of a growing polytope are wide, if any are. Larger: the search for
+# wide ones takes longer; smaller: it begins from a needle, whose faces are rounding.
+EVEN = 1e-3

@@ -6,13 +6,13 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.cores import AROUND, CORE, PLACE, write_core, write_place
-from carom.systems.kernels.expansion import MOST_CORNERS, MOST_FACES
 from carom.systems.kernels.footprints import points_between
 from carom.systems.kernels.frames import turned
 from carom.systems.kernels.hulls_narrow import most_of
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.nearing import MOST_STEPS
 from carom.systems.kernels.parting_cores import part
+from carom.systems.kernels.polytope import MOST_CORNERS, MOST_FACES
 from carom.systems.kernels.reduction import reduce_area
 from carom.systems.kernels.writing import write_points
 from carom.systems.shapes.rim import RIM_POINTS

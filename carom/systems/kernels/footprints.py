@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-import numpy as np
-
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, FLAT_COSINE
 from carom.systems.kernels.cores import CORE, HALF_SPACE, KIND
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.outlines import outline
 from carom.systems.kernels.overlays import beside_line, over_face
-
-NONE: Any = np.int64(0)  # a plain 0 Numba would take for a kind of its own, and compile twice what is handed it
+from carom.systems.kernels.polytope import NONE
 
 
 @inlined
