@@ -18,6 +18,7 @@ class FclObjects(Resource):
 
     def __init__(self) -> None:
         self.forms: dict[tuple[float, ...], int] = {}
+        self.geometries: list[Any] = []
         self.staying: list[Any] = []
         self.moving: list[Any] = []
         self.form_of: Integers = np.zeros(0, np.int64)
@@ -38,12 +39,17 @@ class FclObjects(Resource):
         found: Integers = self.form_of[rows]
         return found
 
+    def geometry_of(self, world: World, row: int) -> Any:
+        """Return FCL's geometry of a collider."""
+        return self.geometries[self.forms_of(world, np.array([row]))[0]]
+
     def _form(self, world: World, row: int, key: tuple[float, ...]) -> int:
         import fcl
 
         if key not in self.forms:
             geometry = shape_at(world, row).fcl_geometry()
-            self.forms[key] = len(self.staying)
+            self.forms[key] = len(self.geometries)
+            self.geometries.append(geometry)
             self.staying.append(fcl.CollisionObject(geometry))
             self.moving.append(fcl.CollisionObject(geometry))
         return self.forms[key]

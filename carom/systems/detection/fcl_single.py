@@ -12,6 +12,7 @@ from carom.ecs.spatial import quaternion
 from carom.ecs.spatial.scalars import turn
 from carom.systems.compound import shape_at
 from carom.systems.constants import LEAST_PART, PARTED, TRIANGLE_CONTACTS
+from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.manifolds import merge_triangles, reduce_points, under_plane
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.orientation import Z_TO_Y, wxyz_from_xyzw
@@ -32,6 +33,7 @@ class Side:
     def __init__(self, world: World, row: int) -> None:
         pose = world[ColliderPose]
         self.shape = shape_at(world, row)
+        self._geometry = world[FclObjects].geometry_of(world, row)
         self.position: Floats = pose.position[row]
         self.rotation: Floats = pose.rotation[row]
 
@@ -41,7 +43,8 @@ class Side:
 
         turned = quaternion.multiply(self.rotation, Z_TO_Y) if self.shape.along_z else self.rotation
         placed = fcl.Transform(wxyz_from_xyzw(turned), self.position + moved)
-        return fcl.CollisionObject(self.shape.fcl_geometry(margin), placed)
+        geometry = self.shape.fcl_geometry(margin) if margin else self._geometry
+        return fcl.CollisionObject(geometry, placed)
 
     def local(self, vector: Floats) -> tuple[float, float, float]:
         """Return a direction of the world in the frame of the shape."""
