@@ -218,7 +218,12 @@ class World(Structure):
         return np.asarray(numbers[changed])
 
     def _query(self, kinds: tuple[type[Component], ...], without: Kinds, any_of: Kinds, optional: Kinds) -> Query:
-        key = (kinds, as_kinds(without), as_kinds(any_of), as_kinds(optional))
+        key = (
+            kinds,
+            without if type(without) is tuple else as_kinds(without),
+            any_of if type(any_of) is tuple else as_kinds(any_of),
+            optional if type(optional) is tuple else as_kinds(optional),
+        )
         if self._current is not self._views and self._current is not self._live:
             for kind in chain(*key):
                 self._current[kind]  # raises for what the running system does not declare

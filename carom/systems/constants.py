@@ -29,6 +29,9 @@ MOST_CELLS_ALONG = 2.0**30
 # looking up about a fifth of the rows.
 MOST_ASTRAY = 0.125
 
+# Rows that may in any case, since testing these one by one costs a tenth of building anything.
+FEW_ASTRAY = 64
+
 # m. A pair nearer than this, not parting and not closing fast, rests: contact and friction act on it as a constraint.
 # Larger: bodies are held before they touch. Smaller than what the solver leaves open: resting pairs fall apart.
 TOUCH = 1e-4
@@ -91,6 +94,9 @@ PUSH_SPEED = 3.0
 # rolling of a manifold that resists rolling. One sweep over points lets stacks drift by centimetres; one after the
 # drift leaves 3 mm/s in a pyramid; with fewer over rolling a ball takes more substeps to stop than theory does.
 POINT_SWEEPS, RELAX_SWEEPS, ROLL_SWEEPS = 2, 2, 8
+
+# Squared part of the most that friction and rolling may be, by which a sweep changes what is found: rounding.
+ROLLED = 1e-28
 
 # m/s, times the speed of the impact where that is above 1 m/s. What the points of a striking manifold may leave open.
 SOLVED = 1e-13

@@ -7,7 +7,7 @@ import numpy as np
 from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Integers
 from carom.ecs.component import Resource
-from carom.systems.constants import MOST_ASTRAY
+from carom.systems.constants import FEW_ASTRAY, MOST_ASTRAY
 from carom.systems.detection.broad_index import Index
 from carom.systems.kernels.broad_cache import REBUILD, find_leavers, keep_overlapping
 from carom.systems.kernels.broad_pairs import renew_pairs
@@ -56,7 +56,8 @@ class BroadPhase(Resource):
             self.rows = rows.copy()
             return self._found_anew(world)
         leavers = self._leavers(world)
-        if leavers is None or len(leavers) + len(self.index.strays) > MOST_ASTRAY * len(rows):
+        astray = max(FEW_ASTRAY, MOST_ASTRAY * len(rows))
+        if leavers is None or len(leavers) + len(self.index.strays) > astray:
             return self._found_anew(world)
         if len(leavers):
             self._replace(world, leavers)

@@ -123,7 +123,7 @@ class Index:
 
     def lead_astray(self, rows: Integers) -> None:
         """Take rows out of grid and tree: from now on they are tested one by one."""
-        self.strays = np.union1d(self.strays, rows)
+        self.strays = np.concatenate((self.strays, rows[self.place[rows] != ASTRAY]))
         self.place[rows] = ASTRAY
         self.apart = np.concatenate((self.against_all, self.strays))
 

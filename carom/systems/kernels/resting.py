@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import POINT_SWEEPS, PUSH_SPEED, RELAX_SWEEPS, ROLL_SWEEPS
+from carom.systems.constants import POINT_SWEEPS, PUSH_SPEED, RELAX_SWEEPS, ROLL_SWEEPS, ROLLED
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.manifolds import (
     AWAY,
@@ -148,6 +148,7 @@ def press_manifold(
             ft, fu = ft * (most / size), fu * (most / size)
         fx, fy, fz = ft * tx + fu * ux, ft * ty + fu * uy, ft * tz + fu * uz
         rub(m, fx - px, fy - py, fz - pz, a, b, inverse_mass, spread, known, linear, angular)
+        rubbed = (fx - px) ** 2 + (fy - py) ** 2 + (fz - pz) ** 2
         px, py, pz = fx, fy, fz
         if most_spin == 0.0 and rolling[first] == 0.0:
             break
@@ -169,7 +170,10 @@ def press_manifold(
         wx, wy, wz = wx + along * nx, wy + along * ny, wz + along * nz
         twist(a, qx - wx, qy - wy, qz - wz, spread, angular)
         twist(b, wx - qx, wy - qy, wz - qz, spread, angular)
+        rolled = (wx - qx) ** 2 + (wy - qy) ** 2 + (wz - qz) ** 2
         qx, qy, qz = wx, wy, wz
+        if rubbed <= ROLLED * most * most and rolled <= ROLLED * most_roll * most_roll:
+            break
     share = 1.0 / (end - first)
     for c in range(first, end):
         warm_friction[c, 0], warm_friction[c, 1], warm_friction[c, 2] = px * share, py * share, pz * share
