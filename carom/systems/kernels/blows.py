@@ -94,7 +94,10 @@ def blow(
     body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, friction, restitution,
     impulse, friction_impulse,
 ):  # fmt: skip
-    """Let all touching points of a manifold strike at once: each parts at its restitution, within Coulomb's cone.
+    """Let all touching points of a manifold strike at once, within Coulomb's cone over the whole impulse.
+
+    Poisson's restitution: each gives back its impulse of compression times e. That is Newton's where nothing rubs, and
+    where something does a body gains no energy by it (Glocker and Pfeiffer, Nonlinear Dynamics 7, 471, 1995).
 
     Returns (closing speed, normal impulse, its point from the centre of a or, where a is static, of b, friction impulse
     on b (3), whether they stay together).
@@ -110,7 +113,7 @@ def blow(
     else:
         pressing = max(pressing, pressing_of(b, a, nx, ny, nz, acceleration))
     n = end - first
-    ease, wanted, given = np.zeros(n), np.zeros(n), np.zeros((n, 4))
+    ease, least, given = np.zeros(n), np.zeros(n), np.zeros((n, 4))
     speed = 0.0
     for m in range(n):
         c = first + m
@@ -124,66 +127,124 @@ def blow(
         ease[m] = 1.0 / k if k > 0.0 else 0.0
         ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
         bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
-        closing = -(nx * (bx - ax) + ny * (by - ay) + nz * (bz - az))
-        speed = max(speed, closing)
-        wanted[m] = closing
+        speed = max(speed, -(nx * (bx - ax) + ny * (by - ay) + nz * (bz - az)))
     if speed <= APPROACH:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, True
     bounce = restitution[first] if speed > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
-    for m in range(n):
-        wanted[m] = bounce * max(0.0, wanted[m])
-    for _ in range(BLOW_SWEEPS):
-        change = 0.0
-        for m in range(n):
-            if ease[m] == 0.0:
-                continue
-            c = first + m
-            pax, pay, paz = offset_a[c, 0], offset_a[c, 1], offset_a[c, 2]
-            pbx, pby, pbz = offset_b[c, 0], offset_b[c, 1], offset_b[c, 2]
-            ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
-            bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
-            off = nx * (bx - ax) + ny * (by - ay) + nz * (bz - az) - wanted[m]
-            before = given[m, 0]
-            given[m, 0] = max(0.0, before - ease[m] * off)
-            j = given[m, 0] - before
-            change = max(change, abs(j) / ease[m])
-            jx, jy, jz = j * nx, j * ny, j * nz
-            push_at(
-                a, -1.0, jx, jy, jz, pax, pay, paz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
-            )
-            push_at(
-                b, 1.0, jx, jy, jz, pbx, pby, pbz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
-            )
-            if friction[first] == 0.0:
-                continue
-            ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
-            bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
-            sx, sy, sz = bx - ax, by - ay, bz - az
-            along = nx * sx + ny * sy + nz * sz
-            sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
-            size = sqrt(sx * sx + sy * sy + sz * sz)
-            if size <= SOLVED:
-                continue
-            tx, ty, tz = sx / size, sy / size, sz / size
-            k = yielding(a, tx, ty, tz, tx, ty, tz, pax, pay, paz, inverse_mass, inverse_inertia, principal, rotation)
-            k += yielding(b, tx, ty, tz, tx, ty, tz, pbx, pby, pbz, inverse_mass, inverse_inertia, principal, rotation)
-            px, py, pz = given[m, 1], given[m, 2], given[m, 3]
-            fx, fy, fz = px - sx / k, py - sy / k, pz - sz / k
-            size = sqrt(fx * fx + fy * fy + fz * fz)
-            most = friction[first] * given[m, 0]
-            if size > most:
-                fx, fy, fz = fx * (most / size), fy * (most / size), fz * (most / size)
-            given[m, 1], given[m, 2], given[m, 3] = fx, fy, fz
-            jx, jy, jz = fx - px, fy - py, fz - pz
-            change = max(change, sqrt(jx * jx + jy * jy + jz * jz) * k)
-            push_at(
-                a, -1.0, jx, jy, jz, pax, pay, paz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
-            )
-            push_at(
-                b, 1.0, jx, jy, jz, pbx, pby, pbz, linear, angular, inverse_mass, inverse_inertia, principal, rotation
-            )
-        if change <= SOLVED * max(1.0, speed):
-            break
+    for restoring in (False, True):  # until no point closes, then with what the bodies give back
+        if restoring:
+            if bounce == 0.0:
+                break
+            for m in range(n):
+                least[m] = (1.0 + bounce) * given[m, 0]
+        for _ in range(BLOW_SWEEPS):
+            change = 0.0
+            for m in range(n):
+                if ease[m] == 0.0:
+                    continue
+                c = first + m
+                pax, pay, paz = offset_a[c, 0], offset_a[c, 1], offset_a[c, 2]
+                pbx, pby, pbz = offset_b[c, 0], offset_b[c, 1], offset_b[c, 2]
+                ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
+                bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
+                off = nx * (bx - ax) + ny * (by - ay) + nz * (bz - az)
+                before = given[m, 0]
+                given[m, 0] = max(least[m], before - ease[m] * off)
+                j = given[m, 0] - before
+                change = max(change, abs(j) / ease[m])
+                jx, jy, jz = j * nx, j * ny, j * nz
+                push_at(
+                    a,
+                    -1.0,
+                    jx,
+                    jy,
+                    jz,
+                    pax,
+                    pay,
+                    paz,
+                    linear,
+                    angular,
+                    inverse_mass,
+                    inverse_inertia,
+                    principal,
+                    rotation,
+                )
+                push_at(
+                    b,
+                    1.0,
+                    jx,
+                    jy,
+                    jz,
+                    pbx,
+                    pby,
+                    pbz,
+                    linear,
+                    angular,
+                    inverse_mass,
+                    inverse_inertia,
+                    principal,
+                    rotation,
+                )
+                if friction[first] == 0.0:
+                    continue
+                ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
+                bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
+                sx, sy, sz = bx - ax, by - ay, bz - az
+                along = nx * sx + ny * sy + nz * sz
+                sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
+                size = sqrt(sx * sx + sy * sy + sz * sz)
+                if size <= SOLVED:
+                    continue
+                tx, ty, tz = sx / size, sy / size, sz / size
+                k = yielding(
+                    a, tx, ty, tz, tx, ty, tz, pax, pay, paz, inverse_mass, inverse_inertia, principal, rotation
+                )
+                k += yielding(
+                    b, tx, ty, tz, tx, ty, tz, pbx, pby, pbz, inverse_mass, inverse_inertia, principal, rotation
+                )
+                px, py, pz = given[m, 1], given[m, 2], given[m, 3]
+                fx, fy, fz = px - sx / k, py - sy / k, pz - sz / k
+                size = sqrt(fx * fx + fy * fy + fz * fz)
+                most = friction[first] * given[m, 0]
+                if size > most:
+                    fx, fy, fz = fx * (most / size), fy * (most / size), fz * (most / size)
+                given[m, 1], given[m, 2], given[m, 3] = fx, fy, fz
+                jx, jy, jz = fx - px, fy - py, fz - pz
+                change = max(change, sqrt(jx * jx + jy * jy + jz * jz) * k)
+                push_at(
+                    a,
+                    -1.0,
+                    jx,
+                    jy,
+                    jz,
+                    pax,
+                    pay,
+                    paz,
+                    linear,
+                    angular,
+                    inverse_mass,
+                    inverse_inertia,
+                    principal,
+                    rotation,
+                )
+                push_at(
+                    b,
+                    1.0,
+                    jx,
+                    jy,
+                    jz,
+                    pbx,
+                    pby,
+                    pbz,
+                    linear,
+                    angular,
+                    inverse_mass,
+                    inverse_inertia,
+                    principal,
+                    rotation,
+                )
+            if change <= SOLVED * max(1.0, speed):
+                break
     if bounce == 0.0:  # what presses them is taken out of their arcs, as a contact force would
         if b >= 0:
             stop_pressing(b, a, nx, ny, nz, inverse_mass, acceleration)
