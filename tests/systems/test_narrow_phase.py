@@ -374,3 +374,23 @@ def test_features_stay_while_the_pair_moves_little(a: Shape, b: Shape, at: Any, 
         seen.add(tuple(sorted(answer.feature.tolist())))
     assert len(seen) == 1
     assert len(seen.pop()) == (2 if isinstance(a, Capsule) else 4)
+
+
+@pytest.mark.parametrize("degrees", [0.5, 1.0, 2.0, 4.0])
+@pytest.mark.parametrize("gap", [0.01, -0.005])
+def test_a_box_tilted_about_two_axes_has_four_points(degrees: float, gap: float) -> None:
+    """Two edges part it from the face below, whose other corners are about to land: they are known in time.
+
+    The deepest is where the edges cross; each corner of the tilted face that is over the other one keeps its height.
+    """
+    tilt = quaternion.from_axis_angle((np.sqrt(0.5), 0.0, np.sqrt(0.5)), np.radians(degrees))
+    corners = np.array([(x, -0.5, z) for x in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    low = quaternion.rotate(np.tile(tilt, (4, 1)), corners)
+    at = np.array([0.03, 0.5 - low[:, 1].min() + gap, 0.02])
+    answer = lone(CUBE, CUBE, at, LEVEL, tilt, reach=0.2)
+    assert answer.count.tolist() == [4]
+    heights = np.sort(low[:, 1] + at[1] - 0.5)
+    assert -answer.depth.max() == pytest.approx(heights[0], abs=0.05 * np.radians(degrees))
+    assert (-answer.depth <= heights[-1] + 1e-9).all()
+    assert (answer.normal[:, 1] > 0.995).all()
+    assert np.ptp(answer.normal, axis=0).max() == 0.0

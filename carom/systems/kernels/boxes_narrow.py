@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import BIAS, FACE_CONE, LEAST_PART
+from carom.systems.constants import BIAS, FACE_CONE, FLAT_COSINE, LEAST_PART
 from carom.systems.kernels.edges import EDGE_FEATURES, along_other, crossing_edges, edge_normal, nearest_corner
 from carom.systems.kernels.faces import FEATURES, MOST_OVER, points_over
 from carom.systems.kernels.frames import placed, turned
 from carom.systems.kernels.kernel import inlined, kernel
-from carom.systems.kernels.parting import EDGES, FACES, LANES, OWN, PLACE, ROWS, TURN, VIEW, after, part, put_in
+from carom.systems.kernels.parting import EDGES, FACES, LANES, OWN, PLACE, ROWS, TURN, VIEW, part, put_in
 from carom.systems.kernels.reduction import reduce_area
 from carom.systems.kernels.writing import write_point
 
@@ -28,7 +28,8 @@ def measure_boxes(
     The depth is that of the least way out, however deep or concentric the pose: the 15 axes are all there are
     (Gottschalk, Collision Queries using Oriented Bounding Boxes, 2000, section 3.3). A gap is that of the nearest
     points, along the line between them. A face within FACE_CONE of the way out gives up to four points, that of the
-    box with the longer diagonal if both do; edges and corners give one. Since that box also goes first in the
+    box with the longer diagonal if both do. Edges of faces that are level to FLAT_COSINE give the points between these
+    faces, other edges and corners one. Since that box also goes first in the
     arithmetic, swapping boxes of different size turns normals and changes no other bit.
     """
     view, way, place = np.zeros((ROWS, LANES)), np.empty(3), np.empty(3)
@@ -60,32 +61,45 @@ def measure_boxes(
                 gap = edges_apart
                 facing_i, facing_o = towards_o * way[face_i], -towards_i * along_other(view, lane, face_o, way)
 
-        found, on_face = 0, False
-        for side in range(0 if facing_i >= FACE_CONE else 1, 2 if facing_o >= FACE_CONE else 1):
-            f, t, facing, c = (face_i, towards_o, 1.0, i) if side == 0 else (face_o, towards_i, -1.0, o)
-            found, deepest = points_over(view, lane, side * VIEW, f, t, reach, over, height, over_feature)
-            if abs(deepest + gap) > 2.0 * BIAS + (1.0 - FACE_CONE) * abs(gap):
-                continue
-            on_face = True
-            found = reduce_area(over, height, over_feature, found, 0.0, 0.0, 1.0)
-            along = t * facing * sense
-            nx, ny, nz = turned(
-                rotation, c, along if f == 0 else 0.0, along if f == 1 else 0.0, along if f == 2 else 0.0
-            )
-            number = FEATURES * (6 * side + 2 * f + (1 if t > 0.0 else 0))
-            for q in range(found):
-                place[f] = t * (view[side * VIEW + OWN + f, lane] + 0.5 * height[q])
-                place[after(f)], place[after(after(f))] = over[3 * q], over[3 * q + 1]
-                x, y, z = placed(position, rotation, c, place[0], place[1], place[2])
-                write_point(
-                    taken + q, number + over_feature[q], height[q], nx, ny, nz, x, y, z, feature, normal, depth, point
-                )
-            break
-        if not on_face:
-            c, inside, number = i, False, 0
-            if edges >= 0:
+        found, inside, number = 0, False, 0
+        for attempt in range(3):  # a face of either, and at last two edges of faces that are nearly level
+            side, lean, off = attempt, 1.0, 2.0 * BIAS + (1.0 - FACE_CONE) * abs(gap)
+            if attempt == 2:
+                if edges < 0:
+                    break
                 inside, number = crossing_edges(view, lane, edges, way, place)
-                number, gap = EDGES_FROM + number, edges_apart
+                gap, side, off = edges_apart, 0 if facing_i >= facing_o else 1, BIAS
+                lean = max(facing_i, facing_o)
+                if not inside or lean < FLAT_COSINE:
+                    break
+            elif (facing_i if attempt == 0 else facing_o) < FACE_CONE:
+                continue
+            f, t, facing, c = (face_i, towards_o, 1.0, i) if side == 0 else (face_o, towards_i, -1.0, o)
+            between, deepest = points_over(view, lane, side * VIEW, f, t, reach / lean, over, height, over_feature)
+            if between == 0 or abs(deepest * lean + gap) > off:
+                continue
+            found = reduce_area(over, height, over_feature, between, 0.0, 0.0, 1.0)
+            if attempt == 2:
+                nx, ny, nz = turned(rotation, i, sense * way[0], sense * way[1], sense * way[2])
+            else:
+                along = t * facing * sense
+                nx, ny, nz = turned(
+                    rotation, c, along if f == 0 else 0.0, along if f == 1 else 0.0, along if f == 2 else 0.0
+                )
+            face = FEATURES * (6 * side + 2 * f + (1 if t > 0.0 else 0))
+            for q in range(found):
+                apart = t * (view[side * VIEW + OWN + f, lane] + 0.5 * height[q])
+                x, y = over[3 * q], over[3 * q + 1]
+                x, y, z = (apart, x, y) if f == 0 else (y, apart, x) if f == 1 else (x, y, apart)
+                x, y, z = placed(position, rotation, c, x, y, z)
+                write_point(
+                    taken + q, face + over_feature[q], lean * height[q], nx, ny, nz, x, y, z,
+                    feature, normal, depth, point,
+                )  # fmt: skip
+            break
+        if found == 0:
+            c = i
+            number += EDGES_FROM
             if not inside and max(apart_i, apart_o, edges_apart) > LEAST_PART:
                 number, gap = nearest_corner(view, lane, way, place)
                 c, sense = (o, -sense) if number >= 8 else (c, sense)
