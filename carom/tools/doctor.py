@@ -72,12 +72,14 @@ def collision() -> str:
     """Return what FCL says of two unit spheres 1.5 m apart; raise FaultError unless they overlap by 0.5 m."""
     from carom.ecs import Collider, World
     from carom.ecs.components.collider import ColliderPose
+    from carom.systems.detection.fcl_objects import FclObjects
     from carom.systems.detection.fcl_single import Side, measure
     from carom.systems.shapes.geometry import Geometries
     from carom.systems.shapes.sphere import Sphere
 
     world, ball = World(), Sphere(1.0)
     world.add(Geometries())
+    world.add(FclObjects())
     shape = Collider(shape=ball.number, size=ball.packed())
     places = [ColliderPose(position=(x, 0.0, 0.0), rotation=(0.0, 0.0, 0.0, 1.0)) for x in (0.0, 1.5)]
     one, two = (Side(world, world.row(world.spawn(shape, place))) for place in places)
