@@ -269,3 +269,15 @@ ONE_PLANE = 1.0 - 1e-10
 # Part of its length by which the first four corners of a growing polytope are wide, if any are. Larger: the search for
 # wide ones takes longer; smaller: it begins from a needle, whose faces are rounding.
 EVEN = 1e-3
+
+# Newton's steps to the point of an ellipsoid nearest to another; 6 are usual, 20 for one within a needle. Fewer: depths
+# of flat ellipsoids at corners of meshes are wrong.
+ROUND_STEPS = 40
+
+# What the squared length of a point's share in an ellipsoid may be beyond 1 at the end of those steps. Smaller than
+# rounding: the steps go on in vain; larger: depths are wrong by half of it times the ellipsoid's size.
+SQUARE_ENOUGH = 1e-14
+
+# rad. A direction that parts a round body from an edge and is nearer than this to the normal of a face beside it is of
+# that face. Larger: contacts of blunt edges are lost; smaller: what lies on a face has points on its edges as well.
+BESIDE_FACE = 1e-6

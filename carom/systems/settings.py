@@ -23,7 +23,7 @@ class Settings(Resource):
     substeps: int = 4
     gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)  # m/s2
     integrator: Integrator = "verlet"
-    collision: Collision = "auto"  # fcl: no kernel stands in for FCL
+    collision: Collision = "auto"  # fcl: no kernel stands in for FCL, but on meshes
     response: Response = "full"  # reflect: impacts only, no resting contacts
     seed: int = 0
 

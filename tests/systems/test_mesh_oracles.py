@@ -9,7 +9,7 @@ import os
 
 import numpy as np
 import pytest
-from batches import random_batch
+from batches import Batch, random_batch
 from hulls import HULLS
 from meshes import Coal, block, laid, sheet
 from pairs import coal_geometry
@@ -18,7 +18,10 @@ from carom.ecs.spatial import quaternion
 from carom.systems.shapes import Shape
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
+from carom.systems.shapes.cone import Cone
 from carom.systems.shapes.convex import Convex
+from carom.systems.shapes.cylinder import Cylinder
+from carom.systems.shapes.ellipsoid import Ellipsoid
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.sphere import Sphere
@@ -29,12 +32,19 @@ SOLIDS: dict[str, Shape] = {
     "box": Box((0.6, 0.4, 1.0)),
     "capsule": Capsule(0.25, 0.9),
     **{key: Convex(geometry) for key, geometry in HULLS.items()},
+    "cylinder": Cylinder(0.4, 1.1),
+    "cone": Cone(0.4, 1.0),
+    "ellipsoid": Ellipsoid((0.3, 0.5, 0.4)),
 }
+ROUND = ("cylinder", "cone", "ellipsoid")
 
 
 @pytest.mark.parametrize("key", SOLIDS)
 def test_distances_over_land(key: str) -> None:
-    """Of bodies apart from the land the gap is the distance, to 1e-8; none within reach is missed, no other found."""
+    """Of bodies apart from the land the gap is the distance; none within reach is missed, no other found.
+
+    To 1e-8 m, and to 2e-6 of round bodies, where coal stops at 1e-6.
+    """
     land, shape, reach = sheet(13, 8.0, 1.0, 0.3), SOLIDS[key], 0.3
     oracle = Coal(land, coal_geometry(shape), shape.along_z)
     generator = np.random.default_rng(5)
@@ -45,7 +55,7 @@ def test_distances_over_land(key: str) -> None:
         gap = oracle.distance(place, turn)
         if 1e-6 < gap < reach:
             seen += 1
-            assert -found.depth.max() == pytest.approx(gap, abs=1e-8)
+            assert -found.depth.max() == pytest.approx(gap, abs=2e-6 if key in ROUND else 1e-8)
         elif gap > reach:
             beyond += 1
             assert len(found.depth) == 0
@@ -63,11 +73,15 @@ def test_depths_about_a_block(key: str) -> None:
     small = Geometry(0.3 * block().vertices + np.array([0.0, 0.3, 0.0]), block().faces, "block")
     shape = Sphere(0.4) if key == "sphere" else SOLIDS[key]
     batch, distance, normal = random_batch(Mesh(small), shape, POSES, seed=1)
+    sound = np.abs(batch.position_b).max(axis=1) < 10.0  # coal puts one cone of 3,000 beyond all bounds
+    assert sound.mean() > 0.999
+    distance, normal = distance[sound], normal[sound]
+    batch = Batch(*(part[sound] for part in batch))
     back = quaternion.conjugate(batch.rotation_a)
     places, turns = quaternion.rotate(back, batch.position_b), quaternion.multiply(back, batch.rotation_b)
     reach, within, far = 0.05, 0, 0
     for found, gap, way in zip(
-        laid(small, shape, POSES, turn=np.array(quaternion.IDENTITY)).measure(places, turns, reach),
+        laid(small, shape, len(places), turn=np.array(quaternion.IDENTITY)).measure(places, turns, reach),
         distance,
         quaternion.rotate(back, normal),
         strict=True,

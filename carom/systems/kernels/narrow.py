@@ -49,7 +49,7 @@ def sort_by_function(pairs, shape, function_of, swaps, order, first, second, sta
         starts[function + 1] -= 1
         k = starts[function + 1]
         order[k] = p
-        swap = known and swaps[one, other]
+        swap = function > 0 and swaps[one, other]  # FCL takes them as they are
         first[k], second[k] = (b, a) if swap else (a, b)
     for function in range(len(starts) - 1):
         starts[function] = starts[function + 1]

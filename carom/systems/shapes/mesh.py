@@ -16,9 +16,8 @@ from carom.systems.shapes.triangles import Triangles
 class Mesh(Triangles):
     """A watertight triangle mesh; static, since FCL cannot measure how deep two meshes overlap.
 
-    Balls, capsules, boxes and hulls meet it by kernels. Cylinders, cones and ellipsoids have none: FCL tells theirs by
-    2 ms a pair, once they overlap, triangle by triangle, with normals of edges within flat areas and depths up to 3 cm
-    off. A hull of as many corners as its rim needs is the better wheel on land.
+    Every shape meets it by kernels, also where ``collision: fcl`` lets none stand in elsewhere: FCL's answers of meshes
+    are wrong beyond what can be guarded. Round bodies are round on it, to the last digit: cylinders roll.
     """
 
     key: ClassVar[str] = "mesh"

@@ -10,7 +10,7 @@ from typing import Any
 
 def declare_overrides(parser: argparse.ArgumentParser) -> None:
     """Declare the options that set aside what a world file states."""
-    parser.add_argument("--collision", choices=("auto", "fcl"), help="fcl: no kernel stands in for FCL")
+    parser.add_argument("--collision", choices=("auto", "fcl"), help="fcl: no kernel stands in for FCL, but on meshes")
     parser.add_argument("--dt", metavar="TIME", help="time step, such as 1/240 or 0.5ms")
     parser.add_argument("--integrator", choices=("euler", "semi_implicit", "verlet"))
     parser.add_argument("--seed", type=int, metavar="N")
