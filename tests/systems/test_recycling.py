@@ -69,16 +69,17 @@ def test_what_moves_is_measured_again(pair: tuple[Simulation, int], change: obje
     assert measured(simulation) == 1
 
 
-def test_another_size_is_measured_again(pair: tuple[Simulation, int]) -> None:
-    """Though nothing has moved."""
+@pytest.mark.parametrize("size", [(0.6, 1.0, 1.0), (1.23, 1.0, 0.83), (0.99, 1.0, 1.01)])
+def test_another_size_is_measured_again(pair: tuple[Simulation, int], size: tuple[float, float, float]) -> None:
+    """Though nothing has moved, and whatever the sizes have in common."""
     simulation, box = pair
     world = simulation.world
     with world.edit(Collider) as collider:
         row = world.row(box)
-        collider.size[row, 0], collider.bound_half[row, 0] = 0.6, 0.3
+        collider.size[row, :3], collider.bound_half[row] = size, np.multiply(0.5, size)
     assert measured(simulation) == 1
     contact = world[Contact]
-    assert np.abs(contact.point[: contact.count, 0]).max() == pytest.approx(0.3, abs=1e-9)
+    assert np.abs(contact.point[: contact.count, 0]).max() == pytest.approx(0.5 * size[0], abs=1e-6)
 
 
 def test_a_rolling_ball_is_measured_in_every_step() -> None:

@@ -6,6 +6,8 @@ stays where it is keeps its points, which is what lets piles come to rest (and c
 
 from __future__ import annotations
 
+from math import pi
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import RECYCLED_SLIP, RECYCLED_TURN
@@ -15,11 +17,14 @@ from carom.systems.kernels.spatial import turn
 
 
 @inlined
-def form_of(i, shape, size, geometry):
-    """Return a number that another shape or size would not give."""
-    return (
-        1.1 * shape[i] + 1.3 * geometry[i] + 1.7 * size[i, 0] + 1.9 * size[i, 1] + 2.3 * size[i, 2] + 2.9 * size[i, 3]
-    )
+def form_of_pair(a, b, shape, size, geometry):
+    """Return a number that changes with any shape or size: a polynomial of them in pi, which is no root of others."""
+    form = 0.0
+    for i in (a, b):
+        form = (form * pi + shape[i]) * pi + geometry[i]
+        for k in range(size.shape[1]):
+            form = form * pi + size[i, k]
+    return form
 
 
 @kernel("stays", "feature", "normal", "depth", "point", "row_a", "row_b", "by_fcl")
@@ -50,7 +55,7 @@ def recycle_contacts(
             continue
         if is_ball(x, shape) or is_ball(y, shape):
             continue
-        if form[o] != form_of(x, shape, size, geometry) + 7.0 * form_of(y, shape, size, geometry):
+        if form[o] != form_of_pair(x, y, shape, size, geometry):
             continue
         slip = RECYCLED_SLIP * min(reach_of(x, bound_half, bound_radius), reach_of(y, bound_half, bound_radius))
         begin, stayed = count, True
@@ -124,7 +129,7 @@ def seat_contacts(
             seat[c, 0], seat[c, 1], seat[c, 2] = turn(qx, qy, qz, qw, x, y, z)
             lean[c, 0], lean[c, 1], lean[c, 2] = turn(qx, qy, qz, qw, nx, ny, nz)
         seat_depth[c] = depth[c]
-        form[c] = form_of(a, shape, size, geometry) + 7.0 * form_of(b, shape, size, geometry)
+        form[c] = form_of_pair(a, b, shape, size, geometry)
 
 
 @kernel("source")
