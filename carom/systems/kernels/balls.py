@@ -100,3 +100,17 @@ def first_touch(
         if step < 1e-16 * horizon:
             return t
     return t
+
+
+@inlined
+def pose_of_other(p, o, center, rotation, other_position, other_rotation):
+    """Return where what a ball of pair p meets is and how it is turned: body o, or, with o < 0, what stands there."""
+    if o >= 0:
+        return (
+            center[o, 0], center[o, 1], center[o, 2],
+            rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3],
+        )  # fmt: skip
+    return (
+        other_position[p, 0], other_position[p, 1], other_position[p, 2],
+        other_rotation[p, 0], other_rotation[p, 1], other_rotation[p, 2], other_rotation[p, 3],
+    )  # fmt: skip

@@ -117,17 +117,14 @@ def blow(
     speed = 0.0
     for m in range(n):
         c = first + m
-        away = -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned)
-        if away > TOUCH:
+        if -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned) > TOUCH:
             continue
-        pax, pay, paz = offset_a[c, 0], offset_a[c, 1], offset_a[c, 2]
-        pbx, pby, pbz = offset_b[c, 0], offset_b[c, 1], offset_b[c, 2]
-        k = yielding(a, nx, ny, nz, nx, ny, nz, pax, pay, paz, inverse_mass, inverse_inertia, principal, rotation)
-        k += yielding(b, nx, ny, nz, nx, ny, nz, pbx, pby, pbz, inverse_mass, inverse_inertia, principal, rotation)
+        k = yielding_of_pair(
+            c, a, b, nx, ny, nz, offset_a, offset_b, inverse_mass, inverse_inertia, principal, rotation
+        )  # fmt: skip
         ease[m] = 1.0 / k if k > 0.0 else 0.0
-        ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
-        bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
-        speed = max(speed, -(nx * (bx - ax) + ny * (by - ay) + nz * (bz - az)))
+        sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
+        speed = max(speed, -(nx * sx + ny * sy + nz * sz))
     if speed <= APPROACH:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, True
     bounce = restitution[first] if speed > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
@@ -143,65 +140,27 @@ def blow(
                 if ease[m] == 0.0:
                     continue
                 c = first + m
-                pax, pay, paz = offset_a[c, 0], offset_a[c, 1], offset_a[c, 2]
-                pbx, pby, pbz = offset_b[c, 0], offset_b[c, 1], offset_b[c, 2]
-                ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
-                bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
-                off = nx * (bx - ax) + ny * (by - ay) + nz * (bz - az)
+                sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
                 before = given[m, 0]
-                given[m, 0] = max(least[m], before - ease[m] * off)
+                given[m, 0] = max(least[m], before - ease[m] * (nx * sx + ny * sy + nz * sz))
                 j = given[m, 0] - before
                 change = max(change, abs(j) / ease[m])
-                jx, jy, jz = j * nx, j * ny, j * nz
-                push_at(
-                    a,
-                    -1.0,
-                    jx,
-                    jy,
-                    jz,
-                    pax,
-                    pay,
-                    paz,
-                    linear,
-                    angular,
-                    inverse_mass,
-                    inverse_inertia,
-                    principal,
-                    rotation,
-                )
-                push_at(
-                    b,
-                    1.0,
-                    jx,
-                    jy,
-                    jz,
-                    pbx,
-                    pby,
-                    pbz,
-                    linear,
-                    angular,
-                    inverse_mass,
-                    inverse_inertia,
-                    principal,
-                    rotation,
-                )
+                push_pair(
+                    c, a, b, j * nx, j * ny, j * nz, offset_a, offset_b,
+                    linear, angular, inverse_mass, inverse_inertia, principal, rotation,
+                )  # fmt: skip
                 if friction[first] == 0.0:
                     continue
-                ax, ay, az = surface_velocity(a, pax, pay, paz, linear, angular)
-                bx, by, bz = surface_velocity(b, pbx, pby, pbz, linear, angular)
-                sx, sy, sz = bx - ax, by - ay, bz - az
+                sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
                 along = nx * sx + ny * sy + nz * sz
                 sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
                 size = sqrt(sx * sx + sy * sy + sz * sz)
                 if size <= SOLVED:
                     continue
-                tx, ty, tz = sx / size, sy / size, sz / size
-                k = yielding(
-                    a, tx, ty, tz, tx, ty, tz, pax, pay, paz, inverse_mass, inverse_inertia, principal, rotation
-                )
-                k += yielding(
-                    b, tx, ty, tz, tx, ty, tz, pbx, pby, pbz, inverse_mass, inverse_inertia, principal, rotation
-                )
+                k = yielding_of_pair(
+                    c, a, b, sx / size, sy / size, sz / size, offset_a, offset_b,
+                    inverse_mass, inverse_inertia, principal, rotation,
+                )  # fmt: skip
                 px, py, pz = given[m, 1], given[m, 2], given[m, 3]
                 fx, fy, fz = px - sx / k, py - sy / k, pz - sz / k
                 size = sqrt(fx * fx + fy * fy + fz * fz)
@@ -211,38 +170,10 @@ def blow(
                 given[m, 1], given[m, 2], given[m, 3] = fx, fy, fz
                 jx, jy, jz = fx - px, fy - py, fz - pz
                 change = max(change, sqrt(jx * jx + jy * jy + jz * jz) * k)
-                push_at(
-                    a,
-                    -1.0,
-                    jx,
-                    jy,
-                    jz,
-                    pax,
-                    pay,
-                    paz,
-                    linear,
-                    angular,
-                    inverse_mass,
-                    inverse_inertia,
-                    principal,
-                    rotation,
-                )
-                push_at(
-                    b,
-                    1.0,
-                    jx,
-                    jy,
-                    jz,
-                    pbx,
-                    pby,
-                    pbz,
-                    linear,
-                    angular,
-                    inverse_mass,
-                    inverse_inertia,
-                    principal,
-                    rotation,
-                )
+                push_pair(
+                    c, a, b, jx, jy, jz, offset_a, offset_b,
+                    linear, angular, inverse_mass, inverse_inertia, principal, rotation,
+                )  # fmt: skip
             if change <= SOLVED * max(1.0, speed):
                 break
     if bounce == 0.0:  # what presses them is taken out of their arcs, as a contact force would
@@ -263,3 +194,39 @@ def blow(
     if total > 0.0:
         px, py, pz = px / total, py / total, pz / total
     return speed, total, px, py, pz, fx, fy, fz, bounce == 0.0
+
+
+@inlined
+def slip_of_pair(c, a, b, offset_a, offset_b, linear, angular):
+    """Return the velocity of b against a at contact c."""
+    ax, ay, az = surface_velocity(a, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2], linear, angular)
+    bx, by, bz = surface_velocity(b, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2], linear, angular)
+    return bx - ax, by - ay, bz - az
+
+
+@inlined
+def yielding_of_pair(c, a, b, x, y, z, offset_a, offset_b, inverse_mass, inverse_inertia, principal, rotation):
+    """Return by how much contact c parts along a unit vector for a unit impulse along it."""
+    of_a = yielding(
+        a, x, y, z, x, y, z, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2],
+        inverse_mass, inverse_inertia, principal, rotation,
+    )  # fmt: skip
+    return of_a + yielding(
+        b, x, y, z, x, y, z, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2],
+        inverse_mass, inverse_inertia, principal, rotation,
+    )  # fmt: skip
+
+
+@inlined
+def push_pair(
+    c, a, b, jx, jy, jz, offset_a, offset_b, linear, angular, inverse_mass, inverse_inertia, principal, rotation
+):
+    """Apply an impulse on b at contact c, and its reaction on a."""
+    push_at(
+        a, -1.0, jx, jy, jz, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2],
+        linear, angular, inverse_mass, inverse_inertia, principal, rotation,
+    )  # fmt: skip
+    push_at(
+        b, 1.0, jx, jy, jz, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2],
+        linear, angular, inverse_mass, inverse_inertia, principal, rotation,
+    )  # fmt: skip

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
-from carom.systems.kernels.balls import gap_of_ball
-from carom.systems.kernels.bodies import pressed_by_forces, pushed, surface_velocity
+from carom.systems.kernels.balls import gap_of_ball, pose_of_other
+from carom.systems.kernels.blows import slip_of_pair
+from carom.systems.kernels.bodies import pressed_by_forces, pushed
 from carom.systems.kernels.kernel import inlined, kernel
 
 
@@ -36,9 +37,8 @@ def sort_manifolds(
                 )  # fmt: skip
             a, b = body_a[c], body_b[c]
             nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
-            ax, ay, az = surface_velocity(a, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2], linear, angular)
-            bx, by, bz = surface_velocity(b, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2], linear, angular)
-            closing = nx * (ax - bx) + ny * (ay - by) + nz * (az - bz)
+            sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
+            closing = -(nx * sx + ny * sy + nz * sz)
             pressing = pressed_by_forces(a, b, nx, ny, nz, felt)
             # Without restitution there is no bounce to lose by resting, so that all that forces do counts.
             slow = max(0.0, pressing if restitution[c] > 0.0 else pushed(a, b, felt))
@@ -75,11 +75,7 @@ def measure_ball(
     The offsets lead to the surface of each, not to the point midway: what rolls on an overlap rolls on its own radius.
     """
     i, o = ball[c], other[c]
-    ox, oy, oz = other_position[c, 0], other_position[c, 1], other_position[c, 2]
-    qx, qy, qz, qw = other_rotation[c, 0], other_rotation[c, 1], other_rotation[c, 2], other_rotation[c, 3]
-    if o >= 0:
-        ox, oy, oz = center[o, 0], center[o, 1], center[o, 2]
-        qx, qy, qz, qw = rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3]
+    ox, oy, oz, qx, qy, qz, qw = pose_of_other(c, o, center, rotation, other_position, other_rotation)
     gap, nx, ny, nz = gap_of_ball(
         kind[c], center[i, 0], center[i, 1], center[i, 2], radius[c], ox, oy, oz, qx, qy, qz, qw,
         extent[c, 0], extent[c, 1], extent[c, 2],

@@ -6,7 +6,7 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, PATIENCE, REST_SPEED_FACTOR, TOUCH
-from carom.systems.kernels.balls import BALL, NEVER, first_touch, gap_of_ball
+from carom.systems.kernels.balls import BALL, NEVER, first_touch, gap_of_ball, pose_of_other
 from carom.systems.kernels.bodies import (
     pressed_by_forces,
     pressing_of,
@@ -78,11 +78,7 @@ def strike(
     stay together). A speed of 0 means that they are pressed together without closing: no impulse, but then, as after a
     plastic impact, what presses them is taken out of their arcs.
     """
-    ox, oy, oz = other_position[p, 0], other_position[p, 1], other_position[p, 2]
-    qx, qy, qz, qw = other_rotation[p, 0], other_rotation[p, 1], other_rotation[p, 2], other_rotation[p, 3]
-    if o >= 0:
-        ox, oy, oz = center[o, 0], center[o, 1], center[o, 2]
-        qx, qy, qz, qw = rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3]
+    ox, oy, oz, qx, qy, qz, qw = pose_of_other(p, o, center, rotation, other_position, other_rotation)
     gap, nx, ny, nz = gap_of_ball(
         kind[p], center[i, 0], center[i, 1], center[i, 2], radius[p], ox, oy, oz, qx, qy, qz, qw,
         extent[p, 0], extent[p, 1], extent[p, 2],
