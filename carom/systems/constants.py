@@ -67,9 +67,10 @@ IMPACTS_AT_LEAST = 1024
 # Sweeps over the points of a manifold that strikes; 30 are usual. Fewer: what lands flat leaves with a spin.
 BLOW_SWEEPS = 200
 
-# m. A point this near to one of the step before takes over its impulses where its feature is new. Larger: impulses of
-# points far off turn bodies for a substep. Smaller: stacks edge on edge, whose corners change places, begin anew.
-SAME_POINT = 0.1
+# Part of the smaller shape's longest half extent. A point this near to one of the step before takes over its impulses
+# where its feature is new. Larger: impulses of points far off turn bodies for a substep. Smaller: stacks edge on edge,
+# whose corners change places, begin anew.
+SAME_POINT = 0.2
 
 # Part of the smaller shape's longest half extent by which points may slip or sink, and turn in radians, before a pair
 # is measured anew. Larger: contacts are where the shapes no longer are. Smaller: piles are measured at every tremble,

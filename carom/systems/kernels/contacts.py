@@ -6,11 +6,11 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.components.material import Combine
-from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import SAME_POINT
 from carom.systems.kernels.balls import BOX, HALF_SPACE
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
+from carom.systems.kernels.recycling import first_of_pair, smaller_reach
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
 
@@ -128,7 +128,7 @@ def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass)
     "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form",
 )  # fmt: skip
 def renew_contacts(
-    old_count, handles, row_shift,
+    old_count, handles, row_shift, bound_half, bound_radius,
     found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl,
     a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
     warm_normal, warm_friction, warm_rolling, impulse, friction_impulse, strikes, plastic,
@@ -139,7 +139,7 @@ def renew_contacts(
     Both lists are sorted by rows and feature, so that one pass matches them. Where corners and edges change places
     under bodies that hardly move, a point of another feature within SAME_POINT takes over what the old one held.
     """
-    count, used = len(found_a), len(handles)
+    count = len(found_a)
     match, taken = np.full(count, -1), np.zeros(old_count, np.bool_)
     o, c = 0, 0
     while c < count:
@@ -147,13 +147,7 @@ def renew_contacts(
         end = c + 1
         while end < count and found_a[end] == x and found_b[end] == y:
             end += 1
-        while o < old_count:
-            p, q = a[o] & INDEX_MASK, b[o] & INDEX_MASK  # ids, then the rows of those ids
-            p, q = p + row_shift[p], q + row_shift[q]
-            living = p < used and q < used and handles[p] == a[o] and handles[q] == b[o]  # others have lost their order
-            if living and (p > x or (p == x and q >= y)):
-                break
-            o += 1
+        o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
         until = o
         while until < old_count and a[until] == handles[x] and b[until] == handles[y]:
             until += 1
@@ -162,7 +156,7 @@ def renew_contacts(
                 if feature[old] == found_feature[new]:
                     match[new], taken[old] = old, True
         for new in range(c, end):
-            nearest = SAME_POINT * SAME_POINT
+            nearest = (SAME_POINT * smaller_reach(x, y, bound_half, bound_radius)) ** 2
             for old in range(o, until if match[new] < 0 else o):
                 away = 0.0
                 for k in range(3):

@@ -40,24 +40,18 @@ def recycle_contacts(
     smaller shape, or one shape has turned against the other. ``seat``, ``lean`` and ``seat_depth`` say where the points
     and the normal were found on the two shapes.
     """
-    used, count, o = len(handles), 0, 0
+    count, o = 0, 0
     for p in range(len(pairs)):
         x, y = pairs[p, 0], pairs[p, 1]
         stays[p] = False
-        while o < old_count:
-            q, r = a[o] & INDEX_MASK, b[o] & INDEX_MASK  # ids, then the rows of those ids
-            q, r = q + row_shift[q], r + row_shift[r]
-            living = q < used and r < used and handles[q] == a[o] and handles[r] == b[o]
-            if living and (q > x or (q == x and r >= y)):
-                break
-            o += 1
+        o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
         if o == old_count or a[o] != handles[x] or b[o] != handles[y]:
             continue
         if is_ball(x, shape) or is_ball(y, shape):
             continue
         if form[o] != form_of_pair(x, y, shape, size, geometry):
             continue
-        slip = RECYCLED_SLIP * min(reach_of(x, bound_half, bound_radius), reach_of(y, bound_half, bound_radius))
+        slip = RECYCLED_SLIP * smaller_reach(x, y, bound_half, bound_radius)
         begin, stayed = count, True
         while o < old_count and a[o] == handles[x] and b[o] == handles[y]:
             nx, ny, nz = turned(x, o, lean_a, rotation)
@@ -90,9 +84,24 @@ def recycle_contacts(
 
 
 @inlined
-def reach_of(i, bound_half, bound_radius):
-    """Return the longest half extent of a collider (m)."""
-    return bound_radius[i] + max(bound_half[i, 0], bound_half[i, 1], bound_half[i, 2])
+def first_of_pair(o, old_count, x, y, a, b, handles, row_shift):
+    """Return the first contact from ``o`` on, all sorted by pair, that is of the rows (x, y) or of a later pair."""
+    while o < old_count:
+        q, r = a[o] & INDEX_MASK, b[o] & INDEX_MASK  # ids, then the rows of those ids
+        q, r = q + row_shift[q], r + row_shift[r]
+        living = q < len(handles) and r < len(handles) and handles[q] == a[o] and handles[r] == b[o]
+        if living and (q > x or (q == x and r >= y)):  # others have lost their order
+            break
+        o += 1
+    return o
+
+
+@inlined
+def smaller_reach(a, b, bound_half, bound_radius):
+    """Return the longest half extent of the smaller of two colliders (m)."""
+    of_a = bound_radius[a] + max(bound_half[a, 0], bound_half[a, 1], bound_half[a, 2])
+    of_b = bound_radius[b] + max(bound_half[b, 0], bound_half[b, 1], bound_half[b, 2])
+    return min(of_a, of_b)
 
 
 @inlined
