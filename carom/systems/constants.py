@@ -235,7 +235,6 @@ SEEN = 1e-12
 # Sine of the angle below which a face of that polytope is a line, which hides nothing.
 SLIVER = 1e-9
 
-
 # m. How far FCL moves two overlapping shapes of others' making apart to see along which direction they part. Larger:
 # less of the direction that they overlap along; smaller: FCL's nearest points, good to a micrometre, turn by degrees.
 PARTED = 2e-2
