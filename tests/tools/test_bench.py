@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import sys
 from collections.abc import Callable, Iterator
 from types import ModuleType
@@ -70,6 +71,21 @@ def test_a_missing_peer_makes_exit_1_and_names_the_extra(
     assert capsys.readouterr().err == "bench tiny compares with no_such_engine; run: pip install 'carom[peers]'\n"
 
 
+def test_parts_of_a_bench_are_measured_alone(
+    tiny: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In the order asked for; a part that is not there is wrong usage, and told with those that are."""
+    assert main(["bench", "tiny", "half"]) == 2
+    assert capsys.readouterr().err == "bench tiny has no part half; it is measured as a whole\n"
+    parts = {name: lambda name=name: iter([Figure(name, "mm", 1.0, 1.0, math.inf, "value")]) for name in "abc"}
+    monkeypatch.setattr(tiny, "PARTS", parts, raising=False)
+    assert main(["bench", "tiny", "d", "a", "e"]) == 2
+    assert capsys.readouterr().err == "bench tiny has no part d, e; its parts are a, b, c\n"
+    assert main(["bench", "tiny", "c", "a"]) == 0
+    lines = capsys.readouterr().out.splitlines()[1:]
+    assert [line.split() for line in lines] == [["holds", name, "1", "mm", "no", "bound"] for name in "ca"]
+
+
 def test_timings_are_medians_of_wall_and_cpu() -> None:
     """In this process and of others."""
     assert timed(lambda: sum(range(1000)), 3).repeats == 3
@@ -81,7 +97,7 @@ def test_the_benches_of_this_issue_are_there() -> None:
     """Each file of the registry is importable and has figures."""
     from importlib import import_module
 
-    assert {"start", "break", "ecs", "detect"} <= BENCHES.keys()
+    assert {"start", "break", "ecs", "detect", "contacts"} <= BENCHES.keys()
     for module in BENCHES.values():
         assert callable(import_module(f"carom.tools.bench.{module}").figures)
 

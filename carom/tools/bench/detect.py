@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
@@ -21,9 +21,8 @@ REPEATS = 7
 
 
 def figures() -> Iterator[Figure]:
-    """Yield every part's figures; a part is one function."""
-    rows = (narrow_rows, hull_rows, mesh_rows, fcl_rows)
-    for part in (broad_phase, broad_phase_growth, *(row.figures for row in rows)):
+    """Yield every part's figures."""
+    for part in PARTS.values():
         yield from part()
 
 
@@ -91,3 +90,13 @@ def gather(one: Any, two: Any, pairs: list[Any]) -> bool:
     """Keep a pair and go on."""
     pairs.append((one, two))
     return False
+
+
+PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
+    "broad_phase": broad_phase,
+    "broad_phase_growth": broad_phase_growth,
+    "narrow_phase": narrow_rows.figures,
+    "hulls": hull_rows.figures,
+    "meshes": mesh_rows.figures,
+    "fcl": fcl_rows.figures,
+}

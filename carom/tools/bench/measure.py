@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
+from math import isinf
 from statistics import median
 from time import perf_counter, process_time
 from typing import Literal
@@ -31,38 +32,55 @@ class Timing:
 
 @dataclass(frozen=True)
 class Figure:
-    """A measured value by wall and by CPU time; ``bound`` applies to the one named by ``by``."""
+    """A measured value by wall and by CPU time, or both alike where none was timed.
+
+    ``bound`` applies to the one named by ``by``.
+    """
 
     name: str
     unit: str
     wall: float
     cpu: float
     bound: float
-    by: Literal["wall", "cpu"] = "wall"
+    by: Literal["wall", "cpu", "value"] = "wall"
     at_least: bool = False
     repeats: int = 1
 
     @property
     def holds(self) -> bool:
         """Whether the bound holds."""
-        value = self.wall if self.by == "wall" else self.cpu
+        value = self.cpu if self.by == "cpu" else self.wall
         return value >= self.bound if self.at_least else value <= self.bound
 
     def __str__(self) -> str:
         """Return one line."""
         verdict = "holds" if self.holds else "FAILS"
-        bound = f"{'at least' if self.at_least else 'at most'} {self.bound:g} {self.unit} by {self.by}"
         values = f"wall {self.wall:10.4g}  cpu {self.cpu:10.4g} {self.unit}"
-        return f"{verdict}  {self.name:<42} {values:<42} {bound}, median of {self.repeats}"
+        bound = (
+            "no bound"
+            if isinf(self.bound)
+            else f"{'at least' if self.at_least else 'at most'} {self.bound:g} {self.unit}"
+        )
+        if self.by == "value":
+            return f"{verdict}  {self.name:<42} {f'{self.wall:.4g} {self.unit}':<42} {bound}"
+        return f"{verdict}  {self.name:<42} {values:<42} {bound} by {self.by}, median of {self.repeats}"
 
 
-def measure(name: str) -> Iterator[Figure]:
-    """Yield the figures of a bench as they come; raise PeerMissingError naming the extra when a peer is missing."""
+def measure(name: str, parts: Sequence[str] = ()) -> Iterator[Figure]:
+    """Yield the figures of a bench, or of some of its parts, as they come.
+
+    Raises PeerMissingError naming the extra when a peer is missing, and CaromError for parts it does not have.
+    """
     bench = import_module(f"carom.tools.bench.{BENCHES[name]}")
     missing = [peer for peer in getattr(bench, "PEERS", ()) if find_spec(peer) is None]
     if missing:
         raise PeerMissingError(f"bench {name} compares with {', '.join(missing)}; run: pip install 'carom[peers]'")
-    yield from bench.figures()
+    known = getattr(bench, "PARTS", {})
+    if unknown := [part for part in parts if part not in known]:
+        accepted = f"its parts are {', '.join(known)}" if known else "it is measured as a whole"
+        raise CaromError(f"bench {name} has no part {', '.join(unknown)}; {accepted}")
+    for call in [known[part] for part in parts] or [bench.figures]:
+        yield from call()
 
 
 def machine() -> str:

@@ -11,8 +11,9 @@ from carom.tools.commands.options import print_json
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
-    """Declare the name."""
+    """Declare the name, and parts of it."""
     parser.add_argument("name", choices=BENCHES, metavar="NAME", help=", ".join(BENCHES))
+    parser.add_argument("parts", nargs="*", metavar="PART", help="parts of detect or contacts; all unless stated")
 
 
 def execute(arguments: argparse.Namespace) -> int:
@@ -23,7 +24,7 @@ def execute(arguments: argparse.Namespace) -> int:
     if not arguments.json:
         print(machine(), flush=True)
     try:
-        for figure in measure(arguments.name):
+        for figure in measure(arguments.name, arguments.parts):
             figures.append(figure)
             if not arguments.json:
                 print(figure, flush=True)

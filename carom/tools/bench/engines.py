@@ -1,0 +1,116 @@
+"""Engines: carom and its peers behind one small interface, each given the same scene."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Protocol
+
+import numpy as np
+
+from carom.ecs import Motion, RigidBody, Transform
+from carom.ecs.column import Floats
+from carom.systems.shapes.geometry import Geometry
+from carom.systems.shapes.height_field import HeightField
+from carom.systems.simulation import Simulation
+from carom.tools.bench.contact_scenes import Scene
+
+DT, GRAVITY, FRICTION, DENSITY = 1.0 / 60.0, 9.81, 0.5, 1000.0
+ROUGH = {"friction": FRICTION, "restitution": 0.0, "density": DENSITY}
+UPRIGHT = (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5))  # turns local y, along which land rises, to z
+
+
+class Engine(Protocol):
+    """What steps a scene, on one thread and without putting bodies to sleep."""
+
+    def step(self) -> None:
+        """Step by dt."""
+
+    def poses(self) -> tuple[Floats, Floats]:
+        """Return copies of all positions (n, 3) and rotations (n, 4)."""
+
+
+class Carom:
+    """Ours."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.simulation = simulation = Simulation(dt=DT, gravity=(0.0, 0.0, -GRAVITY), checked=False)
+        for center, half in scene.walls:
+            simulation.add(collider={"box": {"size": 2.0 * half}}, material=ROUGH, transform={"position": center})
+        if scene.land is not None:
+            vertices, faces = scene.land
+            field = HeightField(Geometry(vertices[:, [0, 2, 1]] * [1.0, 1.0, -1.0], faces))
+            simulation.add(collider={"shape": field}, material=ROUGH, transform={"rotation": UPRIGHT})
+        for k in range(scene.count):
+            half = scene.half[k]
+            simulation.add(
+                collider={"sphere": {"radius": half[0]}} if scene.ball[k] else {"box": {"size": 2.0 * half}},
+                body={},
+                material=ROUGH,
+                transform={"position": scene.position[k], "rotation": scene.rotation[k]},
+                motion={"linear": scene.linear[k], "angular": scene.angular[k]},
+                visual=False,
+            )
+        self.rows = simulation.world.rows(RigidBody, Motion)
+
+    def step(self) -> None:
+        """Step by dt."""
+        self.simulation.step()
+
+    def poses(self) -> tuple[Floats, Floats]:
+        """Return copies of all positions (n, 3) and rotations (n, 4)."""
+        transform = self.simulation.world[Transform]
+        return np.array(transform.position[self.rows]), np.array(transform.rotation[self.rows])
+
+
+class Rapier:
+    """Rapier, through its own Python package; in single precision."""
+
+    def __init__(self, scene: Scene) -> None:
+        import rapier3d
+
+        self.world = rapier3d.PhysicsWorld(gravity=(0.0, 0.0, -GRAVITY))
+        self.world.integration_parameters.dt = DT
+        self.world.set_num_threads(1)
+        shape, rough = rapier3d.Collider, {"friction": FRICTION, "restitution": 0.0}
+        for center, half in scene.walls:
+            self.world.add_collider(shape.cuboid(*half.tolist(), translation=tuple(center.tolist()), **rough))
+        if scene.land is not None:
+            vertices, faces = scene.land
+            self.world.add_collider(shape.trimesh(vertices.astype(np.float32), faces.astype(np.uint32), **rough))
+        self.handles = [self._add(rapier3d, scene, k, rough) for k in range(scene.count)]
+
+    def _add(self, rapier3d: Any, scene: Scene, k: int, rough: dict[str, float]) -> Any:
+        half, shape = scene.half[k].tolist(), rapier3d.Collider
+        body = rapier3d.RigidBody.dynamic(
+            translation=scene.position[k].tolist(),
+            linvel=scene.linear[k].tolist(),
+            angvel=scene.angular[k].tolist(),
+            can_sleep=False,
+        )
+        solid = shape.ball(half[0], **rough) if scene.ball[k] else shape.cuboid(*half, **rough)
+        body = body.rotation(tuple(rotation_vector(scene.rotation[k]).tolist()))
+        return self.world.add_body(body, colliders=[solid.density(DENSITY)])
+
+    def step(self) -> None:
+        """Step by dt."""
+        self.world.step()
+
+    def poses(self) -> tuple[Floats, Floats]:
+        """Return copies of all positions (n, 3) and rotations (n, 4)."""
+        bodies = self.world.rigid_bodies
+        found = [(body.translation, body.rotation) for body in (bodies[handle] for handle in self.handles)]
+        position = np.array([(place.x, place.y, place.z) for place, _ in found])
+        return position, np.array([(turn.i, turn.j, turn.k, turn.w) for _, turn in found])
+
+
+def rotation_vector(rotation: Floats) -> Floats:
+    """Return axis times angle of a unit quaternion."""
+    turn: Floats = rotation * np.where(rotation[3] < 0.0, -1.0, 1.0)
+    length = float(np.linalg.norm(turn[:3]))
+    if length == 0.0:
+        return np.zeros(3)
+    vector: Floats = turn[:3] * (2.0 * np.arctan2(length, turn[3]) / length)
+    return vector
+
+
+ENGINES: dict[str, Callable[[Scene], Engine]] = {"carom": Carom, "rapier3d": Rapier}  # peers by the module they need
