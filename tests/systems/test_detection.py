@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pairs import SHAPES, Pair, Poses, turns
 
-from carom.ecs import Collider, ColliderPose, DeclarationError, World
+from carom.ecs import Collider, ColliderPose, DeclarationError, RigidBody, World
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.ecs.spatial import quaternion
@@ -78,10 +78,11 @@ def crowds(draw: st.DrawFn) -> Simulation:
         key = draw(st.sampled_from(["sphere", "box", "capsule", "plane", "point"]))
         shape = SHAPES[key]
         moves = not shape.static and draw(st.booleans())
+        kind = draw(st.sampled_from(["dynamic", "kinematic"]))
         layer = draw(st.sampled_from(["default", "left", "right", "ghost", "none"]))
         simulation.add(
             collider={"shape": shape, "layer": layer, "sensor": draw(st.integers(0, 9)) == 0},
-            body={"mass": 1.0} if moves else None,
+            body={"mass": 1.0, "type": kind} if moves else None,
             motion={"linear": generator.normal(size=3) * 20.0, "angular": generator.normal(size=3)} if moves else None,
             transform={"position": generator.uniform(-2.0, 2.0, 3), "rotation": turns(generator)},
             visual=False,
@@ -92,7 +93,10 @@ def crowds(draw: st.DrawFn) -> Simulation:
 @given(crowds())
 @settings(deadline=None, max_examples=60)
 def test_the_broad_phase_finds_the_pairs_of_brute_force(simulation: Simulation) -> None:
-    """Every pair that has a body, overlapping bounds and layers that accept is there once, lower row first."""
+    """Every pair that something can push, or that a sensor notices, with bounds that overlap and layers that accept.
+
+    Each is there once, lower row first.
+    """
     world = simulation.world
     with world.faces(None):
         reach_within(world, 1 / 60)
@@ -108,6 +112,9 @@ def meets(world: World, i: int, j: int) -> bool:
     if not (collider.mask[i] & collider.layer[j] and collider.mask[j] & collider.layer[i]):
         return False
     if collider.sensor[i] and collider.sensor[j]:
+        return False
+    pushed = any(pose.body_row[k] >= 0 and world[RigidBody].inverse_mass[pose.body_row[k]] > 0.0 for k in (i, j))
+    if not (pushed or collider.sensor[i] or collider.sensor[j]):
         return False
     for one, other in ((i, j), (j, i)):
         if not np.isfinite(collider.bound_half[one]).all():

@@ -39,6 +39,12 @@ def moving(collider: dict[str, Any] = BALL, **words: Any) -> dict[str, Any]:
         ({}, {}, 0.0, "'first' and 'second' have no collider"),
         ({"collider": BALL}, {"collider": BOX}, 0.0, "neither 'first' nor 'second' moves; give one of them a body"),
         (
+            {"collider": BALL, "body": {"type": "kinematic"}},
+            {"collider": BOX},
+            0.0,
+            "neither 'first' nor 'second' can be pushed; give one of them a dynamic body",
+        ),
+        (
             moving({**BALL, "layer": "shell"}),
             {"collider": BOX},
             0.0,

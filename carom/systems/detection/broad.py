@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, World
+from carom.ecs import Collider, ColliderPose, RigidBody, World
 from carom.ecs.column import Integers
 from carom.ecs.component import Resource
 from carom.systems.constants import FEW_ASTRAY, MOST_ASTRAY
@@ -16,7 +16,8 @@ from carom.systems.kernels.broad_pairs import renew_pairs
 def overlapping(world: World) -> Integers:
     """Return the pairs (n, 2) of collider rows whose bounds overlap, lower row first, sorted.
 
-    One of a pair moves, each is on a layer that the other accepts, and they are of two bodies and not both sensors.
+    One of a pair can be pushed, or is a sensor and one moves; each is on a layer that the other accepts, and they are
+    of two bodies and not both sensors.
     """
     pairs = world[BroadPhase].renewed(world)
     collider, pose = world[Collider], world[ColliderPose]
@@ -44,7 +45,7 @@ class BroadPhase(Resource):
 
     def _make_room(self, used: int) -> None:
         self.fat_lower, self.fat_upper = np.zeros((used, 3)), np.zeros((used, 3))
-        self.known = np.zeros((used, 4), np.int64)  # row of the body, layer, mask; 1 for sensor + 2 for half space
+        self.known = np.zeros((used, 4), np.int64)  # row of the body, layer, mask, flags
         self.seat = np.zeros((used, 11))  # of half spaces: position, rotation, size
 
     def renewed(self, world: World) -> Integers:
@@ -83,7 +84,7 @@ class BroadPhase(Resource):
         collider, pose = world[Collider], world[ColliderPose]
         leavers: Integers = np.empty(len(self.rows), np.int64)
         count = find_leavers(
-            anew, self.rows, collider.shape, collider.size, pose.body_row,
+            anew, self.rows, collider.shape, collider.size, pose.body_row, world[RigidBody].inverse_mass,
             collider.layer, collider.mask, collider.sensor, pose.position, pose.rotation, pose.lower, pose.upper,
             self.fat_lower, self.fat_upper, self.known, self.seat, leavers,
         )  # fmt: skip

@@ -31,7 +31,7 @@ class Index:
     """Who is where: moving bodies of one size in a grid, others in a tree, endless bounds and strays in neither.
 
     ``fat_lower`` and ``fat_upper`` (m) are the bounds by which rows are placed and found, ``known`` is what else says
-    whose pairs they may be: row of the body, layer, mask, and flags (1 sensor, 2 half space).
+    whose pairs they may be: row of the body, layer, mask, and flags.
     """
 
     def __init__(self, world: World, rows: Integers, fat_lower: Floats, fat_upper: Floats, known: Integers) -> None:

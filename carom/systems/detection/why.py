@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, Transform, World
+from carom.ecs import Collider, ColliderPose, RigidBody, Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.spatial import quaternion
@@ -81,6 +81,10 @@ class _Pair:
             return f"neither {a} nor {b} moves; give one of them a body"
         if self.bodies[0] == self.bodies[1]:
             return f"{a} and {b} belong to one body, '{self.world.name(self.world.entity(self.bodies[0]))}'"
+        inverse_mass = self.world[RigidBody].inverse_mass
+        stand = all(body < 0 or inverse_mass[body] == 0.0 for body in self.bodies)
+        if stand and not self.collider.sensor[self.rows].any():
+            return f"neither {a} nor {b} can be pushed; give one of them a dynamic body"
         layers = self.collider.layer[self.rows].tolist()
         if 0 in layers:
             return f"{self.names[layers.index(0)]} is on layer 'none', which meets nobody"

@@ -11,6 +11,7 @@ from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.shapes.plane import Plane
 
 HALF_SPACE = Plane.number
+IS_SENSOR, IS_FLAT, STANDS = 1, 2, 4  # flags that no two of a pair share: sensor, half space, moved by nothing
 REBUILD = -1  # what `find_leavers` returns where the whole structure must be built anew
 ENDLESS = 1e300  # m; a bound beyond this is taken for infinite
 
@@ -31,22 +32,22 @@ def meets_half_space(plane, box, size, pose_position, pose_rotation, lower, uppe
 
 @kernel("fat_lower", "fat_upper", "known", "seat", "leavers")
 def find_leavers(
-    anew, rows, shape, size, body_row, layer, mask, sensor, pose_position, pose_rotation, lower, upper,
+    anew, rows, shape, size, body_row, inverse_mass, layer, mask, sensor, pose_position, pose_rotation, lower, upper,
     fat_lower, fat_upper, known, seat, leavers,
 ):  # fmt: skip
     """Write the rows that left their fat bounds or whose pairs others may be now, with new fat bounds; count them.
 
     Returns REBUILD where that is not enough: a half space moved, or a row became one, or bounds have no end. ``anew``
-    takes every row for a leaver.
+    takes every row for a leaver. Two of which nothing can push either are no pair: `known` has one flag for them.
     """
     count = 0
     for i in rows:
-        flags = (1 if sensor[i] else 0) + (2 if shape[i] == HALF_SPACE else 0)
-        flat = flags >= 2
-        same = (
-            (known[i, 0] == body_row[i]) & (known[i, 1] == layer[i]) & (known[i, 2] == mask[i]) & (known[i, 3] == flags)
-        )
-        ends = not flat and known[i, 3] < 2
+        b = body_row[i]
+        flat = shape[i] == HALF_SPACE
+        flags = IS_SENSOR if sensor[i] else STANDS if b < 0 or inverse_mass[b] == 0.0 else 0
+        flags |= IS_FLAT if flat else 0
+        same = (known[i, 0] == b) & (known[i, 1] == layer[i]) & (known[i, 2] == mask[i]) & (known[i, 3] == flags)
+        ends = not flat and known[i, 3] & IS_FLAT == 0
         least = np.inf
         for k in range(3):
             if flat:
@@ -71,7 +72,7 @@ def find_leavers(
         if flat:
             for k in range(4):
                 seat[i, 3 + k], seat[i, 7 + k] = pose_rotation[i, k], size[i, k]
-        known[i, 0], known[i, 1], known[i, 2], known[i, 3] = body_row[i], layer[i], mask[i], flags
+        known[i, 0], known[i, 1], known[i, 2], known[i, 3] = b, layer[i], mask[i], flags
         leavers[count] = i
         count += 1
     return count

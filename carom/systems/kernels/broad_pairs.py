@@ -12,8 +12,8 @@ from carom.systems.kernels.kernel import kernel
 def order_pairs(candidates, used, known, scratch, pairs):
     """Write the candidates that may be pairs at all, lower row first, sorted; return their count.
 
-    They are of two bodies, each on a layer that the other accepts, and not both sensors. Counting sort by the higher
-    row, then by the lower: one row with thousands of pairs costs no more.
+    They are of two bodies, each on a layer that the other accepts, and not both sensors or both moved by nothing.
+    Counting sort by the higher row, then by the lower: one row with thousands of pairs costs no more.
     """
     at_low, at_high = np.zeros(used + 1, np.int64), np.zeros(used + 1, np.int64)
     count = 0
