@@ -40,6 +40,7 @@ from carom.systems.shapes.shape import Bounds
 
 Words = Mapping[str, Any]
 COMBINE_QUANTITIES = ("friction", "restitution")
+COLLIDER_COLUMNS = ("position", "rotation", "sensor", "surface_velocity")
 ENTITY_WORDS = ("name", "transform", "motion", "body", "collider", "material", "visual", "tags")
 
 
@@ -179,7 +180,7 @@ def _collider(world: World, words: Words, shape: Shape) -> Collider:
     mask = layers.mask(words["collides_with"]) if "collides_with" in words else layers.masks.get(layer, EVERYTHING)
     values: dict[str, Any] = _shape_columns(world, shape)
     center, half, radius = _offset_bounds(shape.bounds(), words)
-    values |= {key: words[key] for key in ("position", "rotation", "sensor") if key in words}
+    values |= {key: words[key] for key in COLLIDER_COLUMNS if key in words}
     values |= {"layer": layers.bit(layer), "mask": mask}
     values |= {"bound_center": center, "bound_half": half, "bound_radius": radius}
     enters = (words.get("on_enter") or {}).get("layer")

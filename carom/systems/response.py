@@ -18,6 +18,7 @@ from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly
+from carom.systems.kernels.kinematic import follow_turning, keep_course
 from carom.systems.kernels.manifolds import prepare_manifolds
 from carom.systems.kernels.resting import press_contacts, relax_contacts
 from carom.systems.kernels.settling import finish_drift
@@ -51,6 +52,11 @@ def hold(world: World, dt: float) -> None:
     body, resting = world[RigidBody], world[Resting]
     if len(resting.spread) != world.capacity:
         resting.spread = np.zeros((world.capacity, 6))
+    follow_turning(
+        contact.count, dt, world[Settings].integrator == "verlet", contact.body_a, contact.body_b, contact.kind,
+        contact.resting, contact.normal, body.inverse_mass, flight.center, motion.linear, motion.angular,
+        contact.offset_a, contact.offset_b,
+    )  # fmt: skip
     prepare_manifolds(
         world.row_numbers(RigidBody), resting.count, resting.start, contact.body_a, contact.body_b,
         contact.normal, contact.offset_a, contact.offset_b, contact.resting,
@@ -59,8 +65,8 @@ def hold(world: World, dt: float) -> None:
     )  # fmt: skip
     press_contacts(
         resting.count, dt, resting.start, *yielding(dt), contact.body_a, contact.body_b, contact.normal, contact.depth,
-        contact.resting, contact.friction, contact.rolling, contact.spinning, body.inverse_mass,
-        resting.spread, resting.known, resting.known_point, motion.linear, motion.angular,
+        contact.resting, contact.friction, contact.rolling, contact.spinning, contact.surface,
+        body.inverse_mass, resting.spread, resting.known, resting.known_point, motion.linear, motion.angular,
         contact.warm_normal, contact.warm_friction, contact.warm_rolling,
     )  # fmt: skip
     if world[Settings].integrator == "verlet":
@@ -80,9 +86,10 @@ def relax(world: World, dt: float) -> None:
     motion = world[Motion]
     relax_contacts(
         resting.count, dt, resting.start, contact.body_a, contact.body_b, contact.normal, contact.depth,
-        contact.resting, contact.friction, contact.rolling, contact.spinning, world[RigidBody].inverse_mass,
-        resting.spread, resting.known, resting.known_point, motion.linear, motion.angular,
-        contact.impulse, contact.friction_impulse, contact.warm_normal, contact.warm_friction, contact.warm_rolling,
+        contact.resting, contact.friction, contact.rolling, contact.spinning, contact.surface,
+        world[RigidBody].inverse_mass, resting.spread, resting.known, resting.known_point,
+        motion.linear, motion.angular, contact.impulse, contact.friction_impulse,
+        contact.warm_normal, contact.warm_friction, contact.warm_rolling,
     )  # fmt: skip
 
 
@@ -121,8 +128,9 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
         body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes,
         manifolds.count, manifolds.start, contact.body_a, contact.body_b, contact.normal, contact.depth,
         contact.offset_a, contact.offset_b, contact.kind, contact.ball, contact.other, contact.extent, contact.radius,
-        contact.other_position, contact.other_rotation, contact.sign, contact.friction, contact.restitution,
-        contact.resting, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, events,
+        contact.other_position, contact.other_rotation, contact.sign, contact.surface, contact.friction,
+        contact.restitution, contact.resting, contact.impulse, contact.friction_impulse,
+        contact.strikes, contact.plastic, events,
     )  # fmt: skip
     world[Answered].impacts_cut += cut
     if count:
@@ -139,6 +147,11 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
 @system(reads=(RigidBody,), writes=(Transform, Motion, Flight, Contact))
 def settle(world: World, dt: float) -> None:
     """End the substep: drag's second half, origins placed, and how deep contacts have come to be."""
+    transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
+    keep_course(
+        world.row_numbers(RigidBody), dt, body.inverse_mass, body.center_of_mass,
+        flight.start_position, flight.start_rotation, motion.linear, motion.angular, flight.center, transform.rotation,
+    )  # fmt: skip
     _finish(world, ended=True)
 
 

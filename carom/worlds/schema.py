@@ -10,6 +10,7 @@ from pydantic import Field, create_model
 
 from carom.ecs import Collider, Motion, RigidBody, Transform, Visual
 from carom.ecs.components.rigid_body import BodyType
+from carom.systems.assembly import COLLIDER_COLUMNS
 from carom.systems.extensions import load_extensions
 from carom.worlds.generated import (
     column_fields,
@@ -54,7 +55,7 @@ def document() -> type[Words]:
         "Collider",
         "The shape by which an entity touches others: exactly one shape.",
         **shape_fields(),
-        **column_fields(Collider, "position", "rotation", "sensor"),
+        **column_fields(Collider, *COLLIDER_COLUMNS),
         layer=(str, Field("default", description="layer it is on")),
         collides_with=(names, Field(None, description="layers it meets, instead of its layer's own")),
         on_enter=(OnEnter, Field(None, description="sensor: what it does to who enters")),

@@ -171,7 +171,10 @@ def test_the_floor_carries_the_weight_of_a_stack() -> None:
 
 
 def test_a_pile_of_boxes_comes_to_rest_without_overlap() -> None:
-    """Sixty boxes of all sizes dropped into a bin: after 10 s none moves by more than 0.1 mm/s or is 5 mm deep."""
+    """Sixty boxes of all sizes dropped into a bin: after 10 s none moves by more than 0.1 mm/s.
+
+    None is deeper than the spring of a corner gives under the weight of six others.
+    """
     simulation = on_ground()
     for x, z in ((3.0, 0.0), (-3.0, 0.0), (0.0, 3.0), (0.0, -3.0)):
         size = (1.0, 20.0, 7.0) if x else (7.0, 20.0, 1.0)
@@ -193,5 +196,5 @@ def test_a_pile_of_boxes_comes_to_rest_without_overlap() -> None:
     assert (np.abs(placed[:, [0, 2]]) < 2.5).all()
     assert (placed[:, 1] > 0.1).all()
     contact = simulation.world[Contact]
-    assert contact.depth[: contact.count].max() <= 0.005
+    assert contact.depth[: contact.count].max() <= 6.0 * G * 8.0 / (2.0 * math.pi * 45.0) ** 2
     assert fastest(simulation) <= 1e-4

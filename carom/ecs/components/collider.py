@@ -20,6 +20,9 @@ class Collider(Component):
     layer: Integers = column(unit="1", doc="bit of the layer it is on, 0 for none", dtype="int64", default=1)
     mask: Integers = column(unit="1", doc="bits of the layers it collides with", dtype="int64", default=-1)
     sensor: Booleans = column(unit="1", doc="reports who enters, touches nothing", dtype="bool")
+    surface_velocity: Floats = column(
+        3, unit="m/s", doc="velocity of the surface like that of a belt, frame of the shape"
+    )
     enter_layer: Integers = column(
         unit="1", doc="sensor: layer bit given to who enters; -1 keeps", dtype="int64", default=-1
     )

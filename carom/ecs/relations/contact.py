@@ -37,6 +37,12 @@ class Contact(Relation):
     restitution: Floats = column(unit="1", doc="combined restitution", role="derived")
     rolling: Floats = column(unit="m", doc="rolling friction times radius", role="derived")
     spinning: Floats = column(unit="m", doc="spinning friction times radius", role="derived")
+    surface: Floats = column(
+        3,
+        unit="m/s",
+        doc="velocity of b's surface against a's beyond that of their bodies, along the contact, world frame",
+        role="derived",
+    )
     resting: Booleans = column(
         unit="1",
         doc="held together in the last substep, at rest or after a plastic impact",

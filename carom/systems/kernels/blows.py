@@ -91,7 +91,7 @@ def foresee_blow(
 def blow(
     first, end, h, struck_before, center, rotation, linear, angular, acceleration, felt,
     inverse_mass, inverse_inertia, principal,
-    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, friction, restitution,
+    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, surface, friction, restitution,
     impulse, friction_impulse,
 ):  # fmt: skip
     """Let all touching points of a manifold strike at once, within Coulomb's cone over the whole impulse.
@@ -152,6 +152,7 @@ def blow(
                 if friction[first] == 0.0:
                     continue
                 sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
+                sx, sy, sz = sx + surface[c, 0], sy + surface[c, 1], sz + surface[c, 2]
                 along = nx * sx + ny * sy + nz * sz
                 sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
                 size = sqrt(sx * sx + sy * sy + sz * sz)

@@ -6,7 +6,7 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product
+from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product, spun
 
 
 @inlined
@@ -117,16 +117,25 @@ def stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration):
 @inlined
 def advance_body(
     i, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
-    inertia, principal_axes,
+    inverse_mass, inertia, principal_axes,
 ):  # fmt: skip
-    """Bring one body along its arc to ``now``: half the turning kick, free rotation, the other half."""
+    """Bring one body along its arc to ``now``: half the turning kick, free rotation, the other half.
+
+    A kinematic body keeps its angular velocity, whatever its moments are.
+    """
     t = now - time[i]
     for k in range(3):
         center[i, k] += linear[i, k] * t + bend * acceleration[i, k] * t * t
         linear[i, k] += acceleration[i, k] * t
         angular[i, k] += bend * angular_acceleration[i, k] * t
         turned[i, k] += angular[i, k] * t
+    time[i] = now
     qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
+    if inverse_mass[i] == 0.0:
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3] = spun(
+            qx, qy, qz, qw, angular[i, 0], angular[i, 1], angular[i, 2], t
+        )
+        return
     ax, ay, az, aw = principal_axes[i, 0], principal_axes[i, 1], principal_axes[i, 2], principal_axes[i, 3]
     qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
     qx, qy, qz, qw, wx, wy, wz = freely_turned(
@@ -136,4 +145,3 @@ def advance_body(
     angular[i, 0] = wx + (1.0 - bend) * angular_acceleration[i, 0] * t
     angular[i, 1] = wy + (1.0 - bend) * angular_acceleration[i, 1] * t
     angular[i, 2] = wz + (1.0 - bend) * angular_acceleration[i, 2] * t
-    time[i] = now

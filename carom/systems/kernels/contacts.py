@@ -10,7 +10,7 @@ from carom.systems.constants import SAME_POINT
 from carom.systems.kernels.balls import BOX, HALF_SPACE
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
-from carom.systems.kernels.recycling import first_of_pair, smaller_reach
+from carom.systems.kernels.recycling import first_of_pair, smaller_reach, turned
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
 
@@ -33,17 +33,17 @@ def combined(x, y, rule_x, rule_y, default):
 
 
 @kernel(
-    "friction", "restitution", "rolling", "spinning", "row_a", "row_b", "body_a", "body_b", "offset_a", "offset_b",
-    "kind", "ball", "other", "sign", "radius", "extent", "other_position", "other_rotation",
+    "friction", "restitution", "rolling", "spinning", "surface", "row_a", "row_b", "body_a", "body_b",
+    "offset_a", "offset_b", "kind", "ball", "other", "sign", "radius", "extent", "other_position", "other_rotation",
 )  # fmt: skip
 def complete_contacts(
     count, normal, depth, point, row_a, row_b,
     body_row, shape, size, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
     material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
-    friction, restitution, rolling, spinning, body_a, body_b, offset_a, offset_b,
+    surface_velocity, friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b,
     kind, ball, other, sign, radius, extent, other_position, other_rotation,
 ):  # fmt: skip
-    """Fill in what follows from the two colliders: bodies, offsets, combined material, and whether impacts are exact.
+    """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
     Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces.
     """
@@ -57,6 +57,13 @@ def complete_contacts(
         # Never more than friction can carry, else resistance to rolling would make the body slide.
         rolling[c] = min(max(material_rolling[a], material_rolling[b]), friction[c]) * lever
         spinning[c] = max(material_spinning[a], material_spinning[b]) * lever
+        ax, ay, az = turned(a, a, surface_velocity, pose_rotation)
+        bx, by, bz = turned(b, b, surface_velocity, pose_rotation)
+        bx, by, bz = bx - ax, by - ay, bz - az
+        across = normal[c, 0] * bx + normal[c, 1] * by + normal[c, 2] * bz
+        surface[c, 0] = bx - across * normal[c, 0]
+        surface[c, 1] = by - across * normal[c, 1]
+        surface[c, 2] = bz - across * normal[c, 2]
         body_a[c], body_b[c] = body_row[a], body_row[b]
         for k in range(3):
             offset_a[c, k] = point[c, k] + 0.5 * depth[c] * normal[c, k]

@@ -114,7 +114,7 @@ def kick_bodies(
                 decay[i] = exponential(-rate * h)
             for k in range(3):
                 linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * before
-        if angular_drag[i] > 0.0:
+        if angular_drag[i] > 0.0 and inverse_mass[i] > 0.0:
             angular_decay[i] = exponential(-angular_drag[i] * h)
         for k in range(3):
             if scheme == SEMI_IMPLICIT:

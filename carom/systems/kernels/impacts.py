@@ -31,7 +31,7 @@ def fly(
     inverse_mass, inertia, inverse_inertia, principal_axes,
     count, beginning, body_a, body_b, normal, depth, offset_a, offset_b,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
-    friction, restitution, resting, impulse, friction_impulse, strikes, plastic, events,
+    surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, events,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts.
 
@@ -127,7 +127,7 @@ def fly(
             if body >= 0 and time[body] < now:
                 advance_body(
                     body, now, bend, center, rotation, turned, linear, angular, time, acceleration,
-                    angular_acceleration, inertia, principal_axes,
+                    angular_acceleration, inverse_mass, inertia, principal_axes,
                 )  # fmt: skip
         along_a = -1.0 if kind[p] < 0 else -sign[p]  # of the normal and the friction below, which act on the first
         if kind[p] < 0:
@@ -135,7 +135,7 @@ def fly(
             speed, pressed, px, py, pz, fx, fy, fz, together = blow(
                 p, ends[m], h, strikes[p], center, rotation, linear, angular, acceleration, felt,
                 inverse_mass, inverse_inertia, principal_axes,
-                body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, friction, restitution,
+                body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, surface, friction, restitution,
                 impulse, friction_impulse,
             )  # fmt: skip
             fx, fy, fz = -fx, -fy, -fz
@@ -145,7 +145,7 @@ def fly(
             speed, pressed, nx, ny, nz, px, py, pz, jx, jy, jz, together = strike(
                 p, i, o, h, strikes[p], center, rotation, linear, angular, acceleration, felt,
                 inverse_mass, inverse_inertia, principal_axes,
-                kind, radius, extent, other_position, other_rotation, friction, restitution,
+                kind, radius, extent, other_position, other_rotation, sign, surface, friction, restitution,
             )  # fmt: skip
             fx, fy, fz = jx - pressed * nx, jy - pressed * ny, jz - pressed * nz
             impulse[p] += pressed
@@ -193,7 +193,7 @@ def fly(
         if time[i] < now:
             advance_body(
                 i, now, bend, center, rotation, turned, linear, angular, time, acceleration,
-                angular_acceleration, inertia, principal_axes,
+                angular_acceleration, inverse_mass, inertia, principal_axes,
             )  # fmt: skip
     return now, reason, events, cut, log_count, log_pair, log
 

@@ -25,7 +25,7 @@ from carom.systems.kernels.spatial import cross
 
 @kernel("linear", "angular", "warm_normal", "warm_friction", "warm_rolling")
 def press_contacts(
-    count, h, start, soft, rigid, body_a, body_b, normal, depth, resting, friction, rolling, spinning,
+    count, h, start, soft, rigid, body_a, body_b, normal, depth, resting, friction, rolling, spinning, surface,
     inverse_mass, spread, known, known_point, linear, angular, warm_normal, warm_friction, warm_rolling,
 ):  # fmt: skip
     """Apply the impulses of the substep before, then solve every manifold once with its overlap pushed out.
@@ -55,7 +55,7 @@ def press_contacts(
                 rate, hardness, give_way = rigid if last else soft
                 press_manifold(
                     m, first, start[m + 1], h, rate, hardness, give_way, a, b,
-                    normal, depth, friction, rolling, spinning,
+                    normal, depth, friction, rolling, spinning, surface,
                     inverse_mass, spread, known, known_point, linear, angular,
                     warm_normal, warm_friction, warm_rolling,
                 )  # fmt: skip
@@ -63,7 +63,7 @@ def press_contacts(
 
 @kernel("linear", "angular", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
 def relax_contacts(
-    count, h, start, body_a, body_b, normal, depth, resting, friction, rolling, spinning,
+    count, h, start, body_a, body_b, normal, depth, resting, friction, rolling, spinning, surface,
     inverse_mass, spread, known, known_point, linear, angular,
     impulse, friction_impulse, warm_normal, warm_friction, warm_rolling,
 ):  # fmt: skip
@@ -75,7 +75,8 @@ def relax_contacts(
                 a, b = body_a[first], body_b[first]
                 if resting[first] and stands(a, b, inverse_mass) == last:
                     press_manifold(
-                        m, first, start[m + 1], h, 0.0, 1.0, 0.0, a, b, normal, depth, friction, rolling, spinning,
+                        m, first, start[m + 1], h, 0.0, 1.0, 0.0, a, b,
+                        normal, depth, friction, rolling, spinning, surface,
                         inverse_mass, spread, known, known_point, linear, angular,
                         warm_normal, warm_friction, warm_rolling,
                     )  # fmt: skip
@@ -95,14 +96,15 @@ def stands(a, b, inverse_mass):
 
 @woven
 def press_manifold(
-    m, first, end, h, rate, hardness, give_way, a, b, normal, depth, friction, rolling, spinning,
+    m, first, end, h, rate, hardness, give_way, a, b, normal, depth, friction, rolling, spinning, surface,
     inverse_mass, spread, known, known_point, linear, angular, warm_normal, warm_friction, warm_rolling,
 ):  # fmt: skip
     """Solve one manifold once: its points one after the other, then friction, spinning and rolling of all together.
 
     Overlap leaves at ``rate`` (1/s) times itself. A soft contact is a spring and a damper, stepped implicitly, of which
     ``hardness`` (part of the mass) and ``give_way`` (part of the impulse given up) remain: Catto, Soft Constraints, GDC
-    2011, and Solver2D, 2024 (soft step). A gap may close until the end of the substep.
+    2011, and Solver2D, 2024 (soft step). A gap may close until the end of the substep. Friction that slides twists the
+    less: both share one cone (Goyal, Ruina and Papadopoulos, Wear 143, 307, 1991, as an ellipsoid).
     """
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
     for _ in range(POINT_SWEEPS if end - first > 1 else 1):
@@ -136,13 +138,18 @@ def press_manifold(
     tx, ty, tz = known[m, TANGENT], known[m, TANGENT + 1], known[m, TANGENT + 2]
     ux, uy, uz = known[m, TANGENT + 3], known[m, TANGENT + 4], known[m, TANGENT + 5]
     most = friction[first] * total
-    most_spin = spinning[first] * total + friction[first] * twisting
+    most_twist = friction[first] * twisting
     for _ in range(ROLL_SWEEPS if rolling[first] > 0.0 else 1):
-        sx, sy, sz = slip(m, a, b, known, linear, angular)
+        sx, sy, sz = slip(m, first, a, b, surface, known, linear, angular)
         vt, vu = tx * sx + ty * sy + tz * sz, ux * sx + uy * sy + uz * sz
         ft = tx * px + ty * py + tz * pz - (known[m, GIVE] * vt + known[m, GIVE + 1] * vu)
         fu = ux * px + uy * py + uz * pz - (known[m, GIVE + 1] * vt + known[m, GIVE + 2] * vu)
-        size = sqrt(ft * ft + fu * fu)
+        size, most_spin = sqrt(ft * ft + fu * fu), spinning[first] * total
+        if most_twist > 0.0:
+            spin = spin_of_pair(a, b, nx, ny, nz, angular)
+            wanted = abs(nx * qx + ny * qy + nz * qz - known[m, SPIN] * spin)
+            size = sqrt(size * size + (wanted * most / most_twist) ** 2)
+            most_spin += min(most_twist, wanted * most / size) if size > most else most_twist
         slides = size > most
         if slides:
             ft, fu = ft * (most / size), fu * (most / size)
@@ -207,15 +214,15 @@ def rub(m, jx, jy, jz, a, b, inverse_mass, spread, known, linear, angular):
 
 
 @inlined
-def slip(m, a, b, known, linear, angular):
-    """Return the velocity of b against a at the middle of a manifold."""
-    sx, sy, sz = 0.0, 0.0, 0.0
+def slip(m, first, a, b, surface, known, linear, angular):
+    """Return the velocity of b's surface against a's at the middle of a manifold."""
+    sx, sy, sz = surface[first, 0], surface[first, 1], surface[first, 2]
     if a >= 0:
         x, y, z = cross(
             angular[a, 0], angular[a, 1], angular[a, 2],
             known[m, MIDDLE_A], known[m, MIDDLE_A + 1], known[m, MIDDLE_A + 2],
         )  # fmt: skip
-        sx, sy, sz = -linear[a, 0] - x, -linear[a, 1] - y, -linear[a, 2] - z
+        sx, sy, sz = sx - linear[a, 0] - x, sy - linear[a, 1] - y, sz - linear[a, 2] - z
     if b >= 0:
         x, y, z = cross(
             angular[b, 0], angular[b, 1], angular[b, 2],
@@ -223,6 +230,17 @@ def slip(m, a, b, known, linear, angular):
         )  # fmt: skip
         sx, sy, sz = sx + linear[b, 0] + x, sy + linear[b, 1] + y, sz + linear[b, 2] + z
     return sx, sy, sz
+
+
+@inlined
+def spin_of_pair(a, b, nx, ny, nz, angular):
+    """Return how fast b turns against a about the normal."""
+    spin = 0.0
+    if a >= 0:
+        spin -= nx * angular[a, 0] + ny * angular[a, 1] + nz * angular[a, 2]
+    if b >= 0:
+        spin += nx * angular[b, 0] + ny * angular[b, 1] + nz * angular[b, 2]
+    return spin
 
 
 @inlined

@@ -70,7 +70,7 @@ def foresee(
 def strike(
     p, i, o, h, struck_before, center, rotation, linear, angular, acceleration, felt,
     inverse_mass, inverse_inertia, principal_axes,
-    kind, radius, extent, other_position, other_rotation, friction, restitution,
+    kind, radius, extent, other_position, other_rotation, sign, surface, friction, restitution,
 ):  # fmt: skip
     """Let the bodies of pair p strike each other where they are, having done so ``struck_before`` times in the substep.
 
@@ -94,6 +94,10 @@ def strike(
     if vn >= -APPROACH:
         stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration)
         return 0.0, 0.0, nx, ny, nz, px, py, pz, 0.0, 0.0, 0.0, True
+    across = nx * surface[p, 0] + ny * surface[p, 1] + nz * surface[p, 2]  # the normal is not that of detection
+    sx -= sign[p] * (surface[p, 0] - across * nx)
+    sy -= sign[p] * (surface[p, 1] - across * ny)
+    sz -= sign[p] * (surface[p, 2] - across * nz)
     kxx, kxy, kxz, kyy, kyz, kzz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for body, x, y, z in ((i, rx, ry, rz), (o, gx, gy, gz)):
         if body >= 0:

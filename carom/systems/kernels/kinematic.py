@@ -1,0 +1,66 @@
+"""Kinematic bodies: what their turning does to what rests on them, and where they are at the end of a substep."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.spatial import spun, turn
+
+
+@kernel("offset_a", "offset_b")
+def follow_turning(
+    count, h, bends, body_a, body_b, kind, resting, normal, inverse_mass, center, linear, angular, offset_a, offset_b
+):
+    """Let what rests on a turning kinematic body feel its surface where it will be, not where it was detected.
+
+    In the middle of the substep a body that keeps to the surface goes along the chord of its circle and so stays on it;
+    by the velocity at the start it would leave along the tangent. A ball whose arc bends (``bends``) comes to the
+    surface's velocity at the end of the substep, and needs that.
+    """
+    for c in range(count):
+        a, b = body_a[c], body_b[c]
+        if not resting[c] or a < 0 or b < 0:
+            continue
+        if turns(a, inverse_mass, angular):
+            ahead(c, b, a, h if bends and kind[c] >= 0 else 0.5 * h, normal, center, linear, offset_b, offset_a)
+        if turns(b, inverse_mass, angular):
+            ahead(c, a, b, h if bends and kind[c] >= 0 else 0.5 * h, normal, center, linear, offset_a, offset_b)
+
+
+@inlined
+def turns(i, inverse_mass, angular):
+    """Tell whether body i is kinematic and turns."""
+    return inverse_mass[i] == 0.0 and (angular[i, 0] != 0.0 or angular[i, 1] != 0.0 or angular[i, 2] != 0.0)
+
+
+@inlined
+def ahead(c, i, o, time, normal, center, linear, offset, offset_other):
+    """Move the offset of contact c from body o along the surface to where body i takes it in ``time`` seconds."""
+    along = 0.0
+    for k in range(3):
+        to = center[i, k] + offset[c, k] - center[o, k] + time * (linear[i, k] - linear[o, k])
+        along += normal[c, k] * (to - offset_other[c, k])
+    for k in range(3):
+        to = center[i, k] + offset[c, k] - center[o, k] + time * (linear[i, k] - linear[o, k])
+        offset_other[c, k] = to - along * normal[c, k]
+
+
+@kernel("center", "rotation")
+def keep_course(
+    rows, h, inverse_mass, center_of_mass, start_position, start_rotation, linear, angular, center, rotation
+):
+    """Place kinematic bodies where their velocity takes them in a substep of h seconds from its start.
+
+    In one piece: impacts on the way cut their flight into pieces, whose sum would be another in its last bits.
+    """
+    for i in rows:
+        if inverse_mass[i] != 0.0:
+            continue
+        qx, qy, qz, qw = start_rotation[i, 0], start_rotation[i, 1], start_rotation[i, 2], start_rotation[i, 3]
+        x, y, z = turn(qx, qy, qz, qw, center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2])
+        center[i, 0] = start_position[i, 0] + x + linear[i, 0] * h
+        center[i, 1] = start_position[i, 1] + y + linear[i, 1] * h
+        center[i, 2] = start_position[i, 2] + z + linear[i, 2] * h
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3] = spun(
+            qx, qy, qz, qw, angular[i, 0], angular[i, 1], angular[i, 2], h
+        )
