@@ -62,7 +62,7 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         (
             BALL + "collider: {shpere: {radius: 1}}}\n",
             (f"w.yaml:3:29: entities.0.collider.shpere: unknown key; received 'shpere'; accepted: {SHAPES}, position, "
-            "rotation, sensor, layer, collides_with, on_enter; did you mean 'sphere'?"),
+            "rotation, sensor, surface_velocity, layer, collides_with, on_enter; did you mean 'sphere'?"),
         ),
         (
             BALL + "collider: {}}\n",
