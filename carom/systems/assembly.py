@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -34,6 +34,7 @@ from carom.systems.compound import StatedBodies, joining, weigh
 from carom.systems.layers import EVERYTHING, Layers
 from carom.systems.mass import Part, rigid_body
 from carom.systems.own_components import own_component
+from carom.systems.paths import path_of, stated
 from carom.systems.shapes import SHAPES, Shape
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import Bounds
@@ -41,7 +42,7 @@ from carom.systems.shapes.shape import Bounds
 Words = Mapping[str, Any]
 COMBINE_QUANTITIES = ("friction", "restitution")
 COLLIDER_COLUMNS = ("position", "rotation", "sensor", "surface_velocity")
-ENTITY_WORDS = ("name", "transform", "motion", "body", "collider", "material", "visual", "tags")
+ENTITY_WORDS = ("name", "transform", "motion", "body", "keyframes", "collider", "material", "visual", "tags")
 
 
 class Materials(Resource):
@@ -55,10 +56,11 @@ def add_entity(world: World, *, name: str | None = None, **words: Any) -> Entity
     """Add one entity described in the words of a world file, all numbers SI.
 
     ``body`` makes it move (an empty mapping takes its mass from the shape's volume and the material's density); without
-    one it is static. ``visual`` False hides it, ``tags`` are names, and ``parent`` names who carries it: a collider
-    that is carried belongs to the nearest body above it, whose mass grows by it unless stated. Further words are the
-    keys of a user's own components, each with its columns: ``health={"points": 3}``. Raises DeclarationError for
-    anything a file would be refused for.
+    one it is static. ``keyframes``, each with ``at`` (s), ``position`` and ``rotation``, are what a kinematic one goes
+    along. ``visual`` False hides it, ``tags`` are names, and ``parent`` names who carries it: a collider that is
+    carried belongs to the nearest body above it, whose mass grows by it unless stated. Further words are the keys of a
+    user's own components, each with its columns: ``health={"points": 3}``. Raises DeclarationError for anything a file
+    would be refused for.
     """
     entity = world.spawn(*bundles_of(world, **words), name=name)
     _settle(world, np.array([entity]), words)
@@ -68,6 +70,13 @@ def add_entity(world: World, *, name: str | None = None, **words: Any) -> Entity
 def add_entities(world: World, positions: npt.ArrayLike, *, names: list[str] | None = None, **words: Any) -> Integers:
     """Add an entity at each position (n, 3), m, all alike otherwise; ``words`` are those of `add_entity`."""
     places = np.asarray(positions, np.float64).reshape(-1, 3)
+    if words.get("keyframes") is not None:
+        if len(places) != 1:
+            raise DeclarationError("keyframes: all copies would go the same way; add them one by one")
+        frames, _, _ = stated(words["keyframes"])
+        if frames and "position" not in frames[0]:
+            words["transform"] = {**words.get("transform", {}), "position": places[0]}
+        return np.array([add_entity(world, name=None if names is None else names[0], **words)])
     entities = world.spawn_many(len(places), *bundles_of(world, **words), Transform(position=places), names=names)
     _settle(world, entities, words)
     return entities
@@ -94,6 +103,7 @@ def bundles_of(
     transform: Words | None = None,
     motion: Words | None = None,
     body: Words | None = None,
+    keyframes: Words | Sequence[Words] | None = None,
     collider: Words | None = None,
     material: str | Words | None = None,
     visual: Words | bool | None = None,
@@ -102,7 +112,11 @@ def bundles_of(
 ) -> list[Component]:
     """Return the components that the words of an entity stand for."""
     surface = material_of(world, material)
-    bundles: list[Component] = [_transform(transform or {}), surface]
+    bundles: list[Component] = [surface]
+    if keyframes is None:
+        bundles.append(_transform(transform or {}))
+    else:
+        bundles += path_of(world, {"transform": transform, "motion": motion, "body": body, "keyframes": keyframes})
     shape = shape_of(collider) if collider is not None else None
     if collider is not None and shape is not None:
         if shape.static and body is not None:

@@ -13,6 +13,7 @@ from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
 from carom.systems.forces.wind import apply_wind
 from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
+from carom.systems.keyframes import follow_keyframes
 from carom.systems.progress import begin_step, begin_substep
 from carom.systems.response import drift, hold, relax, settle, sort_out_contacts
 from carom.systems.settings import Settings
@@ -27,6 +28,7 @@ STEP = Schedule(
     Phase(
         "detect",
         begin_step,
+        follow_keyframes,  # velocities of bodies on keyframes, for the whole step
         place_colliders,  # poses and bounds of all colliders, widened by what they may travel
         find_contacts,  # the contact table, and who entered a sensor
     ),

@@ -19,6 +19,7 @@ from carom.systems.assembly import Materials
 from carom.systems.compound import StatedBodies, joining, weigh
 from carom.systems.layers import Layers
 from carom.systems.own_components import components_of_files
+from carom.systems.paths import PathFault, faults_of_path
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import Path, WordError
@@ -73,7 +74,7 @@ class Populator:
             return
         if name is not None:
             self.taken[name] = path
-        if not self.names_hold(path, words):
+        if not (self.names_hold(path, words) and self.path_holds(path, words, grid)):
             return
         transform = words.pop("transform", {})
         jitter = transform.pop("jitter", None)
@@ -192,6 +193,17 @@ class Populator:
                 self.source.report_value((*path, *place), fault)
                 held = False
         return held
+
+    def path_holds(self, path: Path, words: dict[str, Any], grid: Any) -> bool:
+        """Report everything that is wrong with keyframes."""
+        if "keyframes" not in words:
+            return True
+        faults = list(faults_of_path(words))
+        if grid is not None:
+            faults.append(PathFault(("grid",), "all copies would go the same way; remove grid or keyframes"))
+        for fault in faults:
+            self.source.report((*path, *fault.steps), fault.what, received=fault.received)
+        return not faults
 
     def report(self, path: Path, message: str) -> None:
         """Report what assembly says, at the words it names when they are in the file."""

@@ -20,7 +20,19 @@ from carom.worlds.generated import (
     setting_fields,
     shape_fields,
 )
-from carom.worlds.sections import Camera, Expect, Grid, LayersMet, Length, Lengths, OnEnter, Render, Run
+from carom.worlds.sections import (
+    Camera,
+    Expect,
+    Grid,
+    KeyframesWords,
+    KeyframeWords,
+    LayersMet,
+    Length,
+    Lengths,
+    OnEnter,
+    Render,
+    Run,
+)
 from carom.worlds.values import Flag, Name, Words, either, word_of
 
 VERSION = 1
@@ -68,6 +80,9 @@ def document() -> type[Words]:
         "transform": (transform, Field(None, description="where it is")),
         "motion": (motion, Field(None, description="how it moves")),
         "body": (body, Field(None, description="makes it move; {} takes the mass from shape and density")),
+        "keyframes": (
+            either(list[KeyframeWords], KeyframesWords), Field(None, description="poses a kinematic body goes along")
+        ),
         "collider": (collider, Field(None, description="the shape by which it touches others")),
         "material": (either(str, material), Field(None, description="name of a material, or its words")),
         "visual": (either(Flag, visual), Field(None, description="what is seen; false hides it")),

@@ -7,8 +7,10 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field, WrapValidator, model_validator
 
+from carom.systems.paths import REPEATS
 from carom.worlds.color import ColorWord
 from carom.worlds.errors import WordError, shown
+from carom.worlds.rotation import RotationWord
 from carom.worlds.values import In, Vector3, Whole, Words, either, word_of
 
 Length = Annotated[float, In("m")]
@@ -31,6 +33,21 @@ class Grid(Words):
     count: tuple[Count, Count, Count] = Field(description="copies along x, y and z")
     spacing: either(Length, Lengths, list) = Field(description="distance between neighbours (m), one or one per axis")  # type: ignore[valid-type]
     origin: Lengths = Field((0.0, 0.0, 0.0), description="where copy [0,0,0] is, added to transform.position (m)")
+
+
+class KeyframeWords(Words):
+    """A pose at a time; what it leaves out is as in the keyframe before, or at first in transform."""
+
+    at: Annotated[float, In("s", least=0.0)] = Field(description="simulated time (s)")
+    position: Lengths | None = Field(None, description="position of the origin in the world (m)")
+    rotation: RotationWord | None = Field(None, description="unit quaternion xyzw, body to world")
+
+
+class KeyframesWords(Words):
+    """Keyframes, and what follows the last."""
+
+    frames: list[KeyframeWords] = Field(description="two or more, in order of their times")
+    repeat: word_of(*REPEATS) = Field(REPEATS[0], description="once, loop, or ping_pong: there and back")  # type: ignore[valid-type]
 
 
 class OnEnter(Words):

@@ -323,6 +323,38 @@ def test_what_a_file_can_do_without_is_told_too(tmp_path: Path, capsys: pytest.C
     assert json.loads(capsys.readouterr().out)[0]["warnings"] == [line]
 
 
+def test_everything_wrong_with_keyframes_is_told_at_once() -> None:
+    """Times, poses, the body and the words beside them, each where it stands."""
+    text = """entities:
+  - name: lift
+    collider: {box: {size: [1, 1, 1]}}
+    body: {mass: 1}
+    motion: {linear: [0, 1, 0]}
+    transform: {position: [1, 0, 0]}
+    grid: {count: [2, 1, 1], spacing: 1}
+    keyframes: [{at: 0 s, position: [0, 0, 0]}, {at: 2 s, position: [0, 3, 0]}, {at: 2 s}]
+  - {name: wall, keyframes: [{at: 0}]}
+  - name: table
+    body: {type: kinematic}
+    keyframes: {frames: [{at: 0, position: [0, 0, 0]}, {at: 1 s, position: [1, 0, 0]}], repeat: loop}
+  - {name: lever, body: {type: kinematic}, keyframes: [{at: -1 s}, {at: 1 m, place: [0, 0, 0]}]}
+"""
+    closed = "must have the pose of the first, for the path to begin anew there; close it, or state ping_pong"
+    assert messages(text) == [
+        "w.yaml:5:5: entities.0.body.type: only a kinematic body follows keyframes; received dynamic",
+        "w.yaml:6:5: entities.0.motion: keyframes say how it moves; remove motion or keyframes",
+        "w.yaml:7:17: entities.0.transform.position: the first keyframe says where it is; remove one of the two",
+        "w.yaml:8:5: entities.0.grid: all copies would go the same way; remove grid or keyframes",
+        "w.yaml:9:82: entities.0.keyframes.2.at: must be later than the keyframe before, 2 s; received 2 s",
+        "w.yaml:10:18: entities.1.keyframes: must be two or more; received 1",
+        "w.yaml:10:18: entities.1.keyframes: only a kinematic body follows keyframes; give it body: {type: kinematic}",
+        f"w.yaml:13:56: entities.2.keyframes.frames.1: {closed}",
+        "w.yaml:14:57: entities.3.keyframes.0.at: must be at least 0 s; received '-1 s'",
+        "w.yaml:14:69: entities.3.keyframes.1.at: must be a time; received '1 m', which is a length; accepted: a number in s, or one with a unit: s, ms, us, min, h, d",
+        "w.yaml:14:78: entities.3.keyframes.1.place: unknown key; received 'place'; accepted: at, position, rotation",
+    ]
+
+
 def test_all_faults_at_once_in_order_of_position() -> None:
     """One run tells everything, and does not complain of names whose entity it complained of."""
     text = """step: {dt: 0}

@@ -44,6 +44,8 @@ def test_library_worlds_are_valid(validator: Any, name: str) -> None:
         "{carom: 1, entities: [{collider: {shpere: {radius: 1}}}]}",
         "{carom: 1, entities: [{transform: {position: [1, 2]}}]}",
         "{carom: 1, entities: [{transform: {rotation: {axis: [0, 1, 0]}}}]}",
+        "{carom: 1, entities: [{keyframes: [{position: [1, 2, 3]}]}]}",
+        "{carom: 1, entities: [{keyframes: {frames: [{at: 0}, {at: 1}], repeat: twice}}]}",
         "{carom: 1, step: {dt: 0}}",
         "{carom: 1, materials: {ivory: {friction: {value: 1, combine: often}}}}",
         "{carom: 1, expect: [{at: 1, ball.position: {is: 3}}]}",

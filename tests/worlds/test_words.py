@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from carom.ecs import Collider, Combine, RigidBody, Transform, Visual
+from carom.ecs.components.path import Repeat
+from carom.ecs.relations.keyframe import Keyframe
 from carom.systems.forces.law import Forces
 from carom.systems.layers import Layers
 from carom.worlds import LoadedWorld, WorldError, load_text
@@ -127,6 +129,7 @@ entities:
   - {name: ghost, collider: {point: {}}, visual: false}
   - {name: lamp, visual: {sphere: {radius: 0.1}, color: gold, visible: false}}
   - {name: heavy, collider: {box: {size: [1, 1, 1]}}, body: {}, material: {density: 2 g/cm3}}
+  - {name: belt, collider: {box: {size: [9, 1, 1]}, surface_velocity: [3.6 km/h, 0, 0]}}
 """).simulation
     layers = world.world[Layers]
     assert world["ball"].rigid_body.mass == 0.17
@@ -142,7 +145,30 @@ entities:
     assert not world["lamp"].visual.visible
     assert not world.world.table(Collider).present[world.world.row(world.world.find("lamp"))]
     assert world["heavy"].rigid_body.mass == pytest.approx(2000)
+    assert world["belt"].collider.surface_velocity.tolist() == [1, 0, 0]
     assert world.world.count(RigidBody) == 3
+
+
+def test_keyframes() -> None:
+    """A list, or with how it repeats; times and rotations are in any of their forms."""
+    world = load("""
+entities:
+  - name: lift
+    body: {type: kinematic}
+    transform: {position: [0, 1, 0]}
+    keyframes: [{at: 0 s}, {at: 1500 ms, position: [0, 3 m, 0]}, {at: 2, rotation: {axis: [0, 1, 0], angle: 90 deg}}]
+  - name: shuttle
+    body: {type: kinematic}
+    keyframes: {frames: [{at: 0, position: [0, 0, 0]}, {at: 1 s, position: [1, 0, 0]}], repeat: ping_pong}
+""").simulation
+    keyframe = world.world[Keyframe]
+    assert keyframe.at[: keyframe.count].tolist() == [0.0, 1.5, 2.0, 0.0, 1.0]
+    assert keyframe.position[: keyframe.count, 1].tolist() == [1.0, 3.0, 3.0, 0.0, 0.0]
+    np.testing.assert_allclose(keyframe.rotation[2], [0, math.sqrt(0.5), 0, math.sqrt(0.5)], atol=1e-12)
+    assert [world[name].path.repeat for name in ("lift", "shuttle")] == [Repeat.ONCE, Repeat.PING_PONG]
+    world.step(90)
+    np.testing.assert_allclose(world["lift"].transform.position, [0, 3, 0], atol=1e-12)
+    np.testing.assert_allclose(world["shuttle"].transform.position, [0.5, 0, 0], atol=1e-12)
 
 
 def test_materials_say_how_they_combine() -> None:

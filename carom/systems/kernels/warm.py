@@ -93,6 +93,8 @@ def compile_systems(heavy: bool) -> None:
     world = simulation.world
     simulation.add(collider={"plane": {}})
     simulation.add(collider={"sphere": {"radius": 0.5}}, body={}, transform={"position": (0.0, 0.5, 0.0)})
+    way = ({"at": 0.0}, {"at": 1.0, "position": (1.0, 0.0, 0.0)})
+    simulation.add(body={"type": "kinematic"}, keyframes=way)
     simulation.force("linear_drag", coefficient=1.0)
     simulation.force("quadratic_drag", area=1.0)
     simulation.force("mutual_gravitation")
