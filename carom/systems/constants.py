@@ -281,3 +281,7 @@ SQUARE_ENOUGH = 1e-14
 # rad. A direction that parts a round body from an edge and is nearer than this to the normal of a face beside it is of
 # that face. Larger: contacts of blunt edges are lost; smaller: what lies on a face has points on its edges as well.
 BESIDE_FACE = 1e-6
+
+# Part of a body's longest half extent by which a box may rise above the one that the body lies on and still be flush
+# with it. Larger: kerbs are climbed instead of struck; smaller than what bodies sink in by: they stumble over seams.
+FLUSH = 1e-3

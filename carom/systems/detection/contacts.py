@@ -17,6 +17,7 @@ from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.narrow import Found
 from carom.systems.detection.recycling import measure_what_moved
+from carom.systems.detection.seams import without_seams
 from carom.systems.detection.sensors import sense
 from carom.systems.kernels.contacts import complete_contacts, renew_contacts
 from carom.systems.kernels.narrow import reach_of_pairs
@@ -53,7 +54,8 @@ def detect(world: World) -> None:
     pairs = overlapping(world)
     reaches = np.empty(len(pairs))
     reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
-    store(world, sense(world, measure_what_moved(world, pairs, reaches)))
+    found = sense(world, measure_what_moved(world, pairs, reaches))
+    store(world, without_seams(world, found))
 
 
 def store(world: World, found: Found) -> None:
