@@ -80,11 +80,21 @@ def test_a_lift_carries_a_stack(speed: float) -> None:
     assert depths[1][0] == pytest.approx(0.0, abs=1e-8)
 
 
-def test_friction_drags_a_cube_up_to_the_speed_of_its_platform() -> None:
+@pytest.mark.parametrize("collision", ["auto", "fcl"])
+@pytest.mark.parametrize(
+    ("shape", "height"),
+    [(CUBE, 0.5), ({**SHAPES["capsule"], "rotation": (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))}, 0.1)],
+    ids=["cube", "capsule along the way"],
+)
+def test_friction_drags_a_body_up_to_the_speed_of_its_platform(
+    shape: dict[str, Any], height: float, collision: str
+) -> None:
     """By mu g in every step until it has 1 m/s, then it rides; it falls behind as the discrete sum says."""
-    simulation = world()
+    simulation = Simulation(checked=False, collision=collision)
     platform = add_kinematic(simulation, (40.0, 0.5, 4.0), 0.0, -0.25, 0.0, linear=(1.0, 0.0, 0.0))
-    cube = add_cube(simulation, 0.0, 0.5, 0.0)
+    cube = simulation.add(
+        collider=shape, body={"mass": 1.0}, material=ROUGH, transform={"position": (0.0, height, 0.0)}
+    )
     for step in range(1, 13):
         simulation.step()
         assert simulation[cube].motion.linear[0] == pytest.approx(MU * G * step / 60, rel=1e-3)
