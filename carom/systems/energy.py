@@ -39,10 +39,14 @@ def kinetic_energy(world: World) -> float:
 
 
 def potential_energy(world: World) -> float:
-    """Return -m g.x summed, and -G m1 m2 / r (softened as the force is) for every mutual gravitation, in J."""
+    """Return -s m g.x summed, and -G m1 m2 / r (softened as the force is) for every mutual gravitation, in J.
+
+    The scale s is what each body makes of gravity.
+    """
     rows = dynamic_rows(world)
-    mass, center = world[RigidBody].mass[rows], centers_of_mass(world, rows)
-    total = -float((mass * (center @ np.array(world[Settings].gravity))).sum())
+    body, center = world[RigidBody], centers_of_mass(world, rows)
+    weighing = body.mass[rows] * body.gravity_scale[rows]
+    total = -float((weighing * (center @ np.array(world[Settings].gravity))).sum())
     for law, acting in world[Forces].acting(MutualGravitation, world):
         total += _attraction_energy(world, acting, law)
     return total

@@ -16,6 +16,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.shapes.shape import NO_AXES, MassProperties
 from carom.systems.shapes.solid import principal
 
+PASSED_ON = ("gravity_scale", "linear_damping", "angular_damping")  # words that are columns as they stand
 NOTHING = MassProperties(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), NO_AXES)
 
 
@@ -32,7 +33,7 @@ def rigid_body(words: Mapping[str, Any], parts: Sequence[Part]) -> RigidBody:
     """Return the body of some parts; what ``words`` state of mass (kg), inertia or centre of mass goes before.
 
     A stated mass is shared out by volume, evenly where none has any. Raises DeclarationError for a dynamic body that
-    has no mass.
+    has no mass, and for damping that drives.
     """
     kind = BodyType[words.get("type", "dynamic").upper()]
     masses, volume = [part.density * part.solid.volume for part in parts], sum(part.solid.volume for part in parts)
@@ -41,6 +42,9 @@ def rigid_body(words: Mapping[str, Any], parts: Sequence[Part]) -> RigidBody:
         raise DeclarationError(
             f"body.mass: must be finite and above 0 kg, received {mass:g}; state mass, or a shape with volume"
         )
+    for key in ("linear_damping", "angular_damping"):
+        if not 0.0 <= words.get(key, 0.0) < math.inf:
+            raise DeclarationError(f"body.{key}: must be finite and at least 0 1/s, received {words[key]:g}")
     if "mass" in words:
         masses = [mass * (part.solid.volume / volume if volume else 1.0 / len(parts)) for part in parts]
     solid = placed(parts[0]) if len(parts) == 1 else joined(parts, masses) if mass and parts else NOTHING
@@ -49,6 +53,7 @@ def rigid_body(words: Mapping[str, Any], parts: Sequence[Part]) -> RigidBody:
     with np.errstate(divide="ignore"):
         inverse = np.where(inertia > 0.0, 1.0 / inertia, 0.0) if moves else np.zeros(3)
     return RigidBody(
+        **{key: words[key] for key in PASSED_ON if key in words},
         type=kind.value,
         mass=mass,
         inverse_mass=1.0 / mass if moves else 0.0,

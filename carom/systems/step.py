@@ -7,6 +7,7 @@ from carom.systems.detection.bounds import place_colliders
 from carom.systems.detection.contacts import find_contacts
 from carom.systems.finish import check_finite, clear_inputs
 from carom.systems.forces.constant_push import apply_constant_push
+from carom.systems.forces.damping import apply_damping
 from carom.systems.forces.drag import apply_linear_drag, apply_quadratic_drag
 from carom.systems.forces.gravity import apply_gravity
 from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
@@ -42,6 +43,7 @@ STEP = Schedule(
         apply_mutual_gravitation,
         apply_linear_drag,
         apply_quadratic_drag,
+        apply_damping,
         apply_constant_push,  # last: leaving its stroke depends on the forces before
         sum_forces,  # accelerations; bodies back at the start of the substep
         sort_out_contacts,  # which pairs rest

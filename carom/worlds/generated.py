@@ -34,6 +34,8 @@ STEP_WORDS = ("dt", "substeps", "integrator")
 COLUMN_BOUNDS: dict[str, dict[str, float]] = {
     "mass": {"above": 0.0},
     "inertia": {"least": 0.0},
+    "linear_damping": {"least": 0.0},
+    "angular_damping": {"least": 0.0},
     "density": {"above": 0.0},
     "friction": {"least": 0.0},
     "restitution": {"least": 0.0, "most": 1.0},

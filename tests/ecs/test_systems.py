@@ -80,7 +80,8 @@ def touch_row(world: World, dt: float) -> None:
 
 def weigh(world: World, dt: float) -> None:
     """Hand a column to a kernel that writes it."""
-    add_weight(world.row_numbers(RigidBody), world[RigidBody].mass, dt, dt, dt, world[Motion].linear)
+    body = world[RigidBody]
+    add_weight(world.row_numbers(RigidBody), body.mass, body.gravity_scale, dt, dt, dt, world[Motion].linear)
 
 
 def resize(world: World, dt: float) -> None:

@@ -9,8 +9,10 @@ import pytest
 
 from carom.ecs import World
 from carom.ecs.column import Floats, Integers
+from carom.ecs.errors import DeclarationError
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
+from carom.systems.energy import potential_energy, total_energy
 from carom.systems.simulation import Simulation
 
 DT = 1 / 240
@@ -160,3 +162,82 @@ def test_a_force_fixed_to_a_turning_body_is_second_order() -> None:
         wanted = a / w**2 * np.array([1.0 - math.cos(2.0 * w), 2.0 * w - math.sin(2.0 * w), 0.0])
         errors.append(float(np.linalg.norm(simulation[ball].transform.position - wanted)))
     assert math.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.parametrize("integrator", ["verlet", "semi_implicit", "euler"])
+def test_damping_is_exponential(integrator: str) -> None:
+    """Velocities are v0 exp(-c t) and w0 exp(-d t) to rounding, whatever the wind."""
+    linear, angular = 0.7, 1.9
+    simulation = Simulation(dt=DT, gravity=(0.0, 0.0, 0.0), integrator=integrator)
+    simulation.force("wind", velocity=tuple(WIND))
+    spin = np.array([1.0, -2.0, 3.0])
+    damping = {"linear_damping": linear, "angular_damping": angular}
+    motion = {"linear": START, "angular": spin}
+    ball = simulation.add(collider={"sphere": {"radius": 0.1}}, body=damping, motion=motion)
+    simulation.step(480)
+    assert simulation[ball].motion.linear == pytest.approx(START * math.exp(-2.0 * linear), rel=1e-12)
+    assert simulation[ball].motion.angular == pytest.approx(spin * math.exp(-2.0 * angular), rel=1e-12)
+
+
+def test_the_ways_of_damped_bodies_are_second_order() -> None:
+    """The way is v0 (1 - exp(-c t)) / c and the angle likewise; half the step, a quarter off."""
+    errors = []
+    for dt in (1 / 30, 1 / 60):
+        simulation = Simulation(dt=dt, gravity=(0.0, 0.0, 0.0))
+        ball = simulation.add(
+            collider={"sphere": {"radius": 0.1}},
+            body={"linear_damping": 3.0, "angular_damping": 2.0},
+            motion={"linear": (1.0, 0.0, 0.0), "angular": (0.0, 1.0, 0.0)},
+        )
+        simulation.step(round(1.0 / dt))
+        turned = 2.0 * math.asin(simulation[ball].transform.rotation[1])
+        way, angle = (1.0 - math.exp(-3.0)) / 3.0, (1.0 - math.exp(-2.0)) / 2.0
+        errors.append((simulation[ball].transform.position[0] - way, turned - angle))
+    assert np.log2(np.divide(*errors)) == pytest.approx([2.0, 2.0], abs=0.01)
+    assert np.abs(errors[0]).max() < 1e-4
+
+
+def test_drag_and_damping_add_up() -> None:
+    """dv/dt = -c/m (v - wind) - d v draws to c wind / (c + m d) at the rate c/m + d, to rounding."""
+    simulation = Simulation(dt=DT, gravity=(0.0, 0.0, 0.0))
+    simulation.force("linear_drag", coefficient=3.0)
+    simulation.force("wind", velocity=tuple(WIND))
+    body = {"mass": 2.0, "linear_damping": 0.5}
+    ball = simulation.add(collider={"sphere": {"radius": 0.1}}, body=body, motion={"linear": START})
+    simulation.step(240)
+    drawn = 3.0 * WIND / (3.0 + 2.0 * 0.5)
+    assert simulation[ball].motion.linear == pytest.approx(drawn + (START - drawn) * math.exp(-2.0), rel=1e-12)
+
+
+def test_a_kinematic_body_is_not_damped() -> None:
+    """It keeps the velocity it is given, to the bit."""
+    simulation = Simulation(dt=DT)
+    body = {"type": "kinematic", "linear_damping": 1.0, "angular_damping": 1.0}
+    lift = simulation.add(body=body, motion={"linear": START, "angular": WIND})
+    simulation.step(10)
+    assert simulation[lift].motion.linear.tolist() == START.tolist()
+    assert simulation[lift].motion.angular.tolist() == WIND.tolist()
+
+
+@pytest.mark.parametrize("key", ["linear_damping", "angular_damping"])
+def test_damping_that_drives_is_refused(key: str) -> None:
+    """As in files, where words of Python stand for them."""
+    with pytest.raises(DeclarationError) as caught:
+        Simulation().add(body={"mass": 1.0, key: -2.0})
+    assert str(caught.value) == f"body.{key}: must be finite and at least 0 1/s, received -2"
+
+
+@pytest.mark.parametrize("scale", [0.0, 0.5, -1.0, 3.0])
+def test_gravity_scale(scale: float) -> None:
+    """A body falls by s g t^2 / 2 to rounding, and its energy is kept: it weighs s m g."""
+    simulation = Simulation(dt=DT, gravity=(0.0, -9.81, 0.0))
+    body = {"mass": 2.0, "gravity_scale": scale}
+    ball = simulation.add(collider={"sphere": {"radius": 0.1}}, body=body, motion={"linear": START})
+    other = simulation.add(body={"mass": 1.0})
+    before = total_energy(simulation.world)
+    assert potential_energy(simulation.world) == 0.0
+    simulation.step(240)
+    fallen = 0.5 * scale * 9.81
+    assert simulation[ball].transform.position == pytest.approx(START - [0.0, fallen, 0.0], rel=1e-11)
+    assert simulation[other].transform.position[1] == pytest.approx(-0.5 * 9.81, rel=1e-12)
+    assert total_energy(simulation.world) == pytest.approx(before, rel=1e-12)

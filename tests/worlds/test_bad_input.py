@@ -47,6 +47,10 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
             "w.yaml:3:25: entities.0.body.mass: must be above 0 kg; received '-1 kg'",
         ),
         (
+            BALL + "body: {mass: 1, linear_damping: -1}}\n",
+            "w.yaml:3:34: entities.0.body.linear_damping: must be at least 0 1/s; received -1",
+        ),
+        (
             BALL + "collider: {sphere: {radius: 0}}}\n",
             "w.yaml:3:38: entities.0.collider.sphere.radius: must be above 0 m; received 0",
         ),
@@ -57,7 +61,7 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         (
             BALL + "body: {mas: 1}}\n",
             ("w.yaml:3:25: entities.0.body.mas: unknown key; received 'mas'; "
-            "accepted: type, mass, inertia, center_of_mass; did you mean 'mass'?"),
+            "accepted: type, mass, inertia, center_of_mass, gravity_scale, linear_damping, angular_damping; did you mean 'mass'?"),
         ),
         (
             BALL + "collider: {shpere: {radius: 1}}}\n",

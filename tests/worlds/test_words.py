@@ -171,6 +171,15 @@ entities:
     np.testing.assert_allclose(world["shuttle"].transform.position, [0.5, 0, 0], atol=1e-12)
 
 
+def test_bodies_say_what_gravity_and_rest_are_to_them() -> None:
+    """Gravity's scale and the dampings are columns of the body."""
+    words = "{mass: 1, gravity_scale: 50 %, linear_damping: 2 1/s, angular_damping: 3 Hz}"
+    body = load(f"entities: [{{name: a, body: {words}}}, {{name: b, body: {{mass: 1}}}}]").simulation
+    read = ("gravity_scale", "linear_damping", "angular_damping")
+    assert [getattr(body["a"].rigid_body, name) for name in read] == [0.5, 2.0, 3.0]
+    assert [getattr(body["b"].rigid_body, name) for name in read] == [1.0, 0.0, 0.0]
+
+
 def test_materials_say_how_they_combine() -> None:
     """A quantity may come with its rule."""
     words = "{friction: {value: 20 %, combine: min}, restitution: 0.5, color: [1, 0, 0, 0.5]}"

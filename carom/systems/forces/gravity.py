@@ -9,7 +9,7 @@ from carom.systems.settings import Settings
 
 @system(reads=(RigidBody, Settings), adds=(Force,))
 def apply_gravity(world: World, dt: float) -> None:
-    """Add mass times the world's gravity."""
-    gravity = world[Settings].gravity
+    """Add mass times the world's gravity, times what each body makes of it."""
+    gravity, body = world[Settings].gravity, world[RigidBody]
     if any(gravity):
-        add_weight(world.row_numbers(RigidBody), world[RigidBody].mass, *gravity, world[Force].force)
+        add_weight(world.row_numbers(RigidBody), body.mass, body.gravity_scale, *gravity, world[Force].force)

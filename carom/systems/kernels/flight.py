@@ -114,8 +114,21 @@ def kick_bodies(
                 decay[i] = exponential(-rate * h)
             for k in range(3):
                 linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * before
+        for k in range(3):
+            last_angular_acceleration[i, k] = 0.0 if scheme == SEMI_IMPLICIT else angular_acceleration[i, k]
         if angular_drag[i] > 0.0 and inverse_mass[i] > 0.0:
-            angular_decay[i] = exponential(-angular_drag[i] * h)
+            before = 1.0
+            if scheme == VERLET:
+                before = exponential(-0.5 * angular_drag[i] * h)
+                angular_decay[i] = before
+                for k in range(3):
+                    last_angular_acceleration[i, k] -= angular[i, k] * (1.0 - before) / (0.5 * h)
+            elif scheme == SEMI_IMPLICIT:
+                before = exponential(-angular_drag[i] * h)
+            else:
+                angular_decay[i] = exponential(-angular_drag[i] * h)
+            for k in range(3):
+                angular[i, k] *= before
         for k in range(3):
             if scheme == SEMI_IMPLICIT:
                 linear[i, k] += h * felt[i, k]
@@ -124,7 +137,6 @@ def kick_bodies(
                 angular_acceleration[i, k] = 0.0
             else:
                 acceleration[i, k] = felt[i, k]
-            last_angular_acceleration[i, k] = angular_acceleration[i, k]
 
 
 @kernel()

@@ -26,12 +26,13 @@ def clear_external(rows, force, torque):
 
 
 @kernel("force")
-def add_weight(rows, mass, gx, gy, gz, force):
-    """Add m g."""
+def add_weight(rows, mass, scale, gx, gy, gz, force):
+    """Add m g, times the body's own scale."""
     for i in rows:
-        force[i, 0] += mass[i] * gx
-        force[i, 1] += mass[i] * gy
-        force[i, 2] += mass[i] * gz
+        heavy = mass[i] * scale[i]
+        force[i, 0] += heavy * gx
+        force[i, 1] += heavy * gy
+        force[i, 2] += heavy * gz
 
 
 @kernel("force")
@@ -71,6 +72,15 @@ def add_quadratic_drag(rows, factor, medium, linear, drag, drag_flow):
         drag[i] += coefficient
         for k in range(3):
             drag_flow[i, k] += coefficient * medium[i, k]
+
+
+@kernel("drag", "angular_drag")
+def add_damping(rows, mass, inverse_mass, linear_damping, angular_damping, drag, angular_drag):
+    """Add to the rates at which bodies that obey forces come to rest, whatever moves around them."""
+    for i in rows:
+        if inverse_mass[i] > 0.0:
+            drag[i] += mass[i] * linear_damping[i]
+            angular_drag[i] += angular_damping[i]
 
 
 @kernel("force")
