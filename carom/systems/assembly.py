@@ -31,10 +31,12 @@ from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import compose
 from carom.ecs.spatial import quaternion
 from carom.systems.compound import StatedBodies, joining, weigh
+from carom.systems.freedom import refuse_locked_motion
 from carom.systems.layers import EVERYTHING, Layers
 from carom.systems.mass import Part, rigid_body
 from carom.systems.own_components import own_component
 from carom.systems.paths import path_of, stated
+from carom.systems.settings import Settings
 from carom.systems.shapes import SHAPES, Shape
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import Bounds
@@ -123,8 +125,10 @@ def bundles_of(
             raise DeclarationError(f"collider.{shape.key}: only a static entity may have it; remove body")
         bundles += [_collider(world, collider, shape), ColliderPose()]
     if body is not None:
+        dimensions = world[Settings].dimensions
+        refuse_locked_motion(motion or {}, body.get("locked", ()), dimensions)
         bundles += [
-            _body(body, shape, collider or {}, surface),
+            _body(body, shape, collider or {}, surface, dimensions),
             Motion(**(motion or {})),
             ExternalForce(),
             Force(),
@@ -217,13 +221,13 @@ def _shape_columns(world: World, shape: Shape) -> dict[str, Any]:
     return {"shape": shape.number, "size": shape.packed(), "geometry": number}
 
 
-def _body(words: Words, shape: Shape | None, collider: Words, material: Material) -> RigidBody:
+def _body(words: Words, shape: Shape | None, collider: Words, material: Material, dimensions: int) -> RigidBody:
     if shape is None:
-        return rigid_body(words, [])
+        return rigid_body(words, [], dimensions)
     position = np.asarray(collider.get("position", (0.0, 0.0, 0.0)), np.float64)
     rotation = np.asarray(collider.get("rotation", quaternion.IDENTITY), np.float64)
     density = float(getattr(material, "density", Material.columns["density"].default))
-    return rigid_body(words, [Part(shape.mass_properties(), density, position, rotation)])
+    return rigid_body(words, [Part(shape.mass_properties(), density, position, rotation)], dimensions)
 
 
 def _visual(

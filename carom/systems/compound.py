@@ -15,6 +15,7 @@ from carom.ecs.hierarchy import levels
 from carom.ecs.spatial import quaternion
 from carom.systems.energy import centers_of_mass
 from carom.systems.mass import Part, rigid_body
+from carom.systems.settings import Settings
 from carom.systems.shapes import BY_NUMBER, Shape
 from carom.systems.shapes.geometry import Geometries
 
@@ -54,14 +55,14 @@ def weigh(world: World, bodies: Integers) -> None:
     What was stated of a body goes before; sensors it carries weigh nothing. Raises DeclarationError for one without
     mass.
     """
-    belongs, stated = bodies_of(world), world[StatedBodies].words
+    belongs, stated, dimensions = bodies_of(world), world[StatedBodies].words, world[Settings].dimensions
     rows = world.row_numbers(Collider)
     rows = rows[~world[Collider].sensor[rows] | (belongs[rows] == rows)]
     rows = rows[np.argsort(belongs[rows], kind="stable")]
     first, last = (np.searchsorted(belongs[rows], bodies, side) for side in ("left", "right"))
     for body, begin, end in zip(bodies.tolist(), first, last, strict=True):
         parts = [part_at(world, row, body) for row in rows[begin:end].tolist()]
-        made = rigid_body(stated.get(world.entity(body), {}), parts)
+        made = rigid_body(stated.get(world.entity(body), {}), parts, dimensions)
         with world.edit(RigidBody) as table:
             for name, value in vars(made).items():
                 getattr(table, name)[body] = value

@@ -14,10 +14,10 @@ SCHEMES = {"euler": EULER, "semi_implicit": SEMI_IMPLICIT, "verlet": VERLET}
 @system(reads=(RigidBody, Settings), writes=(Transform, Motion, Flight))
 def predict(world: World, dt: float) -> None:
     """Move bodies to the middle of the substep, where verlet evaluates forces; others evaluate at its start."""
-    transform, motion, flight = world[Transform], world[Motion], world[Flight]
+    transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     half = 0.5 * dt if world[Settings].integrator == "verlet" else 0.0
     predict_middle(
-        world.row_numbers(RigidBody), half, world[RigidBody].center_of_mass,
+        world.row_numbers(RigidBody), half, body.center_of_mass, body.freedom,
         motion.linear_acceleration, motion.angular_acceleration,
         transform.position, transform.rotation, motion.linear, motion.angular,
         flight.center, flight.start_center, flight.start_position, flight.start_rotation,
@@ -46,7 +46,7 @@ def sum_forces(world: World, dt: float) -> None:
     transform, motion, flight = world[Transform], world[Motion], world[Flight]
     body, force, external = world[RigidBody], world[Force], world[ExternalForce]
     accelerate(
-        world.row_numbers(RigidBody), body.inverse_mass, body.inverse_inertia, body.principal_axes,
+        world.row_numbers(RigidBody), body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom,
         force.force, force.torque, external.force, external.torque,
         flight.start_position, flight.start_rotation, flight.start_linear, flight.start_angular,
         transform.position, transform.rotation, motion.linear, motion.angular,
@@ -57,9 +57,9 @@ def sum_forces(world: World, dt: float) -> None:
 @system(reads=(RigidBody, Force, Settings), writes=(Motion, Flight))
 def kick(world: World, dt: float) -> None:
     """Set each body's arc by the integrator; bodies in contact are stepped semi-implicitly."""
-    motion, flight, force = world[Motion], world[Flight], world[Force]
+    motion, flight, force, body = world[Motion], world[Flight], world[Force], world[RigidBody]
     kick_bodies(
-        world.row_numbers(RigidBody), dt, SCHEMES[world[Settings].integrator], world[RigidBody].inverse_mass,
+        world.row_numbers(RigidBody), dt, SCHEMES[world[Settings].integrator], body.inverse_mass, body.freedom,
         force.drag, force.drag_flow, force.angular_drag, flight.felt, flight.touching,
         motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
         flight.decay, flight.angular_decay, flight.flow, motion.linear_acceleration, motion.angular_acceleration,

@@ -13,6 +13,7 @@ from carom.ecs.column import Floats
 from carom.ecs.components.rigid_body import BodyType
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial import quaternion
+from carom.systems.freedom import freedom_of
 from carom.systems.shapes.shape import NO_AXES, MassProperties
 from carom.systems.shapes.solid import principal
 
@@ -29,7 +30,7 @@ class Part(NamedTuple):
     rotation: Floats
 
 
-def rigid_body(words: Mapping[str, Any], parts: Sequence[Part]) -> RigidBody:
+def rigid_body(words: Mapping[str, Any], parts: Sequence[Part], dimensions: int = 3) -> RigidBody:
     """Return the body of some parts; what ``words`` state of mass (kg), inertia or centre of mass goes before.
 
     A stated mass is shared out by volume, evenly where none has any. Raises DeclarationError for a dynamic body that
@@ -60,6 +61,7 @@ def rigid_body(words: Mapping[str, Any], parts: Sequence[Part]) -> RigidBody:
         inertia=inertia,
         inverse_inertia=inverse,
         center_of_mass=words.get("center_of_mass", solid.center),
+        freedom=freedom_of(words.get("locked", ()), dimensions),
         principal_axes=NO_AXES if "inertia" in words else solid.axes,
     )
 

@@ -51,7 +51,7 @@ def hold(world: World, dt: float) -> None:
     contact, flight, motion = world[Contact], world[Flight], world[Motion]
     body, resting = world[RigidBody], world[Resting]
     if len(resting.spread) != world.capacity:
-        resting.spread = np.zeros((world.capacity, 6))
+        resting.spread = np.zeros((world.capacity, 9))
     follow_turning(
         contact.count, dt, world[Settings].integrator == "verlet", contact.body_a, contact.body_b, contact.kind,
         contact.resting, contact.normal, body.inverse_mass, flight.center, motion.linear, motion.angular,
@@ -60,7 +60,7 @@ def hold(world: World, dt: float) -> None:
     prepare_manifolds(
         world.row_numbers(RigidBody), resting.count, resting.start, contact.body_a, contact.body_b,
         contact.normal, contact.offset_a, contact.offset_b, contact.resting,
-        body.inverse_mass, body.inverse_inertia, body.principal_axes, world[Transform].rotation,
+        body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation,
         resting.spread, resting.known, resting.known_point,
     )  # fmt: skip
     press_contacts(
@@ -72,7 +72,7 @@ def hold(world: World, dt: float) -> None:
     if world[Settings].integrator == "verlet":
         bend_arcs(
             contact.count, dt, contact.body_a, contact.body_b, contact.normal, contact.kind, contact.resting,
-            flight.touching, flight.start_linear, flight.start_angular,
+            body.freedom, flight.touching, flight.start_linear, flight.start_angular,
             motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
         )  # fmt: skip
 
@@ -125,7 +125,7 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
         progress.clock, flight.center, flight.start_center, transform.rotation, flight.turned,
         motion.linear, motion.angular, flight.time,
         flight.acceleration, flight.angular_acceleration, flight.felt, flight.detected_center, flight.reach,
-        body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes,
+        body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes, body.freedom,
         manifolds.count, manifolds.start, contact.body_a, contact.body_b, contact.normal, contact.depth,
         contact.offset_a, contact.offset_b, contact.kind, contact.ball, contact.other, contact.extent, contact.radius,
         contact.other_position, contact.other_rotation, contact.sign, contact.surface, contact.friction,
@@ -158,7 +158,8 @@ def settle(world: World, dt: float) -> None:
 def _finish(world: World, *, ended: bool) -> None:
     flight, motion, body, contact = world[Flight], world[Motion], world[RigidBody], world[Contact]
     finish_drift(
-        world.row_numbers(RigidBody), contact.count if ended else 0, ended, body.center_of_mass,
+        world.row_numbers(RigidBody), contact.count if ended else 0, ended, body.center_of_mass, body.freedom,
+        flight.start_position, flight.start_rotation,
         flight.decay, flight.angular_decay, flight.flow, world[Transform].rotation,
         contact.body_a, contact.body_b, contact.normal, contact.offset_a, contact.offset_b, contact.kind,
         flight.start_center, flight.turned, motion.linear, motion.angular,

@@ -19,7 +19,7 @@ class Resting(Resource):
         self.count = 0
         self.start = np.zeros(1, np.int64)
         self.known, self.known_point = np.zeros((0, MANIFOLD_WIDTH)), np.zeros((0, POINT_WIDTH))
-        self.spread = np.zeros((0, 6))
+        self.spread = np.zeros((0, 9))
 
     def group(self, contact: Contact) -> None:
         """Find the manifolds of the contact table, which detection has replaced."""

@@ -23,6 +23,7 @@ class Settings(Resource):
     substeps: int = 4
     gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)  # m/s2
     integrator: Integrator = "verlet"
+    dimensions: int = 3  # 2: every body keeps to its plane z = const and turns about z only
     collision: Collision = "auto"  # fcl: no kernel stands in for FCL, but on meshes
     response: Response = "full"  # reflect: impacts only, no resting contacts
     seed: int = 0
@@ -36,6 +37,10 @@ class Settings(Resource):
             faults.append(f"substeps must be at least 1, received {self.substeps}")
         if not np.isfinite(self.gravity).all():
             faults.append(f"gravity must be finite, received {list(self.gravity)}")
+        if self.dimensions not in (2, 3):
+            faults.append(f"dimensions must be 2 or 3, received {self.dimensions}")
+        elif self.dimensions == 2 and self.gravity[2]:
+            faults.append(f"gravity must lie in the plane z = const with dimensions 2, received {list(self.gravity)}")
         for name, choices in (("integrator", Integrator), ("collision", Collision), ("response", Response)):
             if getattr(self, name) not in get_args(choices):
                 faults.append(f"{name} must be one of {', '.join(get_args(choices))}, received {getattr(self, name)!r}")

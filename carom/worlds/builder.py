@@ -138,6 +138,11 @@ def _simulation(source: Source, values: dict[str, Any], checked: bool | None, op
     if values["step"] is not None:
         settings |= values["step"].model_dump(exclude_unset=True)
     settings |= {key: value for key, value in options.items() if value is not None}
+    if settings["dimensions"] == 2 and settings["gravity"][2]:
+        place, received = ("gravity" if "gravity" in source.data else "up"), str(list(settings["gravity"]))
+        what = "gravity must lie in the plane of dimensions: 2"
+        source.report((place,), what, received=received, accepted="[x, y, 0]")
+        settings["gravity"] = (*settings["gravity"][:2], 0.0)
     simulation = Simulation(checked=checked, **settings)
     for name, words in values["materials"].items():
         simulation.material(name, **({} if words is None else words.model_dump(exclude_unset=True)))

@@ -29,7 +29,7 @@ from carom.worlds.values import Flag, In, Text, Whole, Words, either, word_of
 SPECIAL = {"rotation": RotationWord, "color": ColorWord}
 SETTING_UNITS = {"dt": "s", "gravity": "m/s2"}
 SETTING_BOUNDS: dict[str, dict[str, float]] = {"dt": {"above": 0.0}}
-SETTING_LEAST = {"substeps": 1}
+SETTING_WHOLE: dict[str, tuple[int, int | None]] = {"substeps": (1, None), "dimensions": (2, 3)}
 STEP_WORDS = ("dt", "substeps", "integrator")
 COLUMN_BOUNDS: dict[str, dict[str, float]] = {
     "mass": {"above": 0.0},
@@ -129,13 +129,13 @@ def parameter_model(kind: type[Any]) -> type[Words]:
     return create_model(kind.__name__, __base__=Words, __doc__=kind.__doc__, **fields)
 
 
-def _hinted(hint: Any, unit: str, above: float | None = None, least: int = 0) -> Any:
+def _hinted(hint: Any, unit: str, above: float | None = None, whole: tuple[int, int | None] = (0, None)) -> Any:
     if get_origin(hint) is Literal:
         return word_of(*get_args(hint))
     if hint is bool:
         return Flag
     if hint is int:
-        return Annotated[int, Whole(least)]
+        return Annotated[int, Whole(*whole)]
     return numbers(len(get_args(hint)) or 1, In(unit, above=above))
 
 
@@ -161,7 +161,7 @@ def setting_fields(*, in_step: bool) -> Fields:
     for field in dataclasses.fields(Settings):
         if (field.name in STEP_WORDS) is in_step:
             unit, bounds = SETTING_UNITS.get(field.name, "1"), SETTING_BOUNDS.get(field.name, {})
-            kind = _hinted(hints[field.name], unit, bounds.get("above"), SETTING_LEAST.get(field.name, 0))
+            kind = _hinted(hints[field.name], unit, bounds.get("above"), SETTING_WHOLE.get(field.name, (0, None)))
             fields[field.name] = (kind, Field(field.default, description=f"default {field.default}"))
     return fields
 

@@ -12,6 +12,7 @@ from carom.ecs import Collider, Motion, RigidBody, Transform, Visual
 from carom.ecs.components.rigid_body import BodyType
 from carom.systems.assembly import COLLIDER_COLUMNS
 from carom.systems.extensions import load_extensions
+from carom.systems.freedom import AXES
 from carom.systems.mass import PASSED_ON
 from carom.worlds.generated import (
     column_fields,
@@ -62,6 +63,7 @@ def document() -> type[Words]:
         "Makes an entity move.",
         type=(body_type, Field("dynamic", description="dynamic obeys forces, kinematic keeps its velocity")),
         **column_fields(RigidBody, "mass", "inertia", "center_of_mass", *PASSED_ON),
+        locked=(list[word_of(*AXES)], Field([], description="axes of the world it never moves along or turns about")),  # type: ignore[misc]
     )
     names = list[str]
     collider = _model(

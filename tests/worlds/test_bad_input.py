@@ -51,6 +51,32 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
             "w.yaml:3:34: entities.0.body.linear_damping: must be at least 0 1/s; received -1",
         ),
         (
+            BALL + "body: {mass: 1, locked: [rotation_w]}}\n",
+            ("w.yaml:3:43: entities.0.body.locked.0: unknown word; received 'rotation_w'; "
+            "accepted: x, y, z, rotation_x, rotation_y, rotation_z"),
+        ),
+        (
+            BALL + "body: {mass: 1, locked: [x]}, motion: {linear: [2, 0, 0]}}\n",
+            ("w.yaml:3:57: entities.0.motion.linear: must be 0 along x, which is locked, received 2 m/s; "
+            "take x out of body.locked, or the velocity out of motion"),
+        ),
+        (
+            "dimensions: 2\n" + BALL + "body: {mass: 1}, motion: {angular: [0, 1, 0]}}\n",
+            ("w.yaml:4:44: entities.0.motion.angular: must be 0 about y with dimensions: 2, received 1 rad/s; "
+            "bodies keep to the plane z = const"),
+        ),
+        ("dimensions: 4\n", "w.yaml:2:1: dimensions: must be a whole number; received 4; accepted: 2 to 3"),
+        (
+            "dimensions: 2\nup: z\n",
+            ("w.yaml:3:1: up: gravity must lie in the plane of dimensions: 2; "
+            "received [0.0, 0.0, -9.81]; accepted: [x, y, 0]"),
+        ),
+        (
+            "dimensions: 2\ngravity: [0, -1, 1]\n",
+            ("w.yaml:3:1: gravity: gravity must lie in the plane of dimensions: 2; "
+            "received [0.0, -1.0, 1.0]; accepted: [x, y, 0]"),
+        ),
+        (
             BALL + "collider: {sphere: {radius: 0}}}\n",
             "w.yaml:3:38: entities.0.collider.sphere.radius: must be above 0 m; received 0",
         ),
@@ -61,7 +87,7 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         (
             BALL + "body: {mas: 1}}\n",
             ("w.yaml:3:25: entities.0.body.mas: unknown key; received 'mas'; "
-            "accepted: type, mass, inertia, center_of_mass, gravity_scale, linear_damping, angular_damping; did you mean 'mass'?"),
+            "accepted: type, mass, inertia, center_of_mass, gravity_scale, linear_damping, angular_damping, locked; did you mean 'mass'?"),
         ),
         (
             BALL + "collider: {shpere: {radius: 1}}}\n",

@@ -180,6 +180,13 @@ def test_bodies_say_what_gravity_and_rest_are_to_them() -> None:
     assert [getattr(body["b"].rigid_body, name) for name in read] == [1.0, 0.0, 0.0]
 
 
+def test_bodies_say_what_is_locked() -> None:
+    """Axes of the world, and one line of a file locks three of every body."""
+    ball = "{name: a, body: {mass: 1, locked: [x, rotation_z]}}"
+    assert load(f"entities: [{ball}]").simulation["a"].rigid_body.freedom.tolist() == [0, 1, 1, 1, 1, 0]
+    assert load(f"dimensions: 2\nentities: [{ball}]").simulation["a"].rigid_body.freedom.tolist() == [0, 1, 0, 0, 0, 0]
+
+
 def test_materials_say_how_they_combine() -> None:
     """A quantity may come with its rule."""
     words = "{friction: {value: 20 %, combine: min}, restitution: 0.5, color: [1, 0, 0, 0.5]}"

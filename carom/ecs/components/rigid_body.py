@@ -25,6 +25,9 @@ class RigidBody(Component):
     principal_axes: Floats = column(
         4, unit="1", doc="unit quaternion xyzw, principal axes to body frame", default=(0.0, 0.0, 0.0, 1.0)
     )
+    freedom: Floats = column(
+        6, unit="1", doc="along x, y, z, then about them, world axes: 1 free, 0 locked", default=1.0
+    )
     gravity_scale: Floats = column(unit="1", doc="factor on the world's gravity", default=1.0)
     linear_damping: Floats = column(unit="1/s", doc="rate at which velocity decays")
     angular_damping: Floats = column(unit="1/s", doc="rate at which angular velocity decays")

@@ -30,8 +30,8 @@ class ConstantPush(Law):
 def apply_constant_push(world: World, dt: float) -> None:
     """Add constant pushes; last of the forces, since leaving a stroke depends on all others."""
     for law, rows in world[Forces].acting(ConstantPush, world):
-        flight = world[Flight]
+        flight, body = world[Flight], world[RigidBody]
         add_push(
-            rows, dt, *law.force, *law.start, law.stroke, world[RigidBody].inverse_mass,
+            rows, dt, *law.force, *law.start, law.stroke, body.inverse_mass, body.freedom,
             flight.start_center, flight.start_linear, world[Force].force,
         )  # fmt: skip

@@ -8,7 +8,7 @@ from carom.systems.kernels.kernel import kernel
 
 @kernel("touching", "linear", "angular", "acceleration", "angular_acceleration")
 def bend_arcs(
-    count, h, body_a, body_b, normal, kind, resting, touching, start_linear, start_angular,
+    count, h, body_a, body_b, normal, kind, resting, freedom, touching, start_linear, start_angular,
     linear, angular, acceleration, angular_acceleration,
 ):  # fmt: skip
     """Let balls that only rest on others fly the substep at constant acceleration instead of at their last velocity.
@@ -38,7 +38,7 @@ def bend_arcs(
                 for k in range(3):
                     along += normal[c, k] * acceleration[body, k]
                 for k in range(3):
-                    acceleration[body, k] -= along * normal[c, k]
+                    acceleration[body, k] -= along * normal[c, k] * freedom[body, k]
     for c in range(count):
         if not resting[c]:
             continue

@@ -10,6 +10,7 @@ import numpy as np
 from carom.systems.constants import APPROACH, BLOW_SWEEPS, PATIENCE, REST_SPEED_FACTOR, SOLVED, TOUCH
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.bodies import (
+    hardness,
     pressed_by_forces,
     pressing_of,
     push_at,
@@ -90,7 +91,7 @@ def foresee_blow(
 @inlined
 def blow(
     first, end, h, struck_before, center, rotation, linear, angular, acceleration, felt,
-    inverse_mass, inverse_inertia, principal,
+    inverse_mass, inverse_inertia, principal, freedom,
     body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, surface, friction, restitution,
     impulse, friction_impulse,
 ):  # fmt: skip
@@ -120,9 +121,11 @@ def blow(
         if -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned) > TOUCH:
             continue
         k = yielding_of_pair(
-            c, a, b, nx, ny, nz, offset_a, offset_b, inverse_mass, inverse_inertia, principal, rotation
+            c, a, b, nx, ny, nz, offset_a, offset_b, inverse_mass, inverse_inertia, principal, freedom, rotation
         )  # fmt: skip
-        ease[m] = 1.0 / k if k > 0.0 else 0.0
+        ease[m] = hardness(k, a, b, inverse_mass)
+        if ease[m] == 0.0:
+            continue
         sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
         speed = max(speed, -(nx * sx + ny * sy + nz * sz))
     if speed <= APPROACH:
@@ -147,7 +150,7 @@ def blow(
                 change = max(change, abs(j) / ease[m])
                 push_pair(
                     c, a, b, j * nx, j * ny, j * nz, offset_a, offset_b,
-                    linear, angular, inverse_mass, inverse_inertia, principal, rotation,
+                    linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
                 )  # fmt: skip
                 if friction[first] == 0.0:
                     continue
@@ -160,8 +163,10 @@ def blow(
                     continue
                 k = yielding_of_pair(
                     c, a, b, sx / size, sy / size, sz / size, offset_a, offset_b,
-                    inverse_mass, inverse_inertia, principal, rotation,
+                    inverse_mass, inverse_inertia, principal, freedom, rotation,
                 )  # fmt: skip
+                if hardness(k, a, b, inverse_mass) == 0.0:  # what rubs there moves neither
+                    continue
                 px, py, pz = given[m, 1], given[m, 2], given[m, 3]
                 fx, fy, fz = px - sx / k, py - sy / k, pz - sz / k
                 size = sqrt(fx * fx + fy * fy + fz * fz)
@@ -173,15 +178,15 @@ def blow(
                 change = max(change, sqrt(jx * jx + jy * jy + jz * jz) * k)
                 push_pair(
                     c, a, b, jx, jy, jz, offset_a, offset_b,
-                    linear, angular, inverse_mass, inverse_inertia, principal, rotation,
+                    linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
                 )  # fmt: skip
             if change <= SOLVED * max(1.0, speed):
                 break
     if bounce == 0.0:  # what presses them is taken out of their arcs, as a contact force would
         if b >= 0:
-            stop_pressing(b, a, nx, ny, nz, inverse_mass, acceleration)
+            stop_pressing(b, a, nx, ny, nz, inverse_mass, freedom, acceleration)
         else:
-            stop_pressing(a, b, -nx, -ny, -nz, inverse_mass, acceleration)
+            stop_pressing(a, b, -nx, -ny, -nz, inverse_mass, freedom, acceleration)
     total, px, py, pz, fx, fy, fz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for m in range(n):
         c, j = first + m, given[m, 0]
@@ -206,28 +211,29 @@ def slip_of_pair(c, a, b, offset_a, offset_b, linear, angular):
 
 
 @inlined
-def yielding_of_pair(c, a, b, x, y, z, offset_a, offset_b, inverse_mass, inverse_inertia, principal, rotation):
+def yielding_of_pair(c, a, b, x, y, z, offset_a, offset_b, inverse_mass, inverse_inertia, principal, freedom, rotation):
     """Return by how much contact c parts along a unit vector for a unit impulse along it."""
     of_a = yielding(
         a, x, y, z, x, y, z, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2],
-        inverse_mass, inverse_inertia, principal, rotation,
+        inverse_mass, inverse_inertia, principal, freedom, rotation,
     )  # fmt: skip
     return of_a + yielding(
         b, x, y, z, x, y, z, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2],
-        inverse_mass, inverse_inertia, principal, rotation,
+        inverse_mass, inverse_inertia, principal, freedom, rotation,
     )  # fmt: skip
 
 
 @inlined
 def push_pair(
-    c, a, b, jx, jy, jz, offset_a, offset_b, linear, angular, inverse_mass, inverse_inertia, principal, rotation
-):
+    c, a, b, jx, jy, jz, offset_a, offset_b,
+    linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
+):  # fmt: skip
     """Apply an impulse on b at contact c, and its reaction on a."""
     push_at(
         a, -1.0, jx, jy, jz, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2],
-        linear, angular, inverse_mass, inverse_inertia, principal, rotation,
+        linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
     )  # fmt: skip
     push_at(
         b, 1.0, jx, jy, jz, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2],
-        linear, angular, inverse_mass, inverse_inertia, principal, rotation,
+        linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
     )  # fmt: skip

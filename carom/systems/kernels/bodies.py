@@ -1,10 +1,12 @@
-"""What impulses do to bodies, and how bodies move between them."""
+"""What impulses do to bodies, and how bodies move between them; locked axes count here and nowhere else."""
 
 from __future__ import annotations
 
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import IMMOVABLE
+from carom.systems.kernels.freedom import held_inverse, held_turned
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product, spun
 
@@ -19,51 +21,85 @@ def surface_velocity(i, rx, ry, rz, linear, angular):
 
 
 @inlined
-def push_at(i, sign, jx, jy, jz, rx, ry, rz, linear, angular, inverse_mass, inverse_inertia, principal, rotation):
+def push_at(
+    i, sign, jx, jy, jz, rx, ry, rz, linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation
+):
     """Apply an impulse times ``sign`` at r from the centre of body i."""
     if i < 0:
         return
     m = sign * inverse_mass[i]
-    linear[i, 0] += m * jx
-    linear[i, 1] += m * jy
-    linear[i, 2] += m * jz
+    linear[i, 0] += m * freedom[i, 0] * jx
+    linear[i, 1] += m * freedom[i, 1] * jy
+    linear[i, 2] += m * freedom[i, 2] * jz
     tx, ty, tz = cross(rx, ry, rz, jx, jy, jz)
-    turn_at(i, sign, tx, ty, tz, angular, inverse_inertia, principal, rotation)
+    turn_at(i, sign, tx, ty, tz, angular, inverse_inertia, principal, freedom, rotation)
 
 
 @inlined
-def turn_at(i, sign, tx, ty, tz, angular, inverse_inertia, principal, rotation):
+def turn_at(i, sign, tx, ty, tz, angular, inverse_inertia, principal, freedom, rotation):
     """Apply an angular impulse times ``sign`` to body i."""
     if i < 0:
         return
-    wx, wy, wz = turned_by(i, tx, ty, tz, inverse_inertia, principal, rotation)
+    wx, wy, wz = turned_by(i, tx, ty, tz, inverse_inertia, principal, freedom, rotation)
     angular[i, 0] += sign * wx
     angular[i, 1] += sign * wy
     angular[i, 2] += sign * wz
 
 
 @inlined
-def turned_by(i, tx, ty, tz, inverse_inertia, principal, rotation):
+def turned_by(i, tx, ty, tz, inverse_inertia, principal, freedom, rotation):
     """Return I^-1 t of body i in the world frame."""
     ix, iy, iz = inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2]
+    fx, fy, fz = freedom[i, 3], freedom[i, 4], freedom[i, 5]
     if ix == iy and iy == iz:
-        return ix * tx, ix * ty, ix * tz
+        return fx * ix * tx, fy * ix * ty, fz * ix * tz
     qx, qy, qz, qw = product(
         rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
         principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
     )  # fmt: skip
-    return inverse_inertia_times(qx, qy, qz, qw, ix, iy, iz, tx, ty, tz)
+    if fx + fy + fz == 3.0:
+        return inverse_inertia_times(qx, qy, qz, qw, ix, iy, iz, tx, ty, tz)
+    xx, xy, xz, yy, yz, zz = held_inverse(qx, qy, qz, qw, ix, iy, iz, fx, fy, fz)
+    return xx * tx + xy * ty + xz * tz, xy * tx + yy * ty + yz * tz, xz * tx + yz * ty + zz * tz
 
 
 @inlined
-def yielding(i, dx, dy, dz, ex, ey, ez, rx, ry, rz, inverse_mass, inverse_inertia, principal, rotation):
+def write_spread(i, inverse_mass, inverse_inertia, principal, freedom, rotation, spread):
+    """Write how body i yields: its inverse mass along x, y and z, then the upper half of I^-1 in the world frame."""
+    for k in range(3):
+        spread[i, k] = inverse_mass[i] * freedom[i, k]
+    spread[i, 3], spread[i, 4], spread[i, 5] = turned_by(
+        i, 1.0, 0.0, 0.0, inverse_inertia, principal, freedom, rotation
+    )
+    _, spread[i, 6], spread[i, 7] = turned_by(i, 0.0, 1.0, 0.0, inverse_inertia, principal, freedom, rotation)
+    _, _, spread[i, 8] = turned_by(i, 0.0, 0.0, 1.0, inverse_inertia, principal, freedom, rotation)
+
+
+@inlined
+def inverse_mass_along(i, nx, ny, nz, inverse_mass, freedom):
+    """Return how fast the centre of body i moves along a unit vector by a unit impulse along it."""
+    if freedom[i, 0] + freedom[i, 1] + freedom[i, 2] == 3.0:
+        return inverse_mass[i]
+    return inverse_mass[i] * (nx * nx * freedom[i, 0] + ny * ny * freedom[i, 1] + nz * nz * freedom[i, 2])
+
+
+@inlined
+def hardness(yields, a, b, inverse_mass):
+    """Return 1 / yields: which impulse parts two bodies by 1 m/s along a direction; 0 where locks all but forbid it."""
+    movable = (inverse_mass[a] if a >= 0 else 0.0) + (inverse_mass[b] if b >= 0 else 0.0)
+    return 1.0 / yields if yields > IMMOVABLE * movable else 0.0
+
+
+@inlined
+def yielding(i, dx, dy, dz, ex, ey, ez, rx, ry, rz, inverse_mass, inverse_inertia, principal, freedom, rotation):
     """Return d . K e of body i: the velocity along d at r that a unit impulse along e there causes."""
     if i < 0:
         return 0.0
     tx, ty, tz = cross(rx, ry, rz, ex, ey, ez)
-    wx, wy, wz = turned_by(i, tx, ty, tz, inverse_inertia, principal, rotation)
+    wx, wy, wz = turned_by(i, tx, ty, tz, inverse_inertia, principal, freedom, rotation)
     vx, vy, vz = cross(wx, wy, wz, rx, ry, rz)
-    return inverse_mass[i] * (dx * ex + dy * ey + dz * ez) + dx * vx + dy * vy + dz * vz
+    along = dx * ex * freedom[i, 0] + dy * ey * freedom[i, 1] + dz * ez * freedom[i, 2]
+    return inverse_mass[i] * along + dx * vx + dy * vy + dz * vz
 
 
 @inlined
@@ -101,23 +137,25 @@ def pressing_of(i, o, nx, ny, nz, acceleration):
 
 
 @inlined
-def stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration):
+def stop_pressing(i, o, nx, ny, nz, inverse_mass, freedom, acceleration):
     """Take out of two arcs the acceleration by which the bodies press on each other, as a contact force would."""
     pressing = pressing_of(i, o, nx, ny, nz, acceleration)
-    total = inverse_mass[i] + (inverse_mass[o] if o >= 0 else 0.0)
-    if pressing <= 0.0:
+    total = inverse_mass_along(i, nx, ny, nz, inverse_mass, freedom)
+    if o >= 0:
+        total += inverse_mass_along(o, nx, ny, nz, inverse_mass, freedom)
+    if pressing <= 0.0 or hardness(total, i, o, inverse_mass) == 0.0:
         return False
     for k, n in enumerate((nx, ny, nz)):
-        acceleration[i, k] += pressing * inverse_mass[i] / total * n
+        acceleration[i, k] += pressing * inverse_mass[i] / total * n * freedom[i, k]
         if o >= 0:
-            acceleration[o, k] -= pressing * inverse_mass[o] / total * n
+            acceleration[o, k] -= pressing * inverse_mass[o] / total * n * freedom[o, k]
     return True
 
 
 @inlined
 def advance_body(
     i, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
-    inverse_mass, inertia, principal_axes,
+    inverse_mass, inertia, principal_axes, freedom,
 ):  # fmt: skip
     """Bring one body along its arc to ``now``: half the turning kick, free rotation, the other half.
 
@@ -137,11 +175,16 @@ def advance_body(
         )
         return
     ax, ay, az, aw = principal_axes[i, 0], principal_axes[i, 1], principal_axes[i, 2], principal_axes[i, 3]
-    qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
-    qx, qy, qz, qw, wx, wy, wz = freely_turned(
-        qx, qy, qz, qw, angular[i, 0], angular[i, 1], angular[i, 2], inertia[i, 0], inertia[i, 1], inertia[i, 2], t
-    )
-    rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3] = product(qx, qy, qz, qw, -ax, -ay, -az, aw)
+    wx, wy, wz = angular[i, 0], angular[i, 1], angular[i, 2]
+    ix, iy, iz = inertia[i, 0], inertia[i, 1], inertia[i, 2]
+    if freedom[i, 3] + freedom[i, 4] + freedom[i, 5] < 3.0:
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3], wx, wy, wz = held_turned(
+            qx, qy, qz, qw, ax, ay, az, aw, wx, wy, wz, ix, iy, iz, freedom[i, 3], freedom[i, 4], freedom[i, 5], t
+        )  # fmt: skip
+    else:
+        qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
+        qx, qy, qz, qw, wx, wy, wz = freely_turned(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t)
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3] = product(qx, qy, qz, qw, -ax, -ay, -az, aw)
     angular[i, 0] = wx + (1.0 - bend) * angular_acceleration[i, 0] * t
     angular[i, 1] = wy + (1.0 - bend) * angular_acceleration[i, 1] * t
     angular[i, 2] = wz + (1.0 - bend) * angular_acceleration[i, 2] * t

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
+from carom.systems.kernels.bodies import turned_by
 from carom.systems.kernels.kernel import kernel
-from carom.systems.kernels.spatial import exponential, inverse_inertia_times, product, spun, turn
+from carom.systems.kernels.spatial import exponential, spun, turn
 
 EULER, SEMI_IMPLICIT, VERLET = 0, 1, 2
 
@@ -14,12 +15,13 @@ EULER, SEMI_IMPLICIT, VERLET = 0, 1, 2
     "center", "start_center", "start_position", "start_rotation", "start_linear", "start_angular",
 )  # fmt: skip
 def predict_middle(
-    rows, half, center_of_mass, last_acceleration, last_angular_acceleration,
+    rows, half, center_of_mass, freedom, last_acceleration, last_angular_acceleration,
     position, rotation, linear, angular,
     center, start_center, start_position, start_rotation, start_linear, start_angular,
 ):  # fmt: skip
     """Save where bodies are and move them ``half`` seconds on along their arcs, for forces to be evaluated there.
 
+    Along and about locked axes they are at rest, whatever velocity was set from outside.
     The middle velocity uses the acceleration of the substep before, which keeps velocity Verlet of second order also
     with forces that depend on velocity.
     """
@@ -29,6 +31,10 @@ def predict_middle(
         ox, oy, oz = turn(qx, qy, qz, qw, cx, cy, cz)
         offset = (ox, oy, oz)
         for k in range(3):
+            if freedom[i, k] == 0.0:
+                linear[i, k] = 0.0
+            if freedom[i, 3 + k] == 0.0:
+                angular[i, k] = 0.0
             start_position[i, k] = position[i, k]
             start_linear[i, k] = linear[i, k]
             start_angular[i, k] = angular[i, k]
@@ -50,25 +56,22 @@ def predict_middle(
 
 @kernel("position", "rotation", "linear", "angular", "felt", "angular_acceleration", "time", "turned", "touching")
 def accelerate(
-    rows, inverse_mass, inverse_inertia, principal_axes, force, torque, external_force, external_torque,
+    rows, inverse_mass, inverse_inertia, principal_axes, freedom, force, torque, external_force, external_torque,
     start_position, start_rotation, start_linear, start_angular,
     position, rotation, linear, angular, felt, angular_acceleration, time, turned, touching,
 ):  # fmt: skip
     """Turn forces into accelerations at the middle of the substep and bring the bodies back to its start."""
     for i in rows:
-        qx, qy, qz, qw = product(
-            rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-            principal_axes[i, 0], principal_axes[i, 1], principal_axes[i, 2], principal_axes[i, 3],
-        )  # fmt: skip
-        ax, ay, az = inverse_inertia_times(
-            qx, qy, qz, qw, inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2],
+        ax, ay, az = turned_by(
+            i,
             torque[i, 0] + external_torque[i, 0],
             torque[i, 1] + external_torque[i, 1],
             torque[i, 2] + external_torque[i, 2],
+            inverse_inertia, principal_axes, freedom, rotation,
         )  # fmt: skip
         angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2] = ax, ay, az
         for k in range(3):
-            felt[i, k] = (force[i, k] + external_force[i, k]) * inverse_mass[i]
+            felt[i, k] = (force[i, k] + external_force[i, k]) * inverse_mass[i] * freedom[i, k]
             position[i, k] = start_position[i, k]
             linear[i, k] = start_linear[i, k]
             angular[i, k] = start_angular[i, k]
@@ -84,7 +87,7 @@ def accelerate(
     "last_acceleration", "last_angular_acceleration",
 )  # fmt: skip
 def kick_bodies(
-    rows, h, integrator, inverse_mass, drag, drag_flow, angular_drag, felt, touching,
+    rows, h, integrator, inverse_mass, freedom, drag, drag_flow, angular_drag, felt, touching,
     linear, angular, acceleration, angular_acceleration, decay, angular_decay, flow,
     last_acceleration, last_angular_acceleration,
 ):  # fmt: skip
@@ -102,7 +105,7 @@ def kick_bodies(
             last_acceleration[i, k] = 0.0 if scheme == SEMI_IMPLICIT else felt[i, k]
         if rate > 0.0:
             for k in range(3):
-                flow[i, k] = drag_flow[i, k] / drag[i]
+                flow[i, k] = drag_flow[i, k] / drag[i] * freedom[i, k]
             if scheme == VERLET:
                 before = exponential(-0.5 * rate * h)
                 decay[i] = before

@@ -84,7 +84,7 @@ def add_damping(rows, mass, inverse_mass, linear_damping, angular_damping, drag,
 
 
 @kernel("force")
-def add_push(rows, h, fx, fy, fz, x, y, z, stroke, inverse_mass, start_center, start_linear, force):
+def add_push(rows, h, fx, fy, fz, x, y, z, stroke, inverse_mass, freedom, start_center, start_linear, force):
     """Add a push along its stroke, cut to the part of the substep before the body leaves it."""
     size = sqrt(fx * fx + fy * fy + fz * fz)
     if size == 0.0:
@@ -97,8 +97,11 @@ def add_push(rows, h, fx, fy, fz, x, y, z, stroke, inverse_mass, start_center, s
             continue
         part = 1.0
         speed = dx * start_linear[i, 0] + dy * start_linear[i, 1] + dz * start_linear[i, 2]
-        others = dx * force[i, 0] + dy * force[i, 1] + dz * force[i, 2]
-        pull = (size + others) * inverse_mass[i]
+        others, along = 0.0, size
+        for k, (d, f) in enumerate(((dx, fx), (dy, fy), (dz, fz))):
+            others += d * force[i, k] * freedom[i, k]
+            along -= d * f * (1.0 - freedom[i, k])
+        pull = (along + others) * inverse_mass[i]
         inside = speed * speed + 2.0 * pull * left
         if inside > 0.0 and speed + sqrt(inside) > 0.0:
             part = min(1.0, 2.0 * left / (speed + sqrt(inside)) / h)

@@ -28,7 +28,7 @@ def fly(
     rows, start, h, left, bend, clock,
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     felt, detected_center, reach,
-    inverse_mass, inertia, inverse_inertia, principal_axes,
+    inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
     count, beginning, body_a, body_b, normal, depth, offset_a, offset_b,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
     surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, events,
@@ -127,14 +127,14 @@ def fly(
             if body >= 0 and time[body] < now:
                 advance_body(
                     body, now, bend, center, rotation, turned, linear, angular, time, acceleration,
-                    angular_acceleration, inverse_mass, inertia, principal_axes,
+                    angular_acceleration, inverse_mass, inertia, principal_axes, freedom,
                 )  # fmt: skip
         along_a = -1.0 if kind[p] < 0 else -sign[p]  # of the normal and the friction below, which act on the first
         if kind[p] < 0:
             nx, ny, nz = -normal[p, 0], -normal[p, 1], -normal[p, 2]
             speed, pressed, px, py, pz, fx, fy, fz, together = blow(
                 p, ends[m], h, strikes[p], center, rotation, linear, angular, acceleration, felt,
-                inverse_mass, inverse_inertia, principal_axes,
+                inverse_mass, inverse_inertia, principal_axes, freedom,
                 body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, surface, friction, restitution,
                 impulse, friction_impulse,
             )  # fmt: skip
@@ -144,7 +144,7 @@ def fly(
         else:
             speed, pressed, nx, ny, nz, px, py, pz, jx, jy, jz, together = strike(
                 p, i, o, h, strikes[p], center, rotation, linear, angular, acceleration, felt,
-                inverse_mass, inverse_inertia, principal_axes,
+                inverse_mass, inverse_inertia, principal_axes, freedom,
                 kind, radius, extent, other_position, other_rotation, sign, surface, friction, restitution,
             )  # fmt: skip
             fx, fy, fz = jx - pressed * nx, jy - pressed * ny, jz - pressed * nz
@@ -193,7 +193,7 @@ def fly(
         if time[i] < now:
             advance_body(
                 i, now, bend, center, rotation, turned, linear, angular, time, acceleration,
-                angular_acceleration, inverse_mass, inertia, principal_axes,
+                angular_acceleration, inverse_mass, inertia, principal_axes, freedom,
             )  # fmt: skip
     return now, reason, events, cut, log_count, log_pair, log
 

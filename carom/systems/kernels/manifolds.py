@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import MANIFOLD_POINTS, SAME_NORMAL
-from carom.systems.kernels.bodies import turned_by
+from carom.systems.constants import MANIFOLD_POINTS, SAME_NORMAL, SINGULAR
+from carom.systems.kernels.bodies import hardness, inverse_mass_along, write_spread
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.spatial import cross, plane_axes
 
@@ -38,24 +38,22 @@ def find_manifolds(count, row_a, row_b, normal, start):
 
 @inlined
 def about(i, x, y, z, spread):
-    """Return I^-1 v of body i in the world frame; ``spread`` (n, 6) holds the upper half of I^-1."""
+    """Return I^-1 v of body i in the world frame; ``spread`` (n, 9) is that of `write_spread`."""
     return (
-        spread[i, 0] * x + spread[i, 1] * y + spread[i, 2] * z,
-        spread[i, 1] * x + spread[i, 3] * y + spread[i, 4] * z,
-        spread[i, 2] * x + spread[i, 4] * y + spread[i, 5] * z,
+        spread[i, 3] * x + spread[i, 4] * y + spread[i, 5] * z,
+        spread[i, 4] * x + spread[i, 6] * y + spread[i, 7] * z,
+        spread[i, 5] * x + spread[i, 7] * y + spread[i, 8] * z,
     )
 
 
 @kernel("spread", "known", "known_point")
 def prepare_manifolds(
     rows, count, start, body_a, body_b, normal, offset_a, offset_b, resting,
-    inverse_mass, inverse_inertia, principal, rotation, spread, known, known_point,
+    inverse_mass, inverse_inertia, principal, freedom, rotation, spread, known, known_point,
 ):  # fmt: skip
     """Write what is known of bodies, manifolds and points for the substep; of manifolds that rest only."""
     for i in rows:
-        spread[i, 0], spread[i, 1], spread[i, 2] = turned_by(i, 1.0, 0.0, 0.0, inverse_inertia, principal, rotation)
-        _, spread[i, 3], spread[i, 4] = turned_by(i, 0.0, 1.0, 0.0, inverse_inertia, principal, rotation)
-        _, _, spread[i, 5] = turned_by(i, 0.0, 0.0, 1.0, inverse_inertia, principal, rotation)
+        write_spread(i, inverse_mass, inverse_inertia, principal, freedom, rotation, spread)
     for m in range(count):
         first, end = start[m], start[m + 1]
         if not resting[first]:
@@ -73,6 +71,7 @@ def prepare_manifolds(
             rx, ry, rz = 0.0, 0.0, 0.0
             for c in range(first, end):
                 rx, ry, rz = rx + offset[c, 0], ry + offset[c, 1], rz + offset[c, 2]
+            along = inverse_mass_along(body, nx, ny, nz, inverse_mass, freedom) if body >= 0 else 0.0
             share = 1.0 / (end - first)
             rx, ry, rz = rx * share, ry * share, rz * share
             known[m, middle], known[m, middle + 1], known[m, middle + 2] = rx, ry, rz
@@ -84,21 +83,27 @@ def prepare_manifolds(
                 known_point[c, lever], known_point[c, lever + 1], known_point[c, lever + 2] = x, y, z
                 if body >= 0:
                     wx, wy, wz = about(body, x, y, z, spread)
-                    known_point[c, MASS] += inverse_mass[body] + x * wx + y * wy + z * wz
+                    known_point[c, MASS] += along + x * wx + y * wy + z * wz
             if body >= 0:
                 tax, tay, taz = cross(rx, ry, rz, tx, ty, tz)
                 uax, uay, uaz = cross(rx, ry, rz, ux, uy, uz)
                 wx, wy, wz = about(body, tax, tay, taz, spread)
-                ktt += inverse_mass[body] + tax * wx + tay * wy + taz * wz
+                ktt += inverse_mass_along(body, tx, ty, tz, inverse_mass, freedom) + tax * wx + tay * wy + taz * wz
                 ktu += uax * wx + uay * wy + uaz * wz
+                for k, tu in enumerate((tx * ux, ty * uy, tz * uz)):  # they are at right angles where all axes are free
+                    ktu -= inverse_mass[body] * tu * (1.0 - freedom[body, k])
                 wx, wy, wz = about(body, uax, uay, uaz, spread)
-                kuu += inverse_mass[body] + uax * wx + uay * wy + uaz * wz
+                kuu += inverse_mass_along(body, ux, uy, uz, inverse_mass, freedom) + uax * wx + uay * wy + uaz * wz
                 wx, wy, wz = about(body, nx, ny, nz, spread)
                 spin += nx * wx + ny * wy + nz * wz
                 roll += max(inverse_inertia[body, 0], inverse_inertia[body, 1], inverse_inertia[body, 2])
         for c in range(first, end):
-            known_point[c, MASS] = inverse_or_none(known_point[c, MASS])
-        inverse = inverse_or_none(ktt * kuu - ktu * ktu)
+            known_point[c, MASS] = hardness(known_point[c, MASS], body_a[first], body_b[first], inverse_mass)
+        determinant = ktt * kuu - ktu * ktu
+        if determinant <= SINGULAR * (ktt + kuu) ** 2:  # one direction is locked, and as good as any in the other
+            ktt, ktu, kuu = ktt + kuu, 0.0, ktt + kuu
+            determinant = ktt * kuu
+        inverse = inverse_or_none(determinant)
         known[m, GIVE], known[m, GIVE + 1], known[m, GIVE + 2] = kuu * inverse, -ktu * inverse, ktt * inverse
         known[m, SPIN], known[m, ROLL] = inverse_or_none(spin), inverse_or_none(roll)
 

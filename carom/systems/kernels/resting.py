@@ -41,10 +41,10 @@ def press_contacts(
         nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
         fx, fy, fz, wx, wy, wz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for c in range(first, end):
-            press(c, warm_normal[c], a, b, nx, ny, nz, inverse_mass, spread, known_point, linear, angular)
+            press(c, warm_normal[c], a, b, nx, ny, nz, spread, known_point, linear, angular)
             fx, fy, fz = fx + warm_friction[c, 0], fy + warm_friction[c, 1], fz + warm_friction[c, 2]
             wx, wy, wz = wx + warm_rolling[c, 0], wy + warm_rolling[c, 1], wz + warm_rolling[c, 2]
-        rub(m, fx, fy, fz, a, b, inverse_mass, spread, known, linear, angular)
+        rub(m, fx, fy, fz, a, b, spread, known, linear, angular)
         twist(a, -wx, -wy, -wz, spread, angular)
         twist(b, wx, wy, wz, spread, angular)
     for last in (False, True):
@@ -56,7 +56,7 @@ def press_contacts(
                 press_manifold(
                     m, first, start[m + 1], h, rate, hardness, give_way, a, b,
                     normal, depth, friction, rolling, spinning, surface,
-                    inverse_mass, spread, known, known_point, linear, angular,
+                    spread, known, known_point, linear, angular,
                     warm_normal, warm_friction, warm_rolling,
                 )  # fmt: skip
 
@@ -77,7 +77,7 @@ def relax_contacts(
                     press_manifold(
                         m, first, start[m + 1], h, 0.0, 1.0, 0.0, a, b,
                         normal, depth, friction, rolling, spinning, surface,
-                        inverse_mass, spread, known, known_point, linear, angular,
+                        spread, known, known_point, linear, angular,
                         warm_normal, warm_friction, warm_rolling,
                     )  # fmt: skip
     for m in range(count):
@@ -97,7 +97,7 @@ def stands(a, b, inverse_mass):
 @woven
 def press_manifold(
     m, first, end, h, rate, hardness, give_way, a, b, normal, depth, friction, rolling, spinning, surface,
-    inverse_mass, spread, known, known_point, linear, angular, warm_normal, warm_friction, warm_rolling,
+    spread, known, known_point, linear, angular, warm_normal, warm_friction, warm_rolling,
 ):  # fmt: skip
     """Solve one manifold once: its points one after the other, then friction, spinning and rolling of all together.
 
@@ -125,7 +125,7 @@ def press_manifold(
                 off -= min(rate * depth[c], PUSH_SPEED)
                 hard, yielding = hardness, give_way
             warm_normal[c] = max(0.0, before - hard * known_point[c, MASS] * off - yielding * before)
-            press(c, warm_normal[c] - before, a, b, nx, ny, nz, inverse_mass, spread, known_point, linear, angular)
+            press(c, warm_normal[c] - before, a, b, nx, ny, nz, spread, known_point, linear, angular)
     total, twisting = 0.0, 0.0
     px, py, pz, qx, qy, qz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for c in range(first, end):
@@ -154,7 +154,7 @@ def press_manifold(
         if slides:
             ft, fu = ft * (most / size), fu * (most / size)
         fx, fy, fz = ft * tx + fu * ux, ft * ty + fu * uy, ft * tz + fu * uz
-        rub(m, fx - px, fy - py, fz - pz, a, b, inverse_mass, spread, known, linear, angular)
+        rub(m, fx - px, fy - py, fz - pz, a, b, spread, known, linear, angular)
         rubbed = (fx - px) ** 2 + (fy - py) ** 2 + (fz - pz) ** 2
         px, py, pz = fx, fy, fz
         if most_spin == 0.0 and rolling[first] == 0.0:
@@ -188,27 +188,27 @@ def press_manifold(
 
 
 @inlined
-def press(c, j, a, b, nx, ny, nz, inverse_mass, spread, known_point, linear, angular):
+def press(c, j, a, b, nx, ny, nz, spread, known_point, linear, angular):
     """Press the bodies of contact c apart along its normal by the impulse j."""
     if a >= 0:
-        move(a, -j * nx, -j * ny, -j * nz, inverse_mass, linear)
+        move(a, -j * nx, -j * ny, -j * nz, spread, linear)
         x, y, z = known_point[c, LEVER_A], known_point[c, LEVER_A + 1], known_point[c, LEVER_A + 2]
         twist(a, -j * x, -j * y, -j * z, spread, angular)
     if b >= 0:
-        move(b, j * nx, j * ny, j * nz, inverse_mass, linear)
+        move(b, j * nx, j * ny, j * nz, spread, linear)
         x, y, z = known_point[c, LEVER_B], known_point[c, LEVER_B + 1], known_point[c, LEVER_B + 2]
         twist(b, j * x, j * y, j * z, spread, angular)
 
 
 @inlined
-def rub(m, jx, jy, jz, a, b, inverse_mass, spread, known, linear, angular):
+def rub(m, jx, jy, jz, a, b, spread, known, linear, angular):
     """Apply an impulse on b, and its reaction on a, at the middle of a manifold."""
     if a >= 0:
-        move(a, -jx, -jy, -jz, inverse_mass, linear)
+        move(a, -jx, -jy, -jz, spread, linear)
         x, y, z = cross(known[m, MIDDLE_A], known[m, MIDDLE_A + 1], known[m, MIDDLE_A + 2], jx, jy, jz)
         twist(a, -x, -y, -z, spread, angular)
     if b >= 0:
-        move(b, jx, jy, jz, inverse_mass, linear)
+        move(b, jx, jy, jz, spread, linear)
         x, y, z = cross(known[m, MIDDLE_B], known[m, MIDDLE_B + 1], known[m, MIDDLE_B + 2], jx, jy, jz)
         twist(b, x, y, z, spread, angular)
 
@@ -244,11 +244,11 @@ def spin_of_pair(a, b, nx, ny, nz, angular):
 
 
 @inlined
-def move(i, jx, jy, jz, inverse_mass, linear):
+def move(i, jx, jy, jz, spread, linear):
     """Apply an impulse to the centre of body i."""
-    linear[i, 0] += inverse_mass[i] * jx
-    linear[i, 1] += inverse_mass[i] * jy
-    linear[i, 2] += inverse_mass[i] * jz
+    linear[i, 0] += spread[i, 0] * jx
+    linear[i, 1] += spread[i, 1] * jy
+    linear[i, 2] += spread[i, 2] * jz
 
 
 @inlined

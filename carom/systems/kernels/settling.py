@@ -10,7 +10,7 @@ from carom.systems.kernels.spatial import turn
 
 @kernel("linear", "angular", "position", "depth")
 def finish_drift(
-    rows, count, ended, center_of_mass, decay, angular_decay, flow, rotation,
+    rows, count, ended, center_of_mass, freedom, start_position, start_rotation, decay, angular_decay, flow, rotation,
     body_a, body_b, normal, offset_a, offset_b, kind, start_center, turned,
     linear, angular, position, center, depth,
 ):  # fmt: skip
@@ -25,6 +25,12 @@ def finish_drift(
         cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
         x, y, z = turn(qx, qy, qz, qw, cx, cy, cz)
         position[i, 0], position[i, 1], position[i, 2] = center[i, 0] - x, center[i, 1] - y, center[i, 2] - z
+        if freedom[i, 0] + freedom[i, 1] + freedom[i, 2] < 3.0:  # not by way of the centre, which rounds
+            qx, qy, qz, qw = start_rotation[i, 0], start_rotation[i, 1], start_rotation[i, 2], start_rotation[i, 3]
+            sx, sy, sz = turn(qx, qy, qz, qw, cx, cy, cz)
+            for k, moved in enumerate((sx - x, sy - y, sz - z)):
+                if freedom[i, k] == 0.0:
+                    position[i, k] = start_position[i, k] + moved
         for k in range(3):
             if ended and decay[i] != 1.0:
                 linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * decay[i]

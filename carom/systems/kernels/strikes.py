@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from math import sqrt
-
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, PATIENCE, REST_SPEED_FACTOR, TOUCH
+from carom.systems.constants import (
+    APPROACH,
+    BLOW_SPEED_FACTOR,
+    PATIENCE,
+    REST_SPEED_FACTOR,
+    TOUCH,
+)
 from carom.systems.kernels.balls import BALL, NEVER, first_touch, gap_of_ball, pose_of_other
 from carom.systems.kernels.bodies import (
+    hardness,
     pressed_by_forces,
     pressing_of,
     push_at,
@@ -17,6 +22,7 @@ from carom.systems.kernels.bodies import (
     turned_by,
 )
 from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.point_impulse import struck, within_energy
 from carom.systems.kernels.spatial import cross, spun
 
 
@@ -69,7 +75,7 @@ def foresee(
 @inlined
 def strike(
     p, i, o, h, struck_before, center, rotation, linear, angular, acceleration, felt,
-    inverse_mass, inverse_inertia, principal_axes,
+    inverse_mass, inverse_inertia, principal_axes, freedom,
     kind, radius, extent, other_position, other_rotation, sign, surface, friction, restitution,
 ):  # fmt: skip
     """Let the bodies of pair p strike each other where they are, having done so ``struck_before`` times in the substep.
@@ -92,7 +98,7 @@ def strike(
     sx, sy, sz = ax - bx, ay - by, az - bz
     vn = nx * sx + ny * sy + nz * sz
     if vn >= -APPROACH:
-        stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration)
+        stop_pressing(i, o, nx, ny, nz, inverse_mass, freedom, acceleration)
         return 0.0, 0.0, nx, ny, nz, px, py, pz, 0.0, 0.0, 0.0, True
     across = nx * surface[p, 0] + ny * surface[p, 1] + nz * surface[p, 2]  # the normal is not that of detection
     sx -= sign[p] * (surface[p, 0] - across * nx)
@@ -103,60 +109,35 @@ def strike(
         if body >= 0:
             m = inverse_mass[body]
             # Columns of the 3 x 3 inverse mass at the point: (I^-1 (r x e)) x r for each axis e.
-            tx, ty, tz = turned_by(body, 0.0, z, -y, inverse_inertia, principal_axes, rotation)
+            tx, ty, tz = turned_by(body, 0.0, z, -y, inverse_inertia, principal_axes, freedom, rotation)
             cx, cy, cz = cross(tx, ty, tz, x, y, z)
-            kxx, kxy, kxz = kxx + m + cx, kxy + cy, kxz + cz
-            tx, ty, tz = turned_by(body, -z, 0.0, x, inverse_inertia, principal_axes, rotation)
+            kxx, kxy, kxz = kxx + m * freedom[body, 0] + cx, kxy + cy, kxz + cz
+            tx, ty, tz = turned_by(body, -z, 0.0, x, inverse_inertia, principal_axes, freedom, rotation)
             cx, cy, cz = cross(tx, ty, tz, x, y, z)
-            kyy, kyz = kyy + m + cy, kyz + cz
-            tx, ty, tz = turned_by(body, y, -x, 0.0, inverse_inertia, principal_axes, rotation)
+            kyy, kyz = kyy + m * freedom[body, 1] + cy, kyz + cz
+            tx, ty, tz = turned_by(body, y, -x, 0.0, inverse_inertia, principal_axes, freedom, rotation)
             cx, cy, cz = cross(tx, ty, tz, x, y, z)
-            kzz = kzz + m + cz
+            kzz = kzz + m * freedom[body, 2] + cz
+    knx, kny, knz = kxx * nx + kxy * ny + kxz * nz, kxy * nx + kyy * ny + kyz * nz, kxz * nx + kyz * ny + kzz * nz
+    if hardness(nx * knx + ny * kny + nz * knz, i, o, inverse_mass) == 0.0:  # what is locked lets the other pass
+        return 0.0, 0.0, nx, ny, nz, px, py, pz, 0.0, 0.0, 0.0, True
     # Forces press the bodies together, or what contacts with others do to their arcs.
     pressing = max(pressed_by_forces(o, i, nx, ny, nz, felt), pressing_of(i, o, nx, ny, nz, acceleration))
     if struck_before >= PATIENCE:
         pressing = max(pressing, pushed(i, o, felt))
     bounce = restitution[p] if -vn > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
-    jx, jy, jz, normal = struck(vn, sx, sy, sz, nx, ny, nz, (kxx, kxy, kxz, kyy, kyz, kzz), bounce, friction[p])
-    push_at(i, 1.0, jx, jy, jz, rx, ry, rz, linear, angular, inverse_mass, inverse_inertia, principal_axes, rotation)
-    push_at(o, -1.0, jx, jy, jz, gx, gy, gz, linear, angular, inverse_mass, inverse_inertia, principal_axes, rotation)
+    k = (kxx, kxy, kxz, kyy, kyz, kzz)
+    jx, jy, jz, normal = struck(vn, sx, sy, sz, nx, ny, nz, k, bounce, friction[p])
+    if friction[p] > 0.0:
+        jx, jy, jz, normal = within_energy(jx, jy, jz, normal, vn, sx, sy, sz, nx, ny, nz, k)
+    push_at(
+        i, 1.0, jx, jy, jz, rx, ry, rz, linear, angular,
+        inverse_mass, inverse_inertia, principal_axes, freedom, rotation,
+    )  # fmt: skip
+    push_at(
+        o, -1.0, jx, jy, jz, gx, gy, gz, linear, angular,
+        inverse_mass, inverse_inertia, principal_axes, freedom, rotation,
+    )  # fmt: skip
     if bounce == 0.0:
-        stop_pressing(i, o, nx, ny, nz, inverse_mass, acceleration)
+        stop_pressing(i, o, nx, ny, nz, inverse_mass, freedom, acceleration)
     return -vn, normal, nx, ny, nz, px, py, pz, jx, jy, jz, bounce == 0.0
-
-
-@inlined
-def struck(vn, sx, sy, sz, nx, ny, nz, k, restitution, friction):
-    """Return the impulse (3) on the second body for closing velocity s with normal part vn < 0 at inverse mass k (3x3).
-
-    Newton's restitution along the normal; the tangential part stops sliding if Coulomb's cone allows it, and else
-    slides at the cone's edge (Mirtich, Impulse-based Dynamic Simulation, 1996, section 3.2, for two-stage impact laws).
-    """
-    kxx, kxy, kxz, kyy, kyz, kzz = k
-    knx, kny, knz = kxx * nx + kxy * ny + kxz * nz, kxy * nx + kyy * ny + kyz * nz, kxz * nx + kyz * ny + kzz * nz
-    knn = nx * knx + ny * kny + nz * knz
-    tx, ty, tz = sx - vn * nx, sy - vn * ny, sz - vn * nz
-    sliding = sqrt(tx * tx + ty * ty + tz * tz)
-    wanted = -(1.0 + restitution) * vn
-    if friction == 0.0 or sliding <= APPROACH:
-        normal = wanted / knn
-        return normal * nx, normal * ny, normal * nz, normal
-    # Stick: solve K j = (wanted n - t) by Cramer's rule.
-    rx, ry, rz = wanted * nx - tx, wanted * ny - ty, wanted * nz - tz
-    cxx, cxy, cxz = kyy * kzz - kyz * kyz, kxz * kyz - kxy * kzz, kxy * kyz - kxz * kyy
-    cyy, cyz, czz = kxx * kzz - kxz * kxz, kxy * kxz - kxx * kyz, kxx * kyy - kxy * kxy
-    determinant = kxx * cxx + kxy * cxy + kxz * cxz
-    jx = (cxx * rx + cxy * ry + cxz * rz) / determinant
-    jy = (cxy * rx + cyy * ry + cyz * rz) / determinant
-    jz = (cxz * rx + cyz * ry + czz * rz) / determinant
-    normal = jx * nx + jy * ny + jz * nz
-    fx, fy, fz = jx - normal * nx, jy - normal * ny, jz - normal * nz
-    if normal > 0.0 and fx * fx + fy * fy + fz * fz <= friction * friction * normal * normal:
-        return jx, jy, jz, normal
-    tx, ty, tz = tx / sliding, ty / sliding, tz / sliding
-    normal = wanted / (knn - friction * (tx * knx + ty * kny + tz * knz))
-    if normal <= 0.0:  # jamming: friction alone would stop the approach
-        normal = wanted / knn
-        return normal * nx, normal * ny, normal * nz, normal
-    edge = friction * normal
-    return normal * nx - edge * tx, normal * ny - edge * ty, normal * nz - edge * tz, normal
