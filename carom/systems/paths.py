@@ -46,6 +46,8 @@ def faults_of_path(words: Words) -> Iterator[PathFault]:
         yield PathFault(("body", "type"), "only a kinematic body follows keyframes", body.get("type", "dynamic"))
     if words.get("motion") is not None:
         yield PathFault(("motion",), "keyframes say how it moves; remove motion or keyframes")
+    if (body or {}).get("locked"):
+        yield PathFault(("body", "locked"), "keyframes say how it moves; remove locked or keyframes")
     for name in (*POSE, "jitter"):
         first = frames[0] if frames else {}
         if name in (words.get("transform") or {}) and ("position" if name == "jitter" else name) in first:
@@ -101,13 +103,17 @@ def path_of(world: World, words: Words) -> tuple[Transform, Path]:
     if faults:
         raise DeclarationError("; ".join(map(str, faults)))
     frames, repeat, _ = stated(words["keyframes"])
-    first, count = world.count(Keyframe), len(frames)
+    first, count, (position, rotation) = world.count(Keyframe), len(frames), poses(frames, words.get("transform") or {})
+    turned = quaternion.multiply(rotation, quaternion.conjugate(rotation[0]))
+    leaves = np.ptp(position[:, 2]) > 0.0 or np.abs(turned[:, :2]).max() > SAME_TURN
+    if leaves and world[Settings].dimensions == 2:
+        raise DeclarationError("keyframes: must keep to one z and turn about z only with dimensions: 2")
     with world.faces(None):
         world.resize(Keyframe, first + count)
         keyframe = world[Keyframe]
         new = slice(first, first + count)
         keyframe.at[new] = [frame["at"] for frame in frames]
-        keyframe.position[new], keyframe.rotation[new] = poses(frames, words.get("transform") or {})
+        keyframe.position[new], keyframe.rotation[new] = position, rotation
         path = np.array([first]), np.array([count]), np.array([Repeat[repeat.upper()].value])
         now = poses_at(keyframe, np.array([0]), world.frame * world[Settings].dt, *path)
     return Transform(position=now[0], rotation=now[1]), Path(first=path[0], count=path[1], repeat=path[2])

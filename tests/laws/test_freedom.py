@@ -392,6 +392,21 @@ def test_in_two_dimensions_every_body_keeps_to_its_plane() -> None:
     assert np.abs(world[Motion].angular[rows]).max() < 1e-2
 
 
+def test_in_two_dimensions_a_kinematic_body_goes_along_keyframes() -> None:
+    """It turns about z and pushes along x and y, whatever its depth and tilt are."""
+    simulation = Simulation(dimensions=2)
+    tilted = quaternion.from_axis_angle((0.6, 0.8, 0.0), 0.5)
+    turned = quaternion.multiply(quaternion.from_axis_angle((0.0, 0.0, 1.0), 1.0), tilted)
+    frames = [
+        {"at": 0.0, "position": (0.0, 0.0, 0.5), "rotation": tilted},
+        {"at": 1.0, "position": (2.0, 1.0, 0.5), "rotation": turned},
+    ]
+    guide = simulation.add(body={"type": "kinematic"}, keyframes=frames)
+    simulation.step(60)
+    assert simulation[guide].transform.position == pytest.approx([2.0, 1.0, 0.5], abs=1e-12)
+    assert simulation[guide].transform.rotation == pytest.approx(turned, abs=1e-12)
+
+
 def test_in_two_dimensions_impacts_keep_momentum_and_angular_momentum() -> None:
     """Along x and y, and about z, to rounding; the others are the plane's to give."""
     simulation = Simulation(dt=1 / 240, gravity=(0.0, 0.0, 0.0), dimensions=2)
@@ -455,6 +470,21 @@ def test_a_compound_keeps_the_locks_of_its_body() -> None:
                 "motion.angular: must be 0 about z, which is locked, received -2 rad/s; "
                 "take rotation_z out of body.locked, or the velocity out of motion"
             ),
+        ),
+        (
+            {},
+            {"body": {"type": "kinematic", "locked": ["z"]}, "keyframes": [{"at": 0.0}, {"at": 1.0}]},
+            "body.locked: keyframes say how it moves; remove locked or keyframes",
+        ),
+        (
+            {"dimensions": 2},
+            {"body": {"type": "kinematic"}, "keyframes": [{"at": 0.0}, {"at": 1.0, "position": (0.0, 0.0, 1.0)}]},
+            "keyframes: must keep to one z and turn about z only with dimensions: 2",
+        ),
+        (
+            {"dimensions": 2},
+            {"body": {"type": "kinematic"}, "keyframes": [{"at": 0.0}, {"at": 1.0, "rotation": (0.6, 0.0, 0.0, 0.8)}]},
+            "keyframes: must keep to one z and turn about z only with dimensions: 2",
         ),
         (
             {"dimensions": 2},

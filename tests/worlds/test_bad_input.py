@@ -65,6 +65,10 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
             ("w.yaml:4:44: entities.0.motion.angular: must be 0 about y with dimensions: 2, received 1 rad/s; "
             "bodies keep to the plane z = const"),
         ),
+        (
+            "dimensions: 2\n" + BALL + "body: {type: kinematic}, keyframes: [{at: 0}, {at: 1, position: [0, 0, 1]}]}\n",
+            "w.yaml:4:43: entities.0.keyframes: must keep to one z and turn about z only with dimensions: 2",
+        ),
         ("dimensions: 4\n", "w.yaml:2:1: dimensions: must be a whole number; received 4; accepted: 2 to 3"),
         (
             "dimensions: 2\nup: z\n",
