@@ -127,10 +127,10 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
         flight.acceleration, flight.angular_acceleration, flight.felt, flight.detected_center, flight.reach,
         body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes, body.freedom,
         manifolds.count, manifolds.start, contact.body_a, contact.body_b, contact.normal, contact.depth,
-        contact.offset_a, contact.offset_b, contact.kind, contact.ball, contact.other, contact.extent, contact.radius,
-        contact.other_position, contact.other_rotation, contact.sign, contact.surface, contact.friction,
-        contact.restitution, contact.resting, contact.impulse, contact.friction_impulse,
-        contact.strikes, contact.plastic, events,
+        contact.offset_a, contact.offset_b, contact.share, contact.kind, contact.ball, contact.other,
+        contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
+        contact.surface, contact.friction, contact.restitution, contact.resting,
+        contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, events,
     )  # fmt: skip
     world[Answered].impacts_cut += cut
     if count:

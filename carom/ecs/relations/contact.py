@@ -57,6 +57,9 @@ class Contact(Relation):
     body_b: Integers = column(unit="1", doc="row of the body of b, -1 static", role="derived", holds="rows")
     offset_a: Floats = column(3, unit="m", doc="point on a from the centre of mass of its body", role="derived")
     offset_b: Floats = column(3, unit="m", doc="point on b from the centre of mass of its body", role="derived")
+    share: Floats = column(
+        unit="1", doc="how much the point goes with b: 0 a corner of a, 1 a corner of b, 0.5 neither", role="derived"
+    )
     kind: Integers = column(
         unit="1", doc="exact impacts: how to read extent; -1 for others", dtype="int64", role="derived"
     )

@@ -83,7 +83,7 @@ def store(world: World, found: Found) -> None:
         material.friction, material.restitution, material.rolling_friction, material.spinning_friction,
         material.friction_combine, material.restitution_combine, collider.surface_velocity,
         contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
-        contact.body_a, contact.body_b, contact.offset_a, contact.offset_b,
+        contact.body_a, contact.body_b, contact.offset_a, contact.offset_b, contact.share,
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
         contact.other_position, contact.other_rotation,
     )  # fmt: skip

@@ -92,7 +92,7 @@ def foresee_blow(
 def blow(
     first, end, h, struck_before, center, rotation, linear, angular, acceleration, felt,
     inverse_mass, inverse_inertia, principal, freedom,
-    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, surface, friction, restitution,
+    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, share, surface, friction, restitution,
     impulse, friction_impulse,
 ):  # fmt: skip
     """Let all touching points of a manifold strike at once, within Coulomb's cone over the whole impulse.
@@ -102,7 +102,8 @@ def blow(
 
     Returns (closing speed, normal impulse, its point from the centre of a or, where a is static, of b, friction impulse
     on b (3), whether they stay together).
-    Gauss-Seidel over the points of one pair; of four points in a plane, whichever solution gives the same motion.
+    Gauss-Seidel over the points of one pair; of four points in a plane, whichever solution gives the same motion. Where
+    friction undoes in each sweep what the normal impulse did, the second half of the sweeps take shorter steps.
     """
     a, b = body_a[first], body_b[first]
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
@@ -114,12 +115,13 @@ def blow(
     else:
         pressing = max(pressing, pressing_of(b, a, nx, ny, nz, acceleration))
     n = end - first
-    ease, least, given = np.zeros(n), np.zeros(n), np.zeros((n, 4))
+    ease, least, given, aside = np.zeros(n), np.zeros(n), np.zeros((n, 4)), np.zeros(n)
     speed = 0.0
     for m in range(n):
         c = first + m
         if -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned) > TOUCH:
             continue
+        meet(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned, share)
         k = yielding_of_pair(
             c, a, b, nx, ny, nz, offset_a, offset_b, inverse_mass, inverse_inertia, principal, freedom, rotation
         )  # fmt: skip
@@ -137,7 +139,7 @@ def blow(
                 break
             for m in range(n):
                 least[m] = (1.0 + bounce) * given[m, 0]
-        for _ in range(BLOW_SWEEPS):
+        for sweep in range(BLOW_SWEEPS):
             change = 0.0
             for m in range(n):
                 if ease[m] == 0.0:
@@ -145,7 +147,10 @@ def blow(
                 c = first + m
                 sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
                 before = given[m, 0]
-                given[m, 0] = max(least[m], before - ease[m] * (nx * sx + ny * sy + nz * sz))
+                step = ease[m]
+                if sweep >= BLOW_SWEEPS // 2:
+                    step /= 1.0 + friction[first] * aside[m] * step
+                given[m, 0] = max(least[m], before - step * (nx * sx + ny * sy + nz * sz))
                 j = given[m, 0] - before
                 change = max(change, abs(j) / ease[m])
                 push_pair(
@@ -154,8 +159,11 @@ def blow(
                 )  # fmt: skip
                 if friction[first] == 0.0:
                     continue
-                sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
-                sx, sy, sz = sx + surface[c, 0], sy + surface[c, 1], sz + surface[c, 2]
+                ux, uy, uz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
+                if sweep == 0 and j != 0.0:  # how fast it slips for a unit impulse along the normal
+                    dx, dy, dz = cross(nx, ny, nz, ux - sx, uy - sy, uz - sz)
+                    aside[m] = sqrt(dx * dx + dy * dy + dz * dz) / abs(j)
+                sx, sy, sz = ux + surface[c, 0], uy + surface[c, 1], uz + surface[c, 2]
                 along = nx * sx + ny * sy + nz * sz
                 sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
                 size = sqrt(sx * sx + sy * sy + sz * sz)
@@ -200,6 +208,25 @@ def blow(
     if total > 0.0:
         px, py, pz = px / total, py / total, pz / total
     return speed, total, px, py, pz, fx, fy, fz, bounce == 0.0
+
+
+@inlined
+def meet(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned, share):
+    """Bring the point of a contact of two bodies to where it is now, so that both are struck at one place.
+
+    A corner carries it along the face it glides over, an edge that crosses another half the way of each.
+    """
+    if a < 0 or b < 0:
+        return
+    before = depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned)
+    x, y, z = cross(turned[a, 0], turned[a, 1], turned[a, 2], offset_a[c, 0], offset_a[c, 1], offset_a[c, 2])
+    u, v, w = cross(turned[b, 0], turned[b, 1], turned[b, 2], offset_b[c, 0], offset_b[c, 1], offset_b[c, 2])
+    on_a = (center[a, 0] + offset_a[c, 0] + x, center[a, 1] + offset_a[c, 1] + y, center[a, 2] + offset_a[c, 2] + z)
+    on_b = (center[b, 0] + offset_b[c, 0] + u, center[b, 1] + offset_b[c, 1] + v, center[b, 2] + offset_b[c, 2] + w)
+    for k in range(3):
+        place = on_a[k] + share[c] * (on_b[k] - on_a[k])
+        offset_a[c, k], offset_b[c, k] = place - center[a, k], place - center[b, k]
+    depth[c] += before - depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned)
 
 
 @inlined

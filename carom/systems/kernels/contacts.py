@@ -6,10 +6,11 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.components.material import Combine
-from carom.systems.constants import SAME_POINT
+from carom.systems.constants import LEANING, SAME_POINT
 from carom.systems.kernels.balls import BOX, HALF_SPACE
+from carom.systems.kernels.frames import turned_back
 from carom.systems.kernels.kernel import inlined, kernel
-from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
+from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
 from carom.systems.kernels.recycling import first_of_pair, smaller_reach, turned
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
@@ -34,14 +35,15 @@ def combined(x, y, rule_x, rule_y, default):
 
 @kernel(
     "friction", "restitution", "rolling", "spinning", "surface", "row_a", "row_b", "body_a", "body_b",
-    "offset_a", "offset_b", "kind", "ball", "other", "sign", "radius", "extent", "other_position", "other_rotation",
+    "offset_a", "offset_b", "share", "kind", "ball", "other", "sign", "radius", "extent",
+    "other_position", "other_rotation",
 )  # fmt: skip
 def complete_contacts(
     count, normal, depth, point, row_a, row_b,
     body_row, shape, size, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
     material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
     surface_velocity, friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b,
-    kind, ball, other, sign, radius, extent, other_position, other_rotation,
+    share, kind, ball, other, sign, radius, extent, other_position, other_rotation,
 ):  # fmt: skip
     """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
@@ -70,6 +72,11 @@ def complete_contacts(
             offset_a[c, k] -= center[body_a[c], k] if body_a[c] >= 0 else pose_position[a, k]
             offset_b[c, k] = point[c, k] - 0.5 * depth[c] * normal[c, k]
             offset_b[c, k] -= center[body_b[c], k] if body_b[c] >= 0 else pose_position[b, k]
+        share[c] = 0.5
+        if is_flat(a, c, normal, shape, pose_rotation):
+            share[c] += 0.5
+        if is_flat(b, c, normal, shape, pose_rotation):
+            share[c] -= 0.5
         kind[c] = -1
         i, o, sign[c] = a, b, 1.0
         if not is_free_ball(a, shape, body_row, pose_position, center, inverse_mass):
@@ -95,6 +102,18 @@ def complete_contacts(
                 other_position[c, k] += size[o, 3] * extent[c, k]
         for k in range(4):
             other_rotation[c, k] = pose_rotation[o, k]
+
+
+@inlined
+def is_flat(i, c, normal, shape, pose_rotation):
+    """Tell whether a collider turns a face to contact c, over which its point glides."""
+    if shape[i] == PLANE_SHAPE:
+        return True
+    if shape[i] != BOX_SHAPE:
+        return False
+    x, y, z = turned_back(pose_rotation, i, normal[c, 0], normal[c, 1], normal[c, 2])
+    x, y, z = x * x, y * y, z * z
+    return x + y + z - max(x, y, z) <= LEANING * LEANING
 
 
 @inlined

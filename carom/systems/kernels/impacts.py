@@ -22,14 +22,14 @@ TIME, SPEED, IMPULSE, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 6, 9, 12
 
 @kernel(
     "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
-    "impulse", "friction_impulse", "strikes", "plastic",
+    "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic",
 )  # fmt: skip
 def fly(
     rows, start, h, left, bend, clock,
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     felt, detected_center, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
-    count, beginning, body_a, body_b, normal, depth, offset_a, offset_b,
+    count, beginning, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
     surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, events,
 ):  # fmt: skip
@@ -135,8 +135,8 @@ def fly(
             speed, pressed, px, py, pz, fx, fy, fz, together = blow(
                 p, ends[m], h, strikes[p], center, rotation, linear, angular, acceleration, felt,
                 inverse_mass, inverse_inertia, principal_axes, freedom,
-                body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, surface, friction, restitution,
-                impulse, friction_impulse,
+                body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, share,
+                surface, friction, restitution, impulse, friction_impulse,
             )  # fmt: skip
             fx, fy, fz = -fx, -fy, -fz
             at = i if i >= 0 else o
