@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 FRAMES = 240
+WORLDS = ("billiards", "stack", "cannon", "heap")  # heap: boxes, balls and capsules stirred by a paddle
 HASHES = """
 import itertools
 import sys
@@ -45,9 +46,31 @@ def shapes():
             simulation.add(collider=kind, transform={"position": (3.0 * k, height, 0.0)}, **body)
     return simulation
 
+def heap():
+    simulation = Simulation()
+    simulation.add(collider={"plane": {}}, material={"friction": 0.5})
+    paddle = {"box": {"size": (4.0, 0.3, 0.3)}}
+    simulation.add(
+        collider=paddle, body={"type": "kinematic"}, transform={"position": (0.0, 0.3, 0.0)},
+        motion={"angular": (0.0, 2.0, 0.0)},
+    )
+    kinds = (
+        {"box": {"size": (0.5, 0.4, 0.3)}},
+        {"sphere": {"radius": 0.25}},
+        {"capsule": {"radius": 0.15, "length": 0.4}},
+    )
+    for k in range(27):
+        place = (0.6 * (k % 3 - 1) + 0.01 * k, 0.8 + 0.6 * (k // 9), 0.6 * (k // 3 % 3 - 1))
+        turn = np.array([0.1 * (k % 4), 0.05 * k, 0.2 * (k % 3), 1.0])
+        simulation.add(
+            collider=kinds[k % 3], body={}, material={"restitution": 0.2 * (k % 4), "rolling_friction": 0.01},
+            transform={"position": place, "rotation": turn / np.sqrt((turn * turn).sum())},
+        )
+    return simulation
+
 frames, worlds = int(sys.argv[1]), sys.argv[2:]
 for name in worlds:
-    simulation = globals()[name]() if name in ("stack", "shapes") else load_world(name).simulation
+    simulation = globals()[name]() if name in ("stack", "shapes", "heap") else load_world(name).simulation
     for _ in range(frames):
         simulation.step()
         print(name, simulation.frame, state_hash(simulation.world))
@@ -75,18 +98,18 @@ def wide_features() -> str:
 @pytest.fixture(scope="module")
 def here() -> list[str]:
     """Return the hashes of a process with all that this machine has."""
-    return hashes(FRAMES, "billiards", "stack", "cannon")
+    return hashes(FRAMES, *WORLDS)
 
 
 def test_another_process_gives_the_same_bits(here: list[str]) -> None:
     """Two processes agree in every frame."""
-    assert hashes(FRAMES, "billiards", "stack", "cannon") == here
+    assert hashes(FRAMES, *WORLDS) == here
 
 
 def test_a_processor_without_wide_vectors_gives_the_same_bits(here: list[str], tmp_path: Path) -> None:
     """AVX, AVX2, AVX-512 and fused operations turned off for NumPy and Numba change no bit of any frame."""
     assert hashes(
-        FRAMES, "billiards", "stack", "cannon",
+        FRAMES, *WORLDS,
         NPY_DISABLE_CPU_FEATURES=wide_features(),
         NUMBA_CPU_NAME="generic",
         NUMBA_CPU_FEATURES="",
@@ -97,5 +120,5 @@ def test_a_processor_without_wide_vectors_gives_the_same_bits(here: list[str], t
 def test_kernels_do_the_same_without_the_jit(here: list[str]) -> None:
     """Every kernel runs as plain Python under NUMBA_DISABLE_JIT=1, gives the same bits and makes no warning."""
     frames = 3
-    plain = hashes(frames, "billiards", "stack", "cannon", "shapes", NUMBA_DISABLE_JIT="1")
+    plain = hashes(frames, *WORLDS, "shapes", NUMBA_DISABLE_JIT="1")
     assert plain == [line for line in here if int(line.split()[1]) <= frames] + hashes(frames, "shapes")
