@@ -97,7 +97,7 @@ PUSH_SPEED = 3.0
 POINT_SWEEPS, RELAX_SWEEPS, ROLL_SWEEPS = 2, 2, 8
 
 # Squared part of the most that friction and rolling may be, by which a sweep changes what is found: rounding.
-ROLLED = 1e-28
+ROLLING_SOLVED = 1e-28
 
 # m/s, times the speed of the impact where that is above 1 m/s. What the points of a striking manifold may leave open.
 SOLVED = 1e-13

@@ -10,12 +10,13 @@ from carom.systems.settings import Settings
 
 
 class Progress(Resource):
-    """Simulated time at the start of the substep, what the step has left after it (s), and its resting contacts."""
+    """Simulated time at the start of the substep, what the step has left after it (s), and its resting manifolds."""
 
     clock: float = 0.0
     left: float = 0.0
     substep: int = 0
     resting: int = 0
+    balls_resting: int = 0
 
 
 @system(reads=(Settings,), writes=(Progress, Impact, Enter))

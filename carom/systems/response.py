@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
 from carom.ecs.commands import Commands
 from carom.ecs.components.flight import Flight
@@ -18,79 +16,66 @@ from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly
-from carom.systems.kernels.kinematic import follow_turning, keep_course
-from carom.systems.kernels.manifolds import prepare_manifolds
-from carom.systems.kernels.resting import press_contacts, relax_contacts
+from carom.systems.kernels.kinematic import keep_course
+from carom.systems.kernels.packing import pack_bodies
 from carom.systems.kernels.settling import finish_drift
-from carom.systems.kernels.sorting import sort_manifolds
+from carom.systems.kernels.sorting import sort_groups
 from carom.systems.progress import Progress
-from carom.systems.resting import Resting, yielding
+from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 
 
-@system(reads=(RigidBody, Transform, Motion, Settings, Resting), writes=(Contact, Flight, Progress))
+@system(reads=(RigidBody, Transform, Motion, Settings), writes=(Contact, Flight, Progress, Resting))
 def sort_out_contacts(world: World, dt: float) -> None:
     """Say which contacts rest in this substep; their bodies count as touching."""
-    contact, manifolds, flight, motion = world[Contact], world[Resting], world[Flight], world[Motion]
-    world[Progress].resting = sort_manifolds(
-        manifolds.count, manifolds.start, dt, world[Settings].response == "full",
-        flight.center, world[Transform].rotation, motion.linear, motion.angular, flight.felt,
+    progress, resting = world[Progress], world[Resting]
+    progress.resting = progress.balls_resting = 0
+    if not resting.groups:
+        return
+    contact, flight, motion, body = world[Contact], world[Flight], world[Motion], world[RigidBody]
+    rotation, settings = world[Transform].rotation, world[Settings]
+    pack_bodies(
+        world.row_numbers(RigidBody), motion.linear, motion.angular, flight.felt,
+        body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom, rotation, resting.bodies,
+    )  # fmt: skip
+    progress.resting, progress.balls_resting = sort_groups(
+        resting.groups, dt, settings.integrator == "verlet", float(settings.response == "full"),
+        resting.ends, resting.index_a, resting.index_b, resting.first, resting.size, resting.points, resting.row,
+        resting.fresh, resting.asks, resting.lanes, resting.bodies, flight.center, rotation,
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
-        contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.restitution,
-        contact.normal, contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting,
-        flight.touching, contact.warm_normal, contact.warm_friction, contact.warm_rolling,
+        contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
+        contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.touching,
     )  # fmt: skip
 
 
-@system(reads=(RigidBody, Transform, Settings, Progress), writes=(Motion, Contact, Flight, Resting))
+@system(reads=(RigidBody, Settings, Progress), writes=(Motion, Contact, Flight, Resting))
 def hold(world: World, dt: float) -> None:
     """Solve the resting contacts: they do not close, stick or slide within the cone, and resist rolling."""
-    if not world[Progress].resting:
+    progress, motion = world[Progress], world[Motion]
+    if not progress.resting:
         return
-    contact, flight, motion = world[Contact], world[Flight], world[Motion]
-    body, resting = world[RigidBody], world[Resting]
-    if len(resting.spread) != world.capacity:
-        resting.spread = np.zeros((world.capacity, 9))
-    follow_turning(
-        contact.count, dt, world[Settings].integrator == "verlet", contact.body_a, contact.body_b, contact.kind,
-        contact.resting, contact.normal, body.inverse_mass, flight.center, motion.linear, motion.angular,
-        contact.offset_a, contact.offset_b,
-    )  # fmt: skip
-    prepare_manifolds(
-        world.row_numbers(RigidBody), resting.count, resting.start, contact.body_a, contact.body_b,
-        contact.normal, contact.offset_a, contact.offset_b, contact.resting,
-        body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation,
-        resting.spread, resting.known, resting.known_point,
-    )  # fmt: skip
-    press_contacts(
-        resting.count, dt, resting.start, *yielding(dt), contact.body_a, contact.body_b, contact.normal, contact.depth,
-        contact.resting, contact.friction, contact.rolling, contact.spinning, contact.surface,
-        body.inverse_mass, resting.spread, resting.known, resting.known_point, motion.linear, motion.angular,
-        contact.warm_normal, contact.warm_friction, contact.warm_rolling,
-    )  # fmt: skip
-    if world[Settings].integrator == "verlet":
+    world[Resting].press(world.row_numbers(RigidBody), motion, dt)
+    if progress.balls_resting and world[Settings].integrator == "verlet":
+        contact, flight = world[Contact], world[Flight]
         bend_arcs(
             contact.count, dt, contact.body_a, contact.body_b, contact.normal, contact.kind, contact.resting,
-            body.freedom, flight.touching, flight.start_linear, flight.start_angular,
+            world[RigidBody].freedom, flight.touching, flight.start_linear, flight.start_angular,
             motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
         )  # fmt: skip
 
 
-@system(reads=(RigidBody, Progress, Resting), writes=(Motion, Contact))
+@system(reads=(RigidBody, Progress), writes=(Motion, Resting))
 def relax(world: World, dt: float) -> None:
     """Take the speed by which overlap left out of the velocities again."""
-    contact, resting = world[Contact], world[Resting]
-    if not world[Progress].resting:
-        return
-    motion = world[Motion]
-    relax_contacts(
-        resting.count, dt, resting.start, contact.body_a, contact.body_b, contact.normal, contact.depth,
-        contact.resting, contact.friction, contact.rolling, contact.spinning, contact.surface,
-        world[RigidBody].inverse_mass, resting.spread, resting.known, resting.known_point,
-        motion.linear, motion.angular, contact.impulse, contact.friction_impulse,
-        contact.warm_normal, contact.warm_friction, contact.warm_rolling,
-    )  # fmt: skip
+    if world[Progress].resting:
+        world[Resting].relax(world.row_numbers(RigidBody), world[Motion], dt)
+
+
+@system(writes=(Contact, Resting))
+def hand_impulses_over(world: World, dt: float) -> None:
+    """Write what the resting stage has found into the contact table."""
+    world[Resting].hand_over(world[Contact])
 
 
 @system(
@@ -110,6 +95,7 @@ def drift(world: World, dt: float) -> None:
         if reason == DONE:
             return
         _finish(world, ended=False)
+        world[Resting].hand_over(contact)
         detect_again(world, world[Progress].left + dt - at)
         rows, flight = world.rows(RigidBody), world[Flight]
         flight.start_center[rows], flight.turned[rows] = flight.center[rows], 0.0  # depths are those of now
@@ -144,7 +130,7 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
     return now, reason, events
 
 
-@system(reads=(RigidBody,), writes=(Transform, Motion, Flight, Contact))
+@system(reads=(RigidBody, Flight), writes=(Transform, Motion, Contact, Resting))
 def settle(world: World, dt: float) -> None:
     """End the substep: drag's second half, origins placed, and how deep contacts have come to be."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
@@ -153,15 +139,13 @@ def settle(world: World, dt: float) -> None:
         flight.start_position, flight.start_rotation, motion.linear, motion.angular, flight.center, transform.rotation,
     )  # fmt: skip
     _finish(world, ended=True)
+    world[Resting].sink(world.row_numbers(RigidBody), world[Flight], world[Contact])
 
 
 def _finish(world: World, *, ended: bool) -> None:
-    flight, motion, body, contact = world[Flight], world[Motion], world[RigidBody], world[Contact]
+    flight, motion, transform, body = world[Flight], world[Motion], world[Transform], world[RigidBody]
     finish_drift(
-        world.row_numbers(RigidBody), contact.count if ended else 0, ended, body.center_of_mass, body.freedom,
-        flight.start_position, flight.start_rotation,
-        flight.decay, flight.angular_decay, flight.flow, world[Transform].rotation,
-        contact.body_a, contact.body_b, contact.normal, contact.offset_a, contact.offset_b, contact.kind,
-        flight.start_center, flight.turned, motion.linear, motion.angular,
-        world[Transform].position, flight.center, contact.depth,
+        world.row_numbers(RigidBody), ended, body.center_of_mass, body.freedom,
+        flight.start_position, flight.start_rotation, flight.decay, flight.angular_decay, flight.flow,
+        transform.rotation, flight.center, motion.linear, motion.angular, transform.position,
     )  # fmt: skip

@@ -6,30 +6,105 @@ from math import pi
 
 import numpy as np
 
+from carom.ecs import Motion
+from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
+from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
-from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, RIGID_RATE
-from carom.systems.kernels.manifolds import MANIFOLD_WIDTH, POINT_WIDTH, find_manifolds
+from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, RELAX_SWEEPS, RIGID_RATE
+from carom.systems.kernels.groups import group_manifolds, fill_groups, hand_over
+from carom.systems.kernels.lanes import WIDTH, aligned
+from carom.systems.kernels.manifolds import find_manifolds
+from carom.systems.kernels.packing import BODY_WIDTH, pack_velocities, pack_ways, unpack_velocities
+from carom.systems.kernels.resting import press_groups, start_warm, sum_impulses
+from carom.systems.kernels.settling import sink_contacts
+
+Yielding = tuple[float, float, float]
 
 
 class Resting(Resource):
-    """Runs of contacts on one plane, and what the resting stage knows of them and their points in this substep."""
+    """Runs of contacts on one plane, in groups that are solved side by side, and the bodies they are of."""
 
     def __init__(self) -> None:
-        self.count = 0
+        self.count = self.groups = 0
         self.start = np.zeros(1, np.int64)
-        self.known, self.known_point = np.zeros((0, MANIFOLD_WIDTH)), np.zeros((0, POINT_WIDTH))
-        self.spread = np.zeros((0, 9))
+        self.bodies, self.lanes = aligned(1, BODY_WIDTH), aligned(0, WIDTH)
+        self._reserve(0)
 
-    def group(self, contact: Contact) -> None:
-        """Find the manifolds of the contact table, which detection has replaced."""
-        points = contact.count
-        self.start = np.empty(points + 1, np.int64)
+    def _reserve(self, count: int) -> None:
+        self.group_of, self.lane_of = np.empty(count, np.int64), np.empty(count, np.int64)
+        self.index_a, self.index_b = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
+        self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
+        self.points, self.row, self.asks = np.empty(count, np.int64), np.empty(count, np.int64), np.zeros(count, np.int64)
+        self.fresh, self.ends = np.ones(count, np.bool_), np.zeros(2, np.int64)
+
+    def group(self, contact: Contact, inverse_mass: Floats) -> None:
+        """Find the manifolds of the contact table, which detection has replaced, and put them into groups."""
+        points, nobody = contact.count, len(inverse_mass)
+        if len(self.start) <= points:
+            self.start = np.empty(2 * points + 1, np.int64)
         self.count = find_manifolds(points, contact.row_a, contact.row_b, contact.normal, self.start)
-        self.known, self.known_point = np.zeros((self.count, MANIFOLD_WIDTH)), np.zeros((points, POINT_WIDTH))
+        if len(self.bodies) != nobody + 1:
+            self.bodies = aligned(nobody + 1, BODY_WIDTH)
+        if len(self.group_of) < self.count:
+            self._reserve(2 * self.count)
+        self.groups, rows = group_manifolds(
+            self.count, self.start, contact.body_a, contact.body_b, inverse_mass, nobody,
+            self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size, self.points, self.row, self.ends,
+        )  # fmt: skip
+        self.asks[:], self.fresh[:] = 0, True
+        if len(self.lanes) < rows:
+            self.lanes = aligned(2 * rows, WIDTH)
+        fill_groups(
+            self.count, self.groups, self.start, self.group_of, self.lane_of, self.row, self.points,
+            contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.kind,
+            contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
+            contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
+        )  # fmt: skip
+
+    def press(self, rows: Integers, motion: Motion, h: float) -> None:
+        """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
+        soft, rigid = yielding(h)
+        pack_velocities(rows, motion.linear, motion.angular, self.bodies)
+        start_warm(
+            self.groups, self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies
+        )  # fmt: skip
+        self._solve(1, h, soft, rigid)
+        unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
+
+    def sink(self, rows: Integers, flight: Flight, contact: Contact) -> None:
+        """Find how deep contacts have come to be."""
+        if self.groups:
+            pack_ways(rows, flight.start_center, flight.center, flight.turned, self.bodies)
+            sink_contacts(
+                self.groups, self.index_a, self.index_b, self.first, self.size, self.points, self.row,
+                contact.kind, self.bodies, self.lanes, contact.depth,
+            )  # fmt: skip
+
+    def relax(self, rows: Integers, motion: Motion, h: float) -> None:
+        """Take the speed by which overlap left out of the velocities, and sum up the impulses."""
+        hard = (0.0, 1.0, 0.0)
+        pack_velocities(rows, motion.linear, motion.angular, self.bodies)
+        self._solve(RELAX_SWEEPS, h, hard, hard)
+        unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
+        sum_impulses(self.groups, self.points, self.row, self.lanes)
+
+    def _solve(self, sweeps: int, h: float, soft: Yielding, rigid: Yielding) -> None:
+        press_groups(
+            sweeps, h, self.ends, soft, rigid,
+            self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
+        )  # fmt: skip
+
+    def hand_over(self, contact: Contact) -> None:
+        """Write the impulses of the resting stage into the contact table, those of the step added to what is there."""
+        hand_over(
+            self.count, self.start, self.group_of, self.lane_of, self.row, self.lanes,
+            contact.impulse, contact.friction_impulse,
+            contact.warm_normal, contact.warm_friction, contact.warm_rolling,
+        )  # fmt: skip
 
 
-def yielding(h: float) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+def yielding(h: float) -> tuple[Yielding, Yielding]:
     """Return how contacts of two moving bodies, and of one, yield in a substep of h seconds.
 
     Each is (rate at which overlap leaves, in 1/s, part of the mass, part of the impulse given up): Catto, Soft

@@ -16,7 +16,7 @@ from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
 from carom.systems.keyframes import follow_keyframes
 from carom.systems.progress import begin_step, begin_substep
-from carom.systems.response import drift, hold, relax, settle, sort_out_contacts
+from carom.systems.response import drift, hand_impulses_over, hold, relax, settle, sort_out_contacts
 from carom.systems.settings import Settings
 
 
@@ -56,6 +56,7 @@ STEP = Schedule(
     ),
     Phase(
         "finish",
+        hand_impulses_over,  # of resting contacts, into their table
         clear_inputs,
         carry_children,  # entities carried by others follow them
         check_finite,

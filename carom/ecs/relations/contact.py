@@ -47,7 +47,6 @@ class Contact(Relation):
         unit="1",
         doc="held together in the last substep, at rest or after a plastic impact",
         dtype="bool",
-        role="derived",
     )
     strikes: Integers = column(unit="1", doc="impacts in this substep so far", dtype="int64", role="derived")
     plastic: Integers = column(unit="1", doc="those after which the pair kept together", dtype="int64", role="derived")

@@ -87,4 +87,4 @@ def store(world: World, found: Found) -> None:
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
         contact.other_position, contact.other_rotation,
     )  # fmt: skip
-    world[Resting].group(contact)
+    world[Resting].group(contact, world[RigidBody].inverse_mass)

@@ -74,6 +74,15 @@ class Found(NamedTuple):
     by_fcl: Booleans
     recycled: Booleans
 
+    @classmethod
+    def room(cls, count: int) -> Found:
+        """Return room for so many, to be written; recycled none."""
+        return cls(
+            np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count, np.int64),
+            np.empty((count, 3)), np.empty(count), np.empty((count, 3)),
+            np.empty(count, np.bool_), np.zeros(count, np.bool_),
+        )  # fmt: skip
+
     def take(self, which: Any) -> Found:
         """Return some of the contacts."""
         return Found(*(column[which] for column in self))
@@ -140,11 +149,7 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
                 points.start, points.count, points.feature, points.normal, points.depth, points.point,
             )  # fmt: skip
     taken = keep_sound(world, pairs, reaches, points)
-    found = Found(
-        np.empty(taken, np.int64), np.empty(taken, np.int64), np.empty(taken, np.int64),
-        np.empty((taken, 3)), np.empty(taken), np.empty((taken, 3)),
-        np.empty(taken, np.bool_), np.zeros(taken, np.bool_),
-    )  # fmt: skip
+    found = Found.room(taken)
     collect_points(
         pairs, order, first, by_fcl, points.start, points.count,
         points.feature, points.normal, points.depth, points.point, *found[:-1],

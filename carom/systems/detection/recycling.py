@@ -14,23 +14,24 @@ from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
 def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     """Return the contact points of sorted ``pairs`` (n, 2), recycled where a pair has hardly moved since found."""
     recycled, stays = _recycled(world, pairs, reaches)
-    if not len(recycled.row_a):
+    count = len(recycled.row_a)
+    if not count:
         return measure_pairs(world, pairs, reaches)
+    if stays.all():
+        return recycled
     moved = ~stays
     fresh = measure_pairs(world, pairs[moved], reaches[moved])
-    source = np.empty(len(recycled.row_a) + len(fresh.row_a), np.int64)
-    merge_contacts(recycled.row_a, recycled.row_b, len(recycled.row_a), fresh.row_a, fresh.row_b, source)
-    return Found(*(np.concatenate([old, new[::-1]])[source] for old, new in zip(recycled, fresh, strict=True)))
+    found = Found.room(count + len(fresh.row_a))
+    merge_contacts(count, *recycled[:-1], *fresh[:-1], *found)
+    return found
 
 
 def _recycled(world: World, pairs: Integers, reaches: Floats) -> tuple[Found, Booleans]:
     contact, collider, pose = world[Contact], world[Collider], world[ColliderPose]
     room = contact.count
     stays = np.zeros(len(pairs), np.bool_)
-    found = Found(
-        np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64),
-        np.empty((room, 3)), np.empty(room), np.empty((room, 3)), np.empty(room, np.bool_), np.ones(room, np.bool_),
-    )  # fmt: skip
+    found = Found.room(room)
+    found.recycled[:] = True
     count = recycle_contacts(
         pairs, reaches, room, world.handles(), world.slots.row_shift,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,

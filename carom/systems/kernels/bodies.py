@@ -7,7 +7,7 @@ from math import sqrt
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import IMMOVABLE
 from carom.systems.kernels.freedom import held_inverse, held_turned
-from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product, spun
 
 
@@ -152,7 +152,7 @@ def stop_pressing(i, o, nx, ny, nz, inverse_mass, freedom, acceleration):
     return True
 
 
-@inlined
+@woven
 def advance_body(
     i, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     inverse_mass, inertia, principal_axes, freedom,

@@ -51,6 +51,18 @@ def complete_contacts(
     """
     for c in range(count):
         a, b = row_a[c], row_b[c]
+        for k in range(3):
+            half = 0.5 * depth[c] * normal[c, k]
+            offset_a[c, k] = point[c, k] + half - (center[body_row[a], k] if body_row[a] >= 0 else pose_position[a, k])
+            offset_b[c, k] = point[c, k] - half - (center[body_row[b], k] if body_row[b] >= 0 else pose_position[b, k])
+        body_a[c], body_b[c] = body_row[a], body_row[b]
+        surface[c, 0], surface[c, 1], surface[c, 2] = surface_of_pair(c, a, b, normal, surface_velocity, pose_rotation)
+        if c and a == row_a[c - 1] and b == row_b[c - 1] and kind[c - 1] < 0:  # another point of the same pair
+            friction[c], restitution[c] = friction[c - 1], restitution[c - 1]
+            rolling[c], spinning[c], kind[c] = rolling[c - 1], spinning[c - 1], -1
+            share[c] = share[c - 1] if is_parallel(c, c - 1, normal) else share_of_a(c, a, b, normal, shape, pose_rotation)
+            continue
+        share[c] = share_of_a(c, a, b, normal, shape, pose_rotation)
         friction[c] = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)
         restitution[c] = combined(
             material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
@@ -59,24 +71,6 @@ def complete_contacts(
         # Never more than friction can carry, else resistance to rolling would make the body slide.
         rolling[c] = min(max(material_rolling[a], material_rolling[b]), friction[c]) * lever
         spinning[c] = max(material_spinning[a], material_spinning[b]) * lever
-        ax, ay, az = turned(a, a, surface_velocity, pose_rotation)
-        bx, by, bz = turned(b, b, surface_velocity, pose_rotation)
-        bx, by, bz = bx - ax, by - ay, bz - az
-        across = normal[c, 0] * bx + normal[c, 1] * by + normal[c, 2] * bz
-        surface[c, 0] = bx - across * normal[c, 0]
-        surface[c, 1] = by - across * normal[c, 1]
-        surface[c, 2] = bz - across * normal[c, 2]
-        body_a[c], body_b[c] = body_row[a], body_row[b]
-        for k in range(3):
-            offset_a[c, k] = point[c, k] + 0.5 * depth[c] * normal[c, k]
-            offset_a[c, k] -= center[body_a[c], k] if body_a[c] >= 0 else pose_position[a, k]
-            offset_b[c, k] = point[c, k] - 0.5 * depth[c] * normal[c, k]
-            offset_b[c, k] -= center[body_b[c], k] if body_b[c] >= 0 else pose_position[b, k]
-        share[c] = 0.5
-        if is_flat(a, c, normal, shape, pose_rotation):
-            share[c] += 0.5
-        if is_flat(b, c, normal, shape, pose_rotation):
-            share[c] -= 0.5
         kind[c] = -1
         i, o, sign[c] = a, b, 1.0
         if not is_free_ball(a, shape, body_row, pose_position, center, inverse_mass):
@@ -105,6 +99,23 @@ def complete_contacts(
 
 
 @inlined
+def is_parallel(c, o, normal):
+    """Tell whether two contacts have one normal."""
+    return normal[c, 0] == normal[o, 0] and normal[c, 1] == normal[o, 1] and normal[c, 2] == normal[o, 2]
+
+
+@inlined
+def share_of_a(c, a, b, normal, shape, pose_rotation):
+    """Return how much the point of contact c goes with b rather than with a, over whose face it glides."""
+    share = 0.5
+    if is_flat(a, c, normal, shape, pose_rotation):
+        share += 0.5
+    if is_flat(b, c, normal, shape, pose_rotation):
+        share -= 0.5
+    return share
+
+
+@inlined
 def is_flat(i, c, normal, shape, pose_rotation):
     """Tell whether a collider turns a face to contact c, over which its point glides."""
     if shape[i] == PLANE_SHAPE:
@@ -114,6 +125,24 @@ def is_flat(i, c, normal, shape, pose_rotation):
     x, y, z = turned_back(pose_rotation, i, normal[c, 0], normal[c, 1], normal[c, 2])
     x, y, z = x * x, y * y, z * z
     return x + y + z - max(x, y, z) <= LEANING * LEANING
+
+
+@inlined
+def surface_of_pair(c, a, b, normal, surface_velocity, pose_rotation):
+    """Return the velocity of b's surface against a's, beyond that of their bodies, along contact c."""
+    if not (runs(a, surface_velocity) or runs(b, surface_velocity)):
+        return 0.0, 0.0, 0.0
+    ax, ay, az = turned(a, a, surface_velocity, pose_rotation)
+    bx, by, bz = turned(b, b, surface_velocity, pose_rotation)
+    x, y, z = bx - ax, by - ay, bz - az
+    across = normal[c, 0] * x + normal[c, 1] * y + normal[c, 2] * z
+    return x - across * normal[c, 0], y - across * normal[c, 1], z - across * normal[c, 2]
+
+
+@inlined
+def runs(i, surface_velocity):
+    """Tell whether a collider's surface runs like a belt."""
+    return surface_velocity[i, 0] != 0.0 or surface_velocity[i, 1] != 0.0 or surface_velocity[i, 2] != 0.0
 
 
 @inlined
@@ -192,29 +221,38 @@ def renew_contacts(
             if match[new] >= 0:
                 taken[match[new]] = True
         o, c = until, end
-    kept = np.zeros((count, 25))
-    rested, counted = np.zeros(count, np.bool_), np.zeros((count, 2), np.int64)
+    # Rows that stay where they are keep what they hold; what others held is put aside before it is written over.
+    moves = np.empty(count, np.int64)
+    moving = 0
     for c in range(count):
-        o = match[c]
+        if match[c] != c:
+            moves[moving] = c
+            moving += 1
+    kept, counted = np.zeros((moving, 25)), np.zeros((moving, 3), np.int64)
+    for m in range(moving):
+        o = match[moves[m]]
         if o >= 0:
-            rested[c], counted[c, 0], counted[c, 1] = resting[o], strikes[o], plastic[o]
-            kept[c, 0], kept[c, 7] = warm_normal[o], impulse[o]
+            counted[m, 0], counted[m, 1], counted[m, 2] = resting[o], strikes[o], plastic[o]
+            kept[m, 0], kept[m, 7] = warm_normal[o], impulse[o]
             for k in range(3):
-                kept[c, 1 + k], kept[c, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
-                kept[c, 8 + k] = friction_impulse[o, k]
-                kept[c, 11 + k], kept[c, 14 + k] = seat_a[o, k], seat_b[o, k]
-                kept[c, 17 + k], kept[c, 20 + k] = lean_a[o, k], lean_b[o, k]
-            kept[c, 23], kept[c, 24] = seat_depth[o], form[o]
+                kept[m, 1 + k], kept[m, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
+                kept[m, 8 + k] = friction_impulse[o, k]
+                kept[m, 11 + k], kept[m, 14 + k] = seat_a[o, k], seat_b[o, k]
+                kept[m, 17 + k], kept[m, 20 + k] = lean_a[o, k], lean_b[o, k]
+            kept[m, 23], kept[m, 24] = seat_depth[o], form[o]
+    for m in range(moving):
+        c = moves[m]
+        a[c], b[c] = handles[found_a[c]], handles[found_b[c]]
+        resting[c], strikes[c], plastic[c] = counted[m, 0] != 0, counted[m, 1], counted[m, 2]
+        warm_normal[c], impulse[c] = kept[m, 0], kept[m, 7]
+        for k in range(3):
+            warm_friction[c, k], warm_rolling[c, k] = kept[m, 1 + k], kept[m, 4 + k]
+            friction_impulse[c, k] = kept[m, 8 + k]
+            seat_a[c, k], seat_b[c, k] = kept[m, 11 + k], kept[m, 14 + k]
+            lean_a[c, k], lean_b[c, k] = kept[m, 17 + k], kept[m, 20 + k]
+        seat_depth[c], form[c] = kept[m, 23], kept[m, 24]
     for c in range(count):
-        x, y = found_a[c], found_b[c]
-        a[c], b[c], feature[c] = handles[x], handles[y], found_feature[c]
-        row_a[c], row_b[c], by_fcl[c] = x, y, found_by_fcl[c]
-        strikes[c], plastic[c] = counted[c, 0], counted[c, 1]
-        resting[c], warm_normal[c], impulse[c], depth[c] = rested[c], kept[c, 0], kept[c, 7], found_depth[c]
+        row_a[c], row_b[c], feature[c], by_fcl[c] = found_a[c], found_b[c], found_feature[c], found_by_fcl[c]
+        depth[c] = found_depth[c]
         for k in range(3):
             normal[c, k], point[c, k] = found_normal[c, k], found_point[c, k]
-            warm_friction[c, k], warm_rolling[c, k] = kept[c, 1 + k], kept[c, 4 + k]
-            friction_impulse[c, k] = kept[c, 8 + k]
-            seat_a[c, k], seat_b[c, k] = kept[c, 11 + k], kept[c, 14 + k]
-            lean_a[c, k], lean_b[c, k] = kept[c, 17 + k], kept[c, 20 + k]
-        seat_depth[c], form[c] = kept[c, 23], kept[c, 24]

@@ -4,44 +4,43 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.packing import ANGULAR, AT_MASS
 from carom.systems.kernels.spatial import spun, turn
 
 
-@kernel("offset_a", "offset_b")
-def follow_turning(
-    count, h, bends, body_a, body_b, kind, resting, normal, inverse_mass, center, linear, angular, offset_a, offset_b
-):
-    """Let what rests on a turning kinematic body feel its surface where it will be, not where it was detected.
+@inlined
+def follow_turning(c, a, b, time, bodies, normal, center, offset_a, offset_b):
+    """Let contact c on a turning kinematic body feel its surface ``time`` seconds on; tell whether there is such.
 
     In the middle of the substep a body that keeps to the surface goes along the chord of its circle and so stays on it;
-    by the velocity at the start it would leave along the tangent. A ball whose arc bends (``bends``) comes to the
-    surface's velocity at the end of the substep, and needs that.
+    by the velocity at the start it would leave along the tangent. A ball whose arc bends comes to the surface's
+    velocity at the end of the substep, and needs that.
     """
-    for c in range(count):
-        a, b = body_a[c], body_b[c]
-        if not resting[c] or a < 0 or b < 0:
-            continue
-        if turns(a, inverse_mass, angular):
-            ahead(c, b, a, h if bends and kind[c] >= 0 else 0.5 * h, normal, center, linear, offset_b, offset_a)
-        if turns(b, inverse_mass, angular):
-            ahead(c, a, b, h if bends and kind[c] >= 0 else 0.5 * h, normal, center, linear, offset_a, offset_b)
+    if turns(a, bodies):
+        ahead(c, b, a, time, bodies, normal, center, offset_b, offset_a)
+        return True
+    if turns(b, bodies):
+        ahead(c, a, b, time, bodies, normal, center, offset_a, offset_b)
+        return True
+    return False
 
 
 @inlined
-def turns(i, inverse_mass, angular):
+def turns(i, bodies):
     """Tell whether body i is kinematic and turns."""
-    return inverse_mass[i] == 0.0 and (angular[i, 0] != 0.0 or angular[i, 1] != 0.0 or angular[i, 2] != 0.0)
+    x, y, z = bodies[i, ANGULAR], bodies[i, ANGULAR + 1], bodies[i, ANGULAR + 2]
+    return bodies[i, AT_MASS] == 0.0 and (x != 0.0 or y != 0.0 or z != 0.0)
 
 
 @inlined
-def ahead(c, i, o, time, normal, center, linear, offset, offset_other):
+def ahead(c, i, o, time, bodies, normal, center, offset, offset_other):
     """Move the offset of contact c from body o along the surface to where body i takes it in ``time`` seconds."""
     along = 0.0
     for k in range(3):
-        to = center[i, k] + offset[c, k] - center[o, k] + time * (linear[i, k] - linear[o, k])
+        to = center[i, k] + offset[c, k] - center[o, k] + time * (bodies[i, k] - bodies[o, k])
         along += normal[c, k] * (to - offset_other[c, k])
     for k in range(3):
-        to = center[i, k] + offset[c, k] - center[o, k] + time * (linear[i, k] - linear[o, k])
+        to = center[i, k] + offset[c, k] - center[o, k] + time * (bodies[i, k] - bodies[o, k])
         offset_other[c, k] = to - along * normal[c, k]
 
 

@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-from math import sqrt
-
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import MANIFOLD_POINTS, SAME_NORMAL, SINGULAR
-from carom.systems.kernels.bodies import hardness, inverse_mass_along, write_spread
-from carom.systems.kernels.kernel import inlined, kernel
-from carom.systems.kernels.spatial import cross, plane_axes
-
-# Columns of what is known of a manifold: two tangents, the middle of its points from both bodies, the inverse of the
-# inverse mass along the tangents (a symmetric 2 x 2), the inertia about the normal, and about any axis across it.
-TANGENT, MIDDLE_A, MIDDLE_B, GIVE, SPIN, ROLL, MANIFOLD_WIDTH = 0, 6, 9, 12, 15, 16, 17
-
-# Columns of what is known of a point: its lever about a and b (r x n), the mass along the normal, and how far it is
-# from the middle.
-LEVER_A, LEVER_B, MASS, AWAY, POINT_WIDTH = 0, 3, 6, 7, 8
+from carom.systems.constants import MANIFOLD_POINTS, SAME_NORMAL
+from carom.systems.kernels import groups as of
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
+from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lanes import choose, gather, larger, load, root, spread, store
+from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT
+from carom.systems.kernels.resting import TINY, about, dot, keep, three
+from carom.systems.kernels.spatial import cross
 
 
 @kernel("start")
@@ -36,79 +30,62 @@ def find_manifolds(count, row_a, row_b, normal, start):
     return number
 
 
-@inlined
-def about(i, x, y, z, spread):
-    """Return I^-1 v of body i in the world frame; ``spread`` (n, 9) is that of `write_spread`."""
-    return (
-        spread[i, 3] * x + spread[i, 4] * y + spread[i, 5] * z,
-        spread[i, 4] * x + spread[i, 6] * y + spread[i, 7] * z,
-        spread[i, 5] * x + spread[i, 7] * y + spread[i, 8] * z,
-    )
+@woven
+def crossed(a, b):
+    """Return a x b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@kernel("spread", "known", "known_point")
-def prepare_manifolds(
-    rows, count, start, body_a, body_b, normal, offset_a, offset_b, resting,
-    inverse_mass, inverse_inertia, principal, freedom, rotation, spread, known, known_point,
-):  # fmt: skip
-    """Write what is known of bodies, manifolds and points for the substep; of manifolds that rest only."""
-    for i in rows:
-        write_spread(i, inverse_mass, inverse_inertia, principal, freedom, rotation, spread)
-    for m in range(count):
-        first, end = start[m], start[m + 1]
-        if not resting[first]:
-            continue
-        nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
-        tx, ty, tz, ux, uy, uz = plane_axes(nx, ny, nz)
-        known[m, TANGENT], known[m, TANGENT + 1], known[m, TANGENT + 2] = tx, ty, tz
-        known[m, TANGENT + 3], known[m, TANGENT + 4], known[m, TANGENT + 5] = ux, uy, uz
-        ktt, ktu, kuu, spin, roll = 0.0, 0.0, 0.0, 0.0, 0.0
-        for c in range(first, end):
-            known_point[c, MASS] = 0.0
-        for body, offset, middle, lever in (
-            (body_a[first], offset_a, MIDDLE_A, LEVER_A), (body_b[first], offset_b, MIDDLE_B, LEVER_B)
-        ):  # fmt: skip
-            rx, ry, rz = 0.0, 0.0, 0.0
-            for c in range(first, end):
-                rx, ry, rz = rx + offset[c, 0], ry + offset[c, 1], rz + offset[c, 2]
-            along = inverse_mass_along(body, nx, ny, nz, inverse_mass, freedom) if body >= 0 else 0.0
-            share = 1.0 / (end - first)
-            rx, ry, rz = rx * share, ry * share, rz * share
-            known[m, middle], known[m, middle + 1], known[m, middle + 2] = rx, ry, rz
-            for c in range(first, end):
-                dx, dy, dz = offset[c, 0] - rx, offset[c, 1] - ry, offset[c, 2] - rz
-                x, y, z = cross(dx, dy, dz, nx, ny, nz)
-                known_point[c, AWAY] = sqrt(x * x + y * y + z * z)
-                x, y, z = cross(offset[c, 0], offset[c, 1], offset[c, 2], nx, ny, nz)
-                known_point[c, lever], known_point[c, lever + 1], known_point[c, lever + 2] = x, y, z
-                if body >= 0:
-                    wx, wy, wz = about(body, x, y, z, spread)
-                    known_point[c, MASS] += along + x * wx + y * wy + z * wz
-            if body >= 0:
-                tax, tay, taz = cross(rx, ry, rz, tx, ty, tz)
-                uax, uay, uaz = cross(rx, ry, rz, ux, uy, uz)
-                wx, wy, wz = about(body, tax, tay, taz, spread)
-                ktt += inverse_mass_along(body, tx, ty, tz, inverse_mass, freedom) + tax * wx + tay * wy + taz * wz
-                ktu += uax * wx + uay * wy + uaz * wz
-                for k, tu in enumerate((tx * ux, ty * uy, tz * uz)):  # they are at right angles where all axes are free
-                    ktu -= inverse_mass[body] * tu * (1.0 - freedom[body, k])
-                wx, wy, wz = about(body, uax, uay, uaz, spread)
-                kuu += inverse_mass_along(body, ux, uy, uz, inverse_mass, freedom) + uax * wx + uay * wy + uaz * wz
-                wx, wy, wz = about(body, nx, ny, nz, spread)
-                spin += nx * wx + ny * wy + nz * wz
-                roll += max(inverse_inertia[body, 0], inverse_inertia[body, 1], inverse_inertia[body, 2])
-        for c in range(first, end):
-            known_point[c, MASS] = hardness(known_point[c, MASS], body_a[first], body_b[first], inverse_mass)
-        determinant = ktt * kuu - ktu * ktu
-        if determinant <= SINGULAR * (ktt + kuu) ** 2:  # one direction is locked, and as good as any in the other
-            ktt, ktu, kuu = ktt + kuu, 0.0, ktt + kuu
-            determinant = ktt * kuu
-        inverse = inverse_or_none(determinant)
-        known[m, GIVE], known[m, GIVE + 1], known[m, GIVE + 2] = kuu * inverse, -ktu * inverse, ktt * inverse
-        known[m, SPIN], known[m, ROLL] = inverse_or_none(spin), inverse_or_none(roll)
+@woven
+def inverse_or_none(rests, x):
+    """Return 1 / x where there is something that can move and that rests, else 0."""
+    return choose(x, rests / larger(x, spread(TINY)), spread(0.0))
 
 
-@inlined
-def inverse_or_none(x):
-    """Return 1 / x, and 0 where nothing can move."""
-    return 1.0 / x if x > 0.0 else 0.0
+@woven
+def prepare(g, r, points, rests, index_a, index_b, lanes, bodies):
+    """Write what follows for a group from where its bodies are; masses are 0 where a manifold does not rest."""
+    n, t, u = three(lanes, r + of.NORMAL), three(lanes, r + of.TANGENT), three(lanes, r + of.TANGENT + 3)
+    share, zero = load(lanes, r + of.SHARE), spread(0.0)
+    for p in range(points):
+        store(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.MASS, zero)
+    ktt, ktu, kuu, spin, roll = zero, zero, zero, zero, zero
+    for side in range(2):
+        index = index_a if side == 0 else index_b
+        masses = gather(bodies, index, g, MASS_AND_FELT)
+        inertia = gather(bodies, index, g, INVERSE)
+        keep(lanes, r + of.MASS_A + 3 * side, masses[0], masses[1], masses[2])
+        along = masses[0] * n[0] * n[0] + masses[1] * n[1] * n[1] + masses[2] * n[2] * n[2]
+        x, y, z = zero, zero, zero
+        for p in range(points):
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
+            ox, oy, oz = three(lanes, q + of.OFFSET_A + 3 * side)
+            x, y, z = x + ox, y + oy, z + oz
+            lever = three(lanes, q + of.LEVER_A + 3 * side)
+            wx, wy, wz = about(inertia, lever[0], lever[1], lever[2])
+            keep(lanes, q + of.TURN_A + 3 * side, wx, wy, wz)
+            store(lanes, q + of.MASS, load(lanes, q + of.MASS) + (along + dot(lever, (wx, wy, wz))))
+        middle = (x * share, y * share, z * share)
+        keep(lanes, r + of.MIDDLE_A + 3 * side, middle[0], middle[1], middle[2])
+        lever_t, lever_u = crossed(middle, t), crossed(middle, u)
+        turn_t = about(inertia, lever_t[0], lever_t[1], lever_t[2])
+        turn_u = about(inertia, lever_u[0], lever_u[1], lever_u[2])
+        turn_n = about(inertia, n[0], n[1], n[2])
+        keep(lanes, r + of.TURN_T_A + 6 * side, turn_t[0], turn_t[1], turn_t[2])
+        keep(lanes, r + of.TURN_U_A + 6 * side, turn_u[0], turn_u[1], turn_u[2])
+        keep(lanes, r + of.TURN_N_A + 3 * side, turn_n[0], turn_n[1], turn_n[2])
+        ktt = ktt + (dot(masses, (t[0] * t[0], t[1] * t[1], t[2] * t[2])) + dot(lever_t, turn_t))
+        kuu = kuu + (dot(masses, (u[0] * u[0], u[1] * u[1], u[2] * u[2])) + dot(lever_u, turn_u))
+        ktu = ktu + (dot(masses, (t[0] * u[0], t[1] * u[1], t[2] * u[2])) + dot(lever_u, turn_t))
+        spin, roll = spin + dot(n, turn_n), roll + inertia[6]
+    middle = three(lanes, r + of.MIDDLE_B)
+    for p in range(points):
+        q = r + MANIFOLD_ROWS + POINT_ROWS * p
+        store(lanes, q + of.MASS, inverse_or_none(rests, load(lanes, q + of.MASS)))
+        x, y, z = three(lanes, q + of.OFFSET_B)
+        away = crossed((x - middle[0], y - middle[1], z - middle[2]), n)
+        store(lanes, q + of.AWAY, root(dot(away, away)))
+    inverse = inverse_or_none(rests, ktt * kuu - ktu * ktu)
+    keep(lanes, r + of.GIVE, kuu * inverse, -ktu * inverse, ktt * inverse)
+    store(lanes, r + of.SPIN, inverse_or_none(rests, spin))
+    store(lanes, r + of.ROLL, inverse_or_none(rests, roll))

@@ -141,17 +141,28 @@ def seat_contacts(
         form[c] = form_of_pair(a, b, shape, size, geometry)
 
 
-@kernel("source")
-def merge_contacts(row_a, row_b, count, fresh_a, fresh_b, source):
-    """Merge ``count`` recycled and the fresh contacts, both sorted by pair: ``source`` is a recycled one, or ~fresh."""
+@kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "recycled")
+def merge_contacts(
+    count, old_a, old_b, old_feature, old_normal, old_depth, old_point, old_by_fcl,
+    fresh_a, fresh_b, fresh_feature, fresh_normal, fresh_depth, fresh_point, fresh_by_fcl,
+    row_a, row_b, feature, normal, depth, point, by_fcl, recycled,
+):  # fmt: skip
+    """Merge ``count`` recycled and the fresh contacts, both sorted by pair."""
     i, j = 0, 0
     for c in range(count + len(fresh_a)):
         first = j == len(fresh_a)
         if not first and i < count:
-            first = row_a[i] < fresh_a[j] or (row_a[i] == fresh_a[j] and row_b[i] < fresh_b[j])
+            first = old_a[i] < fresh_a[j] or (old_a[i] == fresh_a[j] and old_b[i] < fresh_b[j])
+        recycled[c] = first
         if first:
-            source[c] = i
+            row_a[c], row_b[c], feature[c], by_fcl[c] = old_a[i], old_b[i], old_feature[i], old_by_fcl[i]
+            depth[c] = old_depth[i]
+            for k in range(3):
+                normal[c, k], point[c, k] = old_normal[i, k], old_point[i, k]
             i += 1
         else:
-            source[c] = ~j
+            row_a[c], row_b[c], feature[c], by_fcl[c] = fresh_a[j], fresh_b[j], fresh_feature[j], fresh_by_fcl[j]
+            depth[c] = fresh_depth[j]
+            for k in range(3):
+                normal[c, k], point[c, k] = fresh_normal[j, k], fresh_point[j, k]
             j += 1

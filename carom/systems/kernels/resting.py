@@ -1,261 +1,248 @@
-"""The resting stage: impulses that hold contacts, by soft steps over manifolds."""
+"""The resting stage: impulses that hold contacts, by soft steps over groups of manifolds."""
 
 from __future__ import annotations
 
-from math import sqrt
-
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import POINT_SWEEPS, PUSH_SPEED, RELAX_SWEEPS, ROLL_SWEEPS, ROLLED
-from carom.systems.kernels.kernel import inlined, kernel, woven
-from carom.systems.kernels.manifolds import (
-    AWAY,
-    GIVE,
-    LEVER_A,
-    LEVER_B,
-    MASS,
-    MIDDLE_A,
-    MIDDLE_B,
-    ROLL,
-    SPIN,
-    TANGENT,
-    about,
-)  # fmt: skip
-from carom.systems.kernels.spatial import cross
+from carom.systems.constants import POINT_SWEEPS, PUSH_SPEED, ROLL_SWEEPS, ROLLING_SOLVED
+from carom.systems.kernels import groups as of
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
+from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lanes import address, choose, gather, larger, load, root, scatter, smaller, some, spread, store
+from carom.systems.kernels.packing import INVERSE, VELOCITY
 
-
-@kernel("linear", "angular", "warm_normal", "warm_friction", "warm_rolling")
-def press_contacts(
-    count, h, start, soft, rigid, body_a, body_b, normal, depth, resting, friction, rolling, spinning, surface,
-    inverse_mass, spread, known, known_point, linear, angular, warm_normal, warm_friction, warm_rolling,
-):  # fmt: skip
-    """Apply the impulses of the substep before, then solve every manifold once with its overlap pushed out.
-
-    ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`press_manifold`). Those with
-    something that cannot move come last, so that what is under a pile has the last word.
-    """
-    for m in range(count):
-        first, end = start[m], start[m + 1]
-        if not resting[first]:
-            continue
-        a, b = body_a[first], body_b[first]
-        nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
-        fx, fy, fz, wx, wy, wz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for c in range(first, end):
-            press(c, warm_normal[c], a, b, nx, ny, nz, spread, known_point, linear, angular)
-            fx, fy, fz = fx + warm_friction[c, 0], fy + warm_friction[c, 1], fz + warm_friction[c, 2]
-            wx, wy, wz = wx + warm_rolling[c, 0], wy + warm_rolling[c, 1], wz + warm_rolling[c, 2]
-        rub(m, fx, fy, fz, a, b, spread, known, linear, angular)
-        twist(a, -wx, -wy, -wz, spread, angular)
-        twist(b, wx, wy, wz, spread, angular)
-    for last in (False, True):
-        for m in range(count):
-            first = start[m]
-            a, b = body_a[first], body_b[first]
-            if resting[first] and stands(a, b, inverse_mass) == last:
-                rate, hardness, give_way = rigid if last else soft
-                press_manifold(
-                    m, first, start[m + 1], h, rate, hardness, give_way, a, b,
-                    normal, depth, friction, rolling, spinning, surface,
-                    spread, known, known_point, linear, angular,
-                    warm_normal, warm_friction, warm_rolling,
-                )  # fmt: skip
-
-
-@kernel("linear", "angular", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
-def relax_contacts(
-    count, h, start, body_a, body_b, normal, depth, resting, friction, rolling, spinning, surface,
-    inverse_mass, spread, known, known_point, linear, angular,
-    impulse, friction_impulse, warm_normal, warm_friction, warm_rolling,
-):  # fmt: skip
-    """Take out of the velocities what pushed overlap out, and sum up the impulses."""
-    for _ in range(RELAX_SWEEPS):
-        for last in (False, True):
-            for m in range(count):
-                first = start[m]
-                a, b = body_a[first], body_b[first]
-                if resting[first] and stands(a, b, inverse_mass) == last:
-                    press_manifold(
-                        m, first, start[m + 1], h, 0.0, 1.0, 0.0, a, b,
-                        normal, depth, friction, rolling, spinning, surface,
-                        spread, known, known_point, linear, angular,
-                        warm_normal, warm_friction, warm_rolling,
-                    )  # fmt: skip
-    for m in range(count):
-        if resting[start[m]]:
-            for c in range(start[m], start[m + 1]):
-                impulse[c] += warm_normal[c]
-                for k in range(3):
-                    friction_impulse[c, k] += warm_friction[c, k]
-
-
-@inlined
-def stands(a, b, inverse_mass):
-    """Tell whether one of two bodies cannot be moved."""
-    return a < 0 or b < 0 or inverse_mass[a] == 0.0 or inverse_mass[b] == 0.0
+IDLE, RESTING, RUBBING, TWISTING, ROLLING = 0, 1, 2, 3, 4  # what the manifolds of a group ask for, each more than before
+TINY = 1e-300  # keeps lanes that have nothing to divide free of NaN
 
 
 @woven
-def press_manifold(
-    m, first, end, h, rate, hardness, give_way, a, b, normal, depth, friction, rolling, spinning, surface,
-    spread, known, known_point, linear, angular, warm_normal, warm_friction, warm_rolling,
-):  # fmt: skip
-    """Solve one manifold once: its points one after the other, then friction, spinning and rolling of all together.
+def three(lanes, row):
+    """Return three rows."""
+    return load(lanes, row), load(lanes, row + 1), load(lanes, row + 2)
+
+
+@woven
+def keep(lanes, row, x, y, z):
+    """Write three rows."""
+    store(lanes, row, x)
+    store(lanes, row + 1, y)
+    store(lanes, row + 2, z)
+
+
+@woven
+def dot(a, b):
+    """Return a . b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@woven
+def about(inertia, x, y, z):
+    """Return I^-1 v; ``inertia`` begins with the upper half of I^-1."""
+    return (
+        inertia[0] * x + inertia[1] * y + inertia[2] * z,
+        inertia[1] * x + inertia[3] * y + inertia[4] * z,
+        inertia[2] * x + inertia[4] * y + inertia[5] * z,
+    )
+
+
+@woven
+def pushed(v, mass, x, y, z):
+    """Return velocities after an impulse at the centre; ``mass`` is the inverse along the axes."""
+    return v[0] + mass[0] * x, v[1] + mass[1] * y, v[2] + mass[2] * z, v[3], v[4], v[5], v[6], v[7]
+
+
+@woven
+def turned(v, j, x, y, z):
+    """Return velocities after a turn by j times (x, y, z)."""
+    return v[0], v[1], v[2], v[3], v[4] + j * x, v[5] + j * y, v[6] + j * z, v[7]
+
+
+@woven
+def turned_by_row(v, j, lanes, row):
+    """Return velocities after a turn by j times three rows."""
+    x, y, z = three(lanes, row)
+    return turned(v, j, x, y, z)
+
+
+@woven
+def rubbed(r, lanes, a, b, along, across):
+    """Return velocities of both bodies after an impulse along the tangents at the middle of a manifold."""
+    tx, ty, tz = three(lanes, r + of.TANGENT)
+    ux, uy, uz = three(lanes, r + of.TANGENT + 3)
+    x, y, z = along * tx + across * ux, along * ty + across * uy, along * tz + across * uz
+    a = pushed(a, three(lanes, r + of.MASS_A), -x, -y, -z)
+    b = pushed(b, three(lanes, r + of.MASS_B), x, y, z)
+    a = turned_by_row(turned_by_row(a, -along, lanes, r + of.TURN_T_A), -across, lanes, r + of.TURN_U_A)
+    b = turned_by_row(turned_by_row(b, along, lanes, r + of.TURN_T_B), across, lanes, r + of.TURN_U_B)
+    return a, b
+
+
+@kernel("bodies")
+def start_warm(groups, index_a, index_b, points, row, asks, lanes, bodies):
+    """Apply the impulses of the substep before."""
+    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    for g in range(groups):
+        if asks[g] == IDLE:
+            continue
+        r = row[g]
+        a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+        total = spread(0.0)
+        for p in range(points[g]):
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
+            j = load(lanes, q + of.WARM)
+            total = total + j
+            a = turned_by_row(a, -j, lanes, q + of.TURN_A)
+            b = turned_by_row(b, j, lanes, q + of.TURN_B)
+        nx, ny, nz = three(lanes, r + of.NORMAL)
+        a = pushed(a, three(lanes, r + of.MASS_A), -total * nx, -total * ny, -total * nz)
+        b = pushed(b, three(lanes, r + of.MASS_B), total * nx, total * ny, total * nz)
+        a, b = rubbed(r, lanes, a, b, load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1))
+        if asks[g] >= TWISTING:
+            j = load(lanes, r + of.SPUN)
+            a, b = turned_by_row(a, -j, lanes, r + of.TURN_N_A), turned_by_row(b, j, lanes, r + of.TURN_N_B)
+        if asks[g] == ROLLING:
+            x, y, z = three(lanes, r + of.ROLLED)
+            one = spread(1.0)
+            ax, ay, az = about(gather(bodies, index_a, g, INVERSE), x, y, z)
+            bx, by, bz = about(gather(bodies, index_b, g, INVERSE), x, y, z)
+            a, b = turned(a, -one, ax, ay, az), turned(b, one, bx, by, bz)
+        scatter(bodies, index_a, g, VELOCITY, a)
+        scatter(bodies, index_b, g, VELOCITY, b)
+
+
+@kernel("lanes", "bodies")
+def press_groups(sweeps, h, ends, soft, rigid, index_a, index_b, points, row, asks, lanes, bodies):
+    """Solve every group that rests ``sweeps`` times over.
+
+    ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`press`). Those with something that
+    cannot move come last, so that what is under a pile has the last word.
+    """
+    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    for _ in range(sweeps):
+        for g in range(ends[1]):
+            if asks[g] != IDLE:
+                rate, hardness, give_way = soft if g < ends[0] else rigid
+                press(g, row[g], points[g], asks[g], 1.0 / h, rate, hardness, give_way, index_a, index_b, lanes, bodies)
+
+
+@kernel("lanes")
+def sum_impulses(groups, points, row, lanes):
+    """Add the impulses of the substep to those of the step."""
+    lanes = address(lanes)
+    for g in range(groups):
+        r = row[g]
+        for p in range(points[g]):
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
+            store(lanes, q + of.SUM, load(lanes, q + of.SUM) + load(lanes, q + of.WARM))
+        along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
+        for k in range(3):
+            t, u = load(lanes, r + of.TANGENT + k), load(lanes, r + of.TANGENT + 3 + k)
+            store(lanes, r + of.RUBBED + k, load(lanes, r + of.RUBBED + k) + (along * t + across * u))
+
+
+@woven
+def press(g, r, points, asks, per_second, rate, hardness, give_way, index_a, index_b, lanes, bodies):
+    """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling.
 
     Overlap leaves at ``rate`` (1/s) times itself. A soft contact is a spring and a damper, stepped implicitly, of which
     ``hardness`` (part of the mass) and ``give_way`` (part of the impulse given up) remain: Catto, Soft Constraints, GDC
     2011, and Solver2D, 2024 (soft step). A gap may close until the end of the substep. Friction that slides twists the
     less: both share one cone (Goyal, Ruina and Papadopoulos, Wear 143, 307, 1991, as an ellipsoid).
     """
-    nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
-    for _ in range(POINT_SWEEPS if end - first > 1 else 1):
-        for c in range(first, end):
-            off = 0.0
-            if a >= 0:
-                off -= nx * linear[a, 0] + ny * linear[a, 1] + nz * linear[a, 2]
-                for k in range(3):
-                    off -= known_point[c, LEVER_A + k] * angular[a, k]
-            if b >= 0:
-                off += nx * linear[b, 0] + ny * linear[b, 1] + nz * linear[b, 2]
-                for k in range(3):
-                    off += known_point[c, LEVER_B + k] * angular[b, k]
-            before, hard, yielding = warm_normal[c], 1.0, 0.0
-            if depth[c] < 0.0:
-                off -= depth[c] / h
-            elif rate > 0.0:
-                off -= min(rate * depth[c], PUSH_SPEED)
-                hard, yielding = hardness, give_way
-            warm_normal[c] = max(0.0, before - hard * known_point[c, MASS] * off - yielding * before)
-            press(c, warm_normal[c] - before, a, b, nx, ny, nz, spread, known_point, linear, angular)
-    total, twisting = 0.0, 0.0
-    px, py, pz, qx, qy, qz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for c in range(first, end):
-        total += warm_normal[c]
-        twisting += warm_normal[c] * known_point[c, AWAY]
-        px, py, pz = px + warm_friction[c, 0], py + warm_friction[c, 1], pz + warm_friction[c, 2]
-        qx, qy, qz = qx + warm_rolling[c, 0], qy + warm_rolling[c, 1], qz + warm_rolling[c, 2]
-    if friction[first] == 0.0 and spinning[first] == 0.0:
-        return
-    tx, ty, tz = known[m, TANGENT], known[m, TANGENT + 1], known[m, TANGENT + 2]
-    ux, uy, uz = known[m, TANGENT + 3], known[m, TANGENT + 4], known[m, TANGENT + 5]
-    most = friction[first] * total
-    most_twist = friction[first] * twisting
-    for _ in range(ROLL_SWEEPS if rolling[first] > 0.0 else 1):
-        sx, sy, sz = slip(m, first, a, b, surface, known, linear, angular)
-        vt, vu = tx * sx + ty * sy + tz * sz, ux * sx + uy * sy + uz * sz
-        ft = tx * px + ty * py + tz * pz - (known[m, GIVE] * vt + known[m, GIVE + 1] * vu)
-        fu = ux * px + uy * py + uz * pz - (known[m, GIVE + 1] * vt + known[m, GIVE + 2] * vu)
-        size, most_spin = sqrt(ft * ft + fu * fu), spinning[first] * total
-        if most_twist > 0.0:
-            spin = spin_of_pair(a, b, nx, ny, nz, angular)
-            wanted = abs(nx * qx + ny * qy + nz * qz - known[m, SPIN] * spin)
-            size = sqrt(size * size + (wanted * most / most_twist) ** 2)
-            most_spin += min(most_twist, wanted * most / size) if size > most else most_twist
-        slides = size > most
-        if slides:
-            ft, fu = ft * (most / size), fu * (most / size)
-        fx, fy, fz = ft * tx + fu * ux, ft * ty + fu * uy, ft * tz + fu * uz
-        rub(m, fx - px, fy - py, fz - pz, a, b, spread, known, linear, angular)
-        rubbed = (fx - px) ** 2 + (fy - py) ** 2 + (fz - pz) ** 2
-        px, py, pz = fx, fy, fz
-        if most_spin == 0.0 and rolling[first] == 0.0:
+    a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+    n = three(lanes, r + of.NORMAL)
+    mass_a, mass_b = three(lanes, r + of.MASS_A), three(lanes, r + of.MASS_B)
+    one, zero = spread(1.0), spread(0.0)
+    for _ in range(POINT_SWEEPS if points > 1 else 1):
+        for p in range(points):
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
+            off = n[0] * (b[0] - a[0]) + n[1] * (b[1] - a[1]) + n[2] * (b[2] - a[2])
+            off = off + (dot(three(lanes, q + of.LEVER_B), b[4:7]) - dot(three(lanes, q + of.LEVER_A), a[4:7]))
+            depth, before = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM)
+            off = off - choose(-depth, depth * per_second, smaller(depth * rate, spread(PUSH_SPEED)))
+            hard, yields = choose(-depth, one, spread(hardness)), choose(-depth, zero, spread(give_way))
+            after = larger(zero, before - hard * load(lanes, q + of.MASS) * off - yields * before)
+            store(lanes, q + of.WARM, after)
+            j = after - before
+            a = turned_by_row(pushed(a, mass_a, -j * n[0], -j * n[1], -j * n[2]), -j, lanes, q + of.TURN_A)
+            b = turned_by_row(pushed(b, mass_b, j * n[0], j * n[1], j * n[2]), j, lanes, q + of.TURN_B)
+    if asks >= RUBBING:
+        a, b = rub(g, r, points, asks, a, b, n, index_a, index_b, lanes, bodies)
+    scatter(bodies, index_a, g, VELOCITY, a)
+    scatter(bodies, index_b, g, VELOCITY, b)
+
+
+@woven
+def rub(g, r, points, asks, a, b, n, index_a, index_b, lanes, bodies):
+    """Solve friction of a group at the middles of its manifolds; return the velocities of both bodies."""
+    total, twisting = spread(0.0), spread(0.0)
+    for p in range(points):
+        q = r + MANIFOLD_ROWS + POINT_ROWS * p
+        j = load(lanes, q + of.WARM)
+        total, twisting = total + j, twisting + j * load(lanes, q + of.AWAY)
+    friction = load(lanes, r + of.FRICTION)
+    most = friction * total
+    most_twist, most_spin = friction * twisting, load(lanes, r + of.SPINNING) * total
+    give, give_both, give_across = three(lanes, r + of.GIVE)
+    along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
+    for _ in range(ROLL_SWEEPS if asks == ROLLING else 1):
+        s = slip(r, lanes, a, b)
+        t, u = dot(three(lanes, r + of.TANGENT), s), dot(three(lanes, r + of.TANGENT + 3), s)
+        new_along = along - (give * t + give_both * u)
+        new_across = across - (give_both * t + give_across * u)
+        s = (b[4] - a[4], b[5] - a[5], b[6] - a[6])
+        spin, before, hold = dot(n, s), load(lanes, r + of.SPUN), load(lanes, r + of.SPIN)
+        wanted = before - hold * spin
+        part = choose(most_twist, wanted * most / larger(most_twist, spread(TINY)), spread(0.0))
+        size = root(new_along * new_along + new_across * new_across + part * part)
+        share = choose(size - most, most / larger(size, spread(TINY)), spread(1.0))
+        new_along, new_across = new_along * share, new_across * share
+        t, u = new_along - along, new_across - across
+        a, b = rubbed(r, lanes, a, b, t, u)
+        along, across = new_along, new_across
+        if asks < TWISTING:
             break
-        sx, sy, sz = 0.0, 0.0, 0.0
-        if a >= 0:
-            sx, sy, sz = -angular[a, 0], -angular[a, 1], -angular[a, 2]
-        if b >= 0:
-            sx, sy, sz = sx + angular[b, 0], sy + angular[b, 1], sz + angular[b, 2]
-        spin = nx * sx + ny * sy + nz * sz
-        along = nx * qx + ny * qy + nz * qz
-        wx = qx - along * nx - known[m, ROLL] * (sx - spin * nx)
-        wy = qy - along * ny - known[m, ROLL] * (sy - spin * ny)
-        wz = qz - along * nz - known[m, ROLL] * (sz - spin * nz)
-        size = sqrt(wx * wx + wy * wy + wz * wz)
-        most_roll = 0.0 if slides else rolling[first] * total  # what slides does not roll
-        if size > most_roll:
-            wx, wy, wz = wx * (most_roll / size), wy * (most_roll / size), wz * (most_roll / size)
-        along = min(max(along - known[m, SPIN] * spin, -most_spin), most_spin)
-        wx, wy, wz = wx + along * nx, wy + along * ny, wz + along * nz
-        twist(a, qx - wx, qy - wy, qz - wz, spread, angular)
-        twist(b, wx - qx, wy - qy, wz - qz, spread, angular)
-        rolled = (wx - qx) ** 2 + (wy - qy) ** 2 + (wz - qz) ** 2
-        qx, qy, qz = wx, wy, wz
-        if rubbed <= ROLLED * most * most and rolled <= ROLLED * most_roll * most_roll:
+        s = (b[4] - a[4], b[5] - a[5], b[6] - a[6])
+        spin = dot(n, s)
+        up_to = most_spin + choose(size - most, smaller(most_twist, larger(wanted, -wanted) * share), most_twist)
+        after = smaller(larger(before - hold * spin, -up_to), up_to)
+        store(lanes, r + of.SPUN, after)
+        j = after - before
+        a, b = turned_by_row(a, -j, lanes, r + of.TURN_N_A), turned_by_row(b, j, lanes, r + of.TURN_N_B)
+        if asks < ROLLING:
             break
-    share = 1.0 / (end - first)
-    for c in range(first, end):
-        warm_friction[c, 0], warm_friction[c, 1], warm_friction[c, 2] = px * share, py * share, pz * share
-        warm_rolling[c, 0], warm_rolling[c, 1], warm_rolling[c, 2] = qx * share, qy * share, qz * share
+        # What slides does not roll.
+        most_roll = choose(size - most, spread(0.0), load(lanes, r + of.ROLLING) * total)
+        x, y, z = three(lanes, r + of.ROLLED)
+        up, stiff = dot(n, (x, y, z)), load(lanes, r + of.ROLL)
+        wx = x - up * n[0] - stiff * (s[0] - spin * n[0])
+        wy = y - up * n[1] - stiff * (s[1] - spin * n[1])
+        wz = z - up * n[2] - stiff * (s[2] - spin * n[2])
+        size = root(wx * wx + wy * wy + wz * wz)
+        share = choose(size - most_roll, most_roll / larger(size, spread(TINY)), spread(1.0))
+        wx, wy, wz = wx * share, wy * share, wz * share
+        keep(lanes, r + of.ROLLED, wx, wy, wz)
+        x, y, z = wx - x, wy - y, wz - z
+        one = spread(1.0)
+        ax, ay, az = about(gather(bodies, index_a, g, INVERSE), x, y, z)
+        bx, by, bz = about(gather(bodies, index_b, g, INVERSE), x, y, z)
+        a, b = turned(a, -one, ax, ay, az), turned(b, one, bx, by, bz)
+        open_rub = t * t + u * u - ROLLING_SOLVED * most * most
+        open_roll = x * x + y * y + z * z - ROLLING_SOLVED * most_roll * most_roll
+        if not some(larger(open_rub, open_roll)):
+            break
+    store(lanes, r + of.RUB, along)
+    store(lanes, r + of.RUB + 1, across)
+    return a, b
 
 
-@inlined
-def press(c, j, a, b, nx, ny, nz, spread, known_point, linear, angular):
-    """Press the bodies of contact c apart along its normal by the impulse j."""
-    if a >= 0:
-        move(a, -j * nx, -j * ny, -j * nz, spread, linear)
-        x, y, z = known_point[c, LEVER_A], known_point[c, LEVER_A + 1], known_point[c, LEVER_A + 2]
-        twist(a, -j * x, -j * y, -j * z, spread, angular)
-    if b >= 0:
-        move(b, j * nx, j * ny, j * nz, spread, linear)
-        x, y, z = known_point[c, LEVER_B], known_point[c, LEVER_B + 1], known_point[c, LEVER_B + 2]
-        twist(b, j * x, j * y, j * z, spread, angular)
-
-
-@inlined
-def rub(m, jx, jy, jz, a, b, spread, known, linear, angular):
-    """Apply an impulse on b, and its reaction on a, at the middle of a manifold."""
-    if a >= 0:
-        move(a, -jx, -jy, -jz, spread, linear)
-        x, y, z = cross(known[m, MIDDLE_A], known[m, MIDDLE_A + 1], known[m, MIDDLE_A + 2], jx, jy, jz)
-        twist(a, -x, -y, -z, spread, angular)
-    if b >= 0:
-        move(b, jx, jy, jz, spread, linear)
-        x, y, z = cross(known[m, MIDDLE_B], known[m, MIDDLE_B + 1], known[m, MIDDLE_B + 2], jx, jy, jz)
-        twist(b, x, y, z, spread, angular)
-
-
-@inlined
-def slip(m, first, a, b, surface, known, linear, angular):
+@woven
+def slip(r, lanes, a, b):
     """Return the velocity of b's surface against a's at the middle of a manifold."""
-    sx, sy, sz = surface[first, 0], surface[first, 1], surface[first, 2]
-    if a >= 0:
-        x, y, z = cross(
-            angular[a, 0], angular[a, 1], angular[a, 2],
-            known[m, MIDDLE_A], known[m, MIDDLE_A + 1], known[m, MIDDLE_A + 2],
-        )  # fmt: skip
-        sx, sy, sz = sx - linear[a, 0] - x, sy - linear[a, 1] - y, sz - linear[a, 2] - z
-    if b >= 0:
-        x, y, z = cross(
-            angular[b, 0], angular[b, 1], angular[b, 2],
-            known[m, MIDDLE_B], known[m, MIDDLE_B + 1], known[m, MIDDLE_B + 2],
-        )  # fmt: skip
-        sx, sy, sz = sx + linear[b, 0] + x, sy + linear[b, 1] + y, sz + linear[b, 2] + z
-    return sx, sy, sz
-
-
-@inlined
-def spin_of_pair(a, b, nx, ny, nz, angular):
-    """Return how fast b turns against a about the normal."""
-    spin = 0.0
-    if a >= 0:
-        spin -= nx * angular[a, 0] + ny * angular[a, 1] + nz * angular[a, 2]
-    if b >= 0:
-        spin += nx * angular[b, 0] + ny * angular[b, 1] + nz * angular[b, 2]
-    return spin
-
-
-@inlined
-def move(i, jx, jy, jz, spread, linear):
-    """Apply an impulse to the centre of body i."""
-    linear[i, 0] += spread[i, 0] * jx
-    linear[i, 1] += spread[i, 1] * jy
-    linear[i, 2] += spread[i, 2] * jz
-
-
-@inlined
-def twist(i, tx, ty, tz, spread, angular):
-    """Apply an angular impulse to body i, if it is one."""
-    if i >= 0:
-        wx, wy, wz = about(i, tx, ty, tz, spread)
-        angular[i, 0] += wx
-        angular[i, 1] += wy
-        angular[i, 2] += wz
+    sx, sy, sz = three(lanes, r + of.SURFACE)
+    ax, ay, az = three(lanes, r + of.MIDDLE_A)
+    bx, by, bz = three(lanes, r + of.MIDDLE_B)
+    return (
+        sx + (b[0] - a[0]) + (b[5] * bz - b[6] * by) - (a[5] * az - a[6] * ay),
+        sy + (b[1] - a[1]) + (b[6] * bx - b[4] * bz) - (a[6] * ax - a[4] * az),
+        sz + (b[2] - a[2]) + (b[4] * by - b[5] * bx) - (a[4] * ay - a[5] * ax),
+    )

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.blows import depth_now
+from carom.systems.kernels import groups as of
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.lanes import WIDTH, address, gather, load, store
+from carom.systems.kernels.manifolds import crossed
+from carom.systems.kernels.packing import WAY
+from carom.systems.kernels.resting import dot, three
 from carom.systems.kernels.spatial import turn
 
 
-@kernel("linear", "angular", "position", "depth")
+@kernel("linear", "angular", "position")
 def finish_drift(
-    rows, count, ended, center_of_mass, freedom, start_position, start_rotation, decay, angular_decay, flow, rotation,
-    body_a, body_b, normal, offset_a, offset_b, kind, start_center, turned,
-    linear, angular, position, center, depth,
+    rows, ended, center_of_mass, freedom, start_position, start_rotation, decay, angular_decay, flow, rotation, center,
+    linear, angular, position,
 ):  # fmt: skip
-    """End the substep: the second half of drag, the depths contacts have come to, and the origins placed."""
-    for c in range(count):
-        if kind[c] < 0:
-            depth[c] = depth_now(
-                c, body_a[c], body_b[c], normal, depth, offset_a, offset_b, start_center, center, turned
-            )
+    """End the substep: the second half of drag, and the origins placed."""
     for i in rows:
         qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
         cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
@@ -36,3 +35,26 @@ def finish_drift(
                 linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * decay[i]
             if ended:
                 angular[i, k] *= angular_decay[i]
+
+
+@kernel("lanes", "depth")
+def sink_contacts(groups, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
+    """Write the depths that contacts have come to be; those of balls on exact arcs are measured.
+
+    A point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
+    """
+    rows, moved, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    for g in range(groups):
+        r = row[g]
+        n = three(rows, r + of.NORMAL)
+        a, b = gather(moved, index_a, g, WAY), gather(moved, index_b, g, WAY)
+        apart = dot(n, (a[0] - b[0], a[1] - b[1], a[2] - b[2]))
+        for p in range(points[g]):
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
+            lever_a, lever_b = crossed(three(rows, q + of.OFFSET_A), n), crossed(three(rows, q + of.OFFSET_B), n)
+            deep = load(rows, q + of.DEPTH) + (apart + (dot(lever_a, a[4:7]) - dot(lever_b, b[4:7])))
+            store(rows, q + of.DEPTH, deep)
+            for lane in range(WIDTH):
+                c = first[g, lane]
+                if p < size[g, lane] and kind[c] < 0:
+                    depth[c + p] = lanes[q + of.DEPTH, lane]

@@ -4,65 +4,181 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
+from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import gap_of_ball, pose_of_other
-from carom.systems.kernels.blows import slip_of_pair
-from carom.systems.kernels.bodies import pressed_by_forces, pushed
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, write_point
+from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.kinematic import follow_turning
+from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, root, smaller, some, spread, store
+from carom.systems.kernels.manifolds import crossed, prepare
+from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
+from carom.systems.kernels.resting import IDLE, RESTING, ROLLING, RUBBING, TWISTING, dot, keep, three
 
 
-@kernel(
-    "normal", "depth", "point", "offset_a", "offset_b", "resting", "touching",
-    "warm_normal", "warm_friction", "warm_rolling",
-)  # fmt: skip
-def sort_manifolds(
-    count, start, h, resting_stage, center, rotation, linear, angular, felt,
-    kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b, restitution,
-    normal, depth, point, offset_a, offset_b, resting, touching, warm_normal, warm_friction, warm_rolling,
+@kernel("fresh", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b", "resting", "touching")
+def sort_groups(
+    groups, h, bends, resting_stage, ends, index_a, index_b, first, size, points, row, fresh, asks, lanes, bodies, center, rotation,
+    kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
+    normal, depth, point, offset_a, offset_b, resting, touching,
 ):  # fmt: skip
-    """Say which manifolds rest at the start of the substep, mark their bodies, and return how many they are.
+    """Say which manifolds rest at the start of the substep and prepare them, mark their bodies as touching.
+
+    A group is prepared when it is ``fresh`` from detection, when others of it rest, and where balls have moved on.
+    Return how many manifolds rest, and how many of those are of balls on exact arcs.
+    """
+    rows, packed, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    number, balls = 0, 0
+    for g in range(groups):
+        r = row[g]
+        changed = fresh[g]
+        fresh[g] = False
+        moved_on = False
+        for lane in range(WIDTH):
+            c = first[g, lane]
+            if c < 0:
+                continue
+            lanes[r + of.TOGETHER, lane] = 1.0 if resting[c] else 0.0
+            if kind[c] >= 0:
+                moved_on = True
+                measure_ball(
+                    c, center, rotation, kind, ball, other, sign, radius, extent, other_position, other_rotation,
+                    normal, depth, point, offset_a, offset_b,
+                )  # fmt: skip
+                for k in range(3):
+                    lanes[r + of.NORMAL + k, lane] = normal[c, k]
+            if g >= ends[0] and body_a[c] >= 0 and body_b[c] >= 0:
+                time = h if bends and kind[c] >= 0 else 0.5 * h
+                for k in range(c, c + size[g, lane]):
+                    moved_on |= follow_turning(k, body_a[c], body_b[c], time, bodies, normal, center, offset_a, offset_b)
+            if moved_on:
+                for k in range(size[g, lane]):
+                    write_point(
+                        r + MANIFOLD_ROWS + POINT_ROWS * k, lane, c + k, offset_a, offset_b, depth, lanes
+                    )  # fmt: skip
+        if moved_on:
+            find_tangents(r, rows)
+        if changed or moved_on:
+            find_levers(r, points[g], rows)
+        rests = find_resting(g, r, points[g], h, index_a, index_b, rows, packed) * resting_stage
+        before = load(rows, r + of.RESTS)
+        store(rows, r + of.RESTS, rests)
+        changed |= some(rests - before) or some(before - rests)
+        for lane in range(WIDTH):
+            c = first[g, lane]
+            if c < 0:
+                continue
+            held = lanes[r + of.RESTS, lane] > 0.0
+            if resting[c] != held:
+                for k in range(c, c + size[g, lane]):
+                    resting[k] = held
+            if held:
+                number += 1
+                balls += kind[c] >= 0
+                if body_a[c] >= 0:
+                    touching[body_a[c]] = True
+                if body_b[c] >= 0:
+                    touching[body_b[c]] = True
+        if changed:
+            asks[g] = asked(r, points[g], rests, rows)
+            forget(r, points[g], rests, rows)
+        if asks[g] != IDLE and (changed or moved_on):
+            prepare(g, r, points[g], rests, index_a, index_b, rows, packed)
+    return number, balls
+
+
+@woven
+def asked(r, points, rests, lanes):
+    """Return what the manifolds of a group ask for of the resting stage."""
+    if not some(rests):
+        return IDLE
+    if some(load(lanes, r + of.ROLLING)):
+        return ROLLING
+    if some(load(lanes, r + of.SPINNING)):
+        return TWISTING
+    if some(load(lanes, r + of.FRICTION)):
+        return TWISTING if points > 1 else RUBBING
+    return RESTING
+
+
+@woven
+def forget(r, points, rests, lanes):
+    """Forget the impulses of manifolds that do not rest."""
+    for p in range(points):
+        q = r + MANIFOLD_ROWS + POINT_ROWS * p
+        store(lanes, q + of.WARM, load(lanes, q + of.WARM) * rests)
+    for k in range(of.RUB, of.RUBBED):
+        store(lanes, r + k, load(lanes, r + k) * rests)
+
+
+@woven
+def find_tangents(r, lanes):
+    """Find tangents to normals that have changed, and what was rubbed along them.
+
+    Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6 (1), 2017, as `plane_axes`.
+    """
+    x, y, z = three(lanes, r + of.NORMAL)
+    sign = choose(-z, spread(-1.0), spread(1.0))
+    p = -1.0 / (sign + z)
+    q = x * y * p
+    t = (1.0 + sign * x * x * p, sign * q, -sign * x)
+    u = (q, sign + y * y * p, -y)
+    along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
+    old_t, old_u = three(lanes, r + of.TANGENT), three(lanes, r + of.TANGENT + 3)
+    rub = (
+        along * old_t[0] + across * old_u[0],
+        along * old_t[1] + across * old_u[1],
+        along * old_t[2] + across * old_u[2],
+    )
+    store(lanes, r + of.RUB, dot(t, rub))
+    store(lanes, r + of.RUB + 1, dot(u, rub))
+    keep(lanes, r + of.TANGENT, t[0], t[1], t[2])
+    keep(lanes, r + of.TANGENT + 3, u[0], u[1], u[2])
+
+
+@woven
+def find_levers(r, points, lanes):
+    """Find the levers r x n of all points about both bodies."""
+    n = three(lanes, r + of.NORMAL)
+    for p in range(points):
+        q = r + MANIFOLD_ROWS + POINT_ROWS * p
+        lever_a, lever_b = crossed(three(lanes, q + of.OFFSET_A), n), crossed(three(lanes, q + of.OFFSET_B), n)
+        keep(lanes, q + of.LEVER_A, lever_a[0], lever_a[1], lever_a[2])
+        keep(lanes, q + of.LEVER_B, lever_b[0], lever_b[1], lever_b[2])
+
+
+@woven
+def find_resting(g, r, points, h, index_a, index_b, lanes, bodies):
+    """Return 1 for each manifold that rests, else 0.
 
     One rests when one of its points touches or would by the end of the substep (a ball only once it touches), unless
     one would strike: close faster than the rest speed. What was pressed together before and has no exact arc goes on
     resting.
     """
-    number = 0
-    for m in range(count):
-        near, strikes, held = False, False, False
-        for c in range(start[m], start[m + 1]):
-            held |= warm_normal[c] > 0.0
-            if kind[c] >= 0:
-                measure_ball(
-                    c, center, rotation, kind, ball, other, sign, radius, extent, other_position, other_rotation,
-                    normal, depth, point, offset_a, offset_b,
-                )  # fmt: skip
-            a, b = body_a[c], body_b[c]
-            nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
-            sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
-            closing = -(nx * sx + ny * sy + nz * sz)
-            pressing = pressed_by_forces(a, b, nx, ny, nz, felt)
-            # Without restitution there is no bounce to lose by resting, so that all that forces do counts.
-            slow = max(0.0, pressing if restitution[c] > 0.0 else pushed(a, b, felt))
-            gap = -depth[c]
-            after = gap - closing * h - 0.5 * pressing * h * h
-            strikes |= after <= 0.0 and closing > APPROACH + REST_SPEED_FACTOR * slow * h
-            if kind[c] >= 0:
-                near |= gap <= TOUCH and after <= 0.0
-            else:
-                near |= after <= (SLOP if gap <= SLOP else 0.0)
-        held &= kind[start[m]] < 0
-        rests = near and (held or not strikes) and resting_stage
-        number += rests
-        for c in range(start[m], start[m + 1]):
-            resting[c] = rests
-            if rests:
-                for body in (body_a[c], body_b[c]):
-                    if body >= 0:
-                        touching[body] = True
-            else:
-                warm_normal[c] = 0.0
-                for k in range(3):
-                    warm_friction[c, k], warm_rolling[c, k] = 0.0, 0.0
-    return number
+    a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+    felt_a, felt_b = gather(bodies, index_a, g, MASS_AND_FELT)[3:6], gather(bodies, index_b, g, MASS_AND_FELT)[3:6]
+    n, is_ball, together = three(lanes, r + of.NORMAL), load(lanes, r + of.BALL), load(lanes, r + of.TOGETHER)
+    zero, one = spread(0.0), spread(1.0)
+    pressing = larger(zero, larger(dot(n, felt_a), -dot(n, felt_b)))
+    # Without restitution there is no bounce to lose by resting, so that all that forces do counts.
+    all_forces = root(larger(dot(felt_a, felt_a), dot(felt_b, felt_b)))
+    restitution = load(lanes, r + of.RESTITUTION)
+    slow = choose(restitution, pressing, all_forces)
+    limit = slow * (REST_SPEED_FACTOR * h) + APPROACH
+    near, striking, held = spread(-1.0), spread(-1.0), zero
+    for p in range(points):
+        q = r + MANIFOLD_ROWS + POINT_ROWS * p
+        lever_a, lever_b = three(lanes, q + of.LEVER_A), three(lanes, q + of.LEVER_B)
+        closing = dot(n, (a[0] - b[0], a[1] - b[1], a[2] - b[2])) + (dot(lever_a, a[4:7]) - dot(lever_b, b[4:7]))
+        gap = -load(lanes, q + of.DEPTH)
+        after = gap - closing * h - pressing * (0.5 * h * h)
+        # What was together before or is inside one another, and does not bounce, rests however fast it closes.
+        bounces = choose(larger(together, -SLOP - gap), restitution, one)
+        striking = choose(after, striking, choose(bounces, larger(striking, closing - limit), striking))
+        touching = smaller(TOUCH - gap, -after)
+        near = larger(near, choose(is_ball, touching, choose(gap - SLOP, zero, spread(SLOP)) - after))
+        held = larger(held, load(lanes, q + of.WARM))
+    held = choose(is_ball, zero, held)
+    return choose(-near, zero, choose(held, one, choose(striking, zero, one)))
 
 
 @inlined
