@@ -130,7 +130,7 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
     return now, reason, events
 
 
-@system(reads=(RigidBody, Flight), writes=(Transform, Motion, Contact, Resting))
+@system(reads=(RigidBody,), writes=(Transform, Motion, Flight, Contact, Resting))
 def settle(world: World, dt: float) -> None:
     """End the substep: drag's second half, origins placed, and how deep contacts have come to be."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]

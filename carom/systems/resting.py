@@ -12,7 +12,7 @@ from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, RELAX_SWEEPS, RIGID_RATE
-from carom.systems.kernels.groups import group_manifolds, fill_groups, hand_over
+from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
 from carom.systems.kernels.packing import BODY_WIDTH, pack_velocities, pack_ways, unpack_velocities
@@ -35,7 +35,11 @@ class Resting(Resource):
         self.group_of, self.lane_of = np.empty(count, np.int64), np.empty(count, np.int64)
         self.index_a, self.index_b = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
-        self.points, self.row, self.asks = np.empty(count, np.int64), np.empty(count, np.int64), np.zeros(count, np.int64)
+        self.points, self.row, self.asks = (
+            np.empty(count, np.int64),
+            np.empty(count, np.int64),
+            np.zeros(count, np.int64),
+        )
         self.fresh, self.ends = np.ones(count, np.bool_), np.zeros(2, np.int64)
 
     def group(self, contact: Contact, inverse_mass: Floats) -> None:
@@ -50,7 +54,8 @@ class Resting(Resource):
             self._reserve(2 * self.count)
         self.groups, rows = group_manifolds(
             self.count, self.start, contact.body_a, contact.body_b, inverse_mass, nobody,
-            self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size, self.points, self.row, self.ends,
+            self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
+            self.points, self.row, self.ends,
         )  # fmt: skip
         self.asks[:], self.fresh[:] = 0, True
         if len(self.lanes) < rows:

@@ -16,7 +16,7 @@ import numpy as np
 from carom.ecs.access import GUARDED
 from carom.ecs.errors import AccessError
 
-IMPORTS = re.compile(rb"^from (carom\.[\w.]+) import", re.MULTILINE)
+IMPORTS = re.compile(rb"^ *from (carom\.[\w.]+) import", re.MULTILINE)
 #: Modules whose functions kernels call; of all other modules kernels use numbers only.
 CALLED = re.compile(r"carom\.systems\.kernels\.\w+|carom\.ecs\.spatial\.(scalars|trigonometry)")
 NUMBERS = (int, float, tuple)

@@ -6,268 +6,60 @@ of eight, so that the same kernels run either way, with the same bits.
 
 from __future__ import annotations
 
-import operator
-
-# mypy: disable-error-code="no-untyped-def"
 import numba
 import numpy as np
 
-WIDTH = 8
-BLOCK, BLOCKS = 8, 4  # numbers in a block of a body, and blocks of a body
+from carom.ecs.column import Floats
+from carom.systems.kernels.lane_widths import WIDTH
 
 if numba.config.DISABLE_JIT:
-
-    def address(rows):
-        """Return where an array of rows is, as the functions below take it."""
-        return rows
-
-    def load(rows, row):
-        """Return a row."""
-        return rows[row].copy()
-
-    def store(rows, row, lane):
-        """Write a row of eight."""
-        rows[row] = lane
-
-    def spread(number):
-        """Return one number in all lanes."""
-        return np.full(WIDTH, number)
-
-    def larger(a, b):
-        """Return the larger of two, lane by lane."""
-        return np.where(a > b, a, b)
-
-    def smaller(a, b):
-        """Return the smaller of two, lane by lane."""
-        return np.where(a < b, a, b)
-
-    def choose(test, a, b):
-        """Return a where the test is positive, b elsewhere."""
-        return np.where(test > 0.0, a, b)
-
-    def root(a):
-        """Return the square root."""
-        return np.sqrt(a)
-
-    def some(test):
-        """Tell whether the test is positive in some lane."""
-        return bool((test > 0.0).any())
-
-    def gather(bodies, index, group, block):
-        """Return the eight numbers of a block of each body of a group, each number a lane."""
-        return tuple(bodies[index[group], BLOCK * block : BLOCK * block + BLOCK].T.copy())
-
-    def scatter(bodies, index, group, block, lanes):
-        """Write what `gather` returns."""
-        bodies[index[group], BLOCK * block : BLOCK * block + BLOCK] = np.array(lanes).T
-
+    from carom.systems.kernels.lanes_plain import (
+        address,
+        choose,
+        gather,
+        larger,
+        load,
+        root,
+        scatter,
+        smaller,
+        some,
+        spread,
+        store,
+    )
 else:
-    from llvmlite import ir
-    from numba.core import cgutils, types
-    from numba.core.datamodel import models, register_default
-    from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
-    from numba.extending import intrinsic, lower_builtin
+    from carom.systems.kernels.lanes_compiled import (
+        address,
+        choose,
+        gather,
+        larger,
+        load,
+        root,
+        scatter,
+        smaller,
+        some,
+        spread,
+        store,
+    )
 
-    VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
-    INTEGER = ir.IntType(32)
-
-    class LaneType(types.Type):
-        """The type of a lane."""
-
-        def __init__(self):
-            super().__init__(name=f"lane{WIDTH}")
-
-    LANE = LaneType()
-    EIGHT = types.UniTuple(LANE, BLOCK)
-
-    @register_default(LaneType)
-    class LaneModel(models.PrimitiveModel):
-        """A lane is one vector."""
-
-        def __init__(self, manager, kind):
-            super().__init__(manager, kind, VECTOR)
-
-    def _splat(builder, number):
-        one = builder.insert_element(ir.Constant(VECTOR, ir.Undefined), number, INTEGER(0))
-        return builder.shuffle_vector(one, one, ir.Constant(ir.VectorType(INTEGER, WIDTH), [0] * WIDTH))
-
-    def _arithmetic(operation, instruction):
-        cases = [(LANE, LANE), (LANE, types.float64), (types.float64, LANE)]
-        template = type(
-            f"Lane_{instruction}", (ConcreteTemplate,), {"cases": [signature(LANE, *sides) for sides in cases]}
-        )
-        infer_global(operation)(template)
-        for sides in cases:
-
-            def lower(context, builder, sig, values, sides=sides):
-                a, b = (
-                    value if side is LANE else _splat(builder, value)
-                    for value, side in zip(values, sides, strict=True)
-                )
-                return getattr(builder, instruction)(a, b)
-
-            lower_builtin(operation, *sides)(lower)
-
-    for _operation, _instruction in (
-        (operator.add, "fadd"), (operator.sub, "fsub"), (operator.mul, "fmul"), (operator.truediv, "fdiv")
-    ):  # fmt: skip
-        _arithmetic(_operation, _instruction)
-
-    @infer_global(operator.neg)
-    class Negative(ConcreteTemplate):
-        """The type of -lane."""
-
-        cases = [signature(LANE, LANE)]  # noqa: RUF012
-
-    @lower_builtin(operator.neg, LANE)
-    def _negative(context, builder, sig, values):
-        return builder.fneg(values[0])
-
-    WHOLE = ir.IntType(64)
-
-    def _place(builder, rows, number, kind):
-        """Return a pointer to a number at an address."""
-        base = builder.inttoptr(rows, ir.DoubleType().as_pointer())
-        return builder.bitcast(builder.gep(base, [number]), kind.as_pointer())
-
-    def _row(builder, row):
-        return builder.mul(row, WHOLE(WIDTH))
-
-    @intrinsic
-    def address(typing, rows):
-        """Return where an array of rows is, as the functions below take it."""
-
-        def lower(context, builder, sig, values):
-            array = context.make_array(sig.args[0])(context, builder, values[0])
-            return builder.ptrtoint(array.data, WHOLE)
-
-        return types.int64(rows), lower
-
-    def _transposed(builder, vectors):
-        """Return vectors with rows and columns swapped: blocks of 1, 2 and 4 change places."""
-        for step in (1, 2, 4)[: WIDTH.bit_length() - 1]:
-            lower = [k if not k & step else WIDTH + k - step for k in range(WIDTH)]
-            upper = [k + step if not k & step else WIDTH + k for k in range(WIDTH)]
-            new = list(vectors)
-            for k in range(WIDTH):
-                if not k & step:
-                    for into, mask in ((k, lower), (k + step, upper)):
-                        order = ir.Constant(ir.VectorType(INTEGER, WIDTH), mask)
-                        new[into] = builder.shuffle_vector(vectors[k], vectors[k + step], order)
-            vectors = new
-        return vectors
-
-    def _blocks(builder, bodies, index, group, block):
-        """Return pointers to the blocks of the bodies of a group, in parts of as many numbers as there are lanes."""
-        places = []
-        for lane in range(WIDTH):
-            at = builder.add(_row(builder, group), WHOLE(lane))
-            body = builder.load(_place(builder, index, at, WHOLE))
-            first = builder.mul(builder.add(builder.mul(body, WHOLE(BLOCKS)), block), WHOLE(BLOCK))
-            places.append(first)
-        return [
-            [_place(builder, bodies, builder.add(first, WHOLE(part)), VECTOR) for first in places]
-            for part in range(0, BLOCK, WIDTH)
-        ]
-
-    @intrinsic
-    def load(typing, rows, row):
-        """Return a row."""
-
-        def lower(context, builder, sig, values):
-            return builder.load(_place(builder, values[0], _row(builder, values[1]), VECTOR), align=8)
-
-        return LANE(types.int64, types.int64), lower
-
-    @intrinsic
-    def store(typing, rows, row, lane):
-        """Write a row of eight."""
-
-        def lower(context, builder, sig, values):
-            builder.store(values[2], _place(builder, values[0], _row(builder, values[1]), VECTOR), align=8)
-            return context.get_dummy_value()
-
-        return types.void(types.int64, types.int64, LANE), lower
-
-    @intrinsic
-    def spread(typing, number):
-        """Return one number in all lanes."""
-        return LANE(types.float64), lambda context, builder, sig, values: _splat(builder, values[0])
-
-    def _compared(builder, how, a, b, yes, no):
-        return builder.select(builder.fcmp_ordered(how, a, b), yes, no)
-
-    @intrinsic
-    def larger(typing, a, b):
-        """Return the larger of two, lane by lane."""
-        return LANE(LANE, LANE), lambda context, builder, sig, v: _compared(builder, ">", v[0], v[1], v[0], v[1])
-
-    @intrinsic
-    def smaller(typing, a, b):
-        """Return the smaller of two, lane by lane."""
-        return LANE(LANE, LANE), lambda context, builder, sig, v: _compared(builder, "<", v[0], v[1], v[0], v[1])
-
-    def _zero():
-        return ir.Constant(VECTOR, [0.0] * WIDTH)
-
-    @intrinsic
-    def choose(typing, test, a, b):
-        """Return a where the test is positive, b elsewhere."""
-
-        def lower(context, builder, sig, values):
-            return _compared(builder, ">", values[0], _zero(), values[1], values[2])
-
-        return LANE(LANE, LANE, LANE), lower
-
-    @intrinsic
-    def root(typing, a):
-        """Return the square root."""
-
-        def lower(context, builder, sig, values):
-            kind = ir.FunctionType(VECTOR, [VECTOR])
-            return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.sqrt.v{WIDTH}f64"), values)
-
-        return LANE(LANE), lower
-
-    @intrinsic
-    def some(typing, test):
-        """Tell whether the test is positive in some lane."""
-
-        def lower(context, builder, sig, values):
-            which = builder.bitcast(builder.fcmp_ordered(">", values[0], _zero()), ir.IntType(WIDTH))
-            return builder.icmp_unsigned("!=", which, ir.Constant(ir.IntType(WIDTH), 0))
-
-        return types.boolean(LANE), lower
-
-    @intrinsic
-    def gather(typing, bodies, index, group, block):
-        """Return the eight numbers of a block of each body of a group, each number a lane."""
-
-        def lower(context, builder, sig, values):
-            lanes = []
-            for places in _blocks(builder, *values):
-                lanes += _transposed(builder, [builder.load(place, align=8) for place in places])
-            return context.make_tuple(builder, sig.return_type, lanes)
-
-        return EIGHT(types.int64, types.int64, types.int64, types.int64), lower
-
-    @intrinsic
-    def scatter(typing, bodies, index, group, block, lanes):
-        """Write what `gather` returns."""
-
-        def lower(context, builder, sig, values):
-            vectors = cgutils.unpack_tuple(builder, values[4], BLOCK)
-            for part, places in enumerate(_blocks(builder, *values[:4])):
-                columns = _transposed(builder, vectors[part * WIDTH : (part + 1) * WIDTH])
-                for place, vector in zip(places, columns, strict=True):
-                    builder.store(vector, place, align=8)
-            return context.get_dummy_value()
-
-        return types.void(types.int64, types.int64, types.int64, types.int64, EIGHT), lower
+__all__ = [
+    "WIDTH",
+    "address",
+    "aligned",
+    "choose",
+    "gather",
+    "larger",
+    "load",
+    "root",
+    "scatter",
+    "smaller",
+    "some",
+    "spread",
+    "store",
+]
 
 
-def aligned(rows, columns):
-    """Return zeros (rows, columns) that begin where a line of the cache does, so that no row of eight lies across two."""
+def aligned(rows: int, columns: int) -> Floats:
+    """Return zeros (rows, columns) that begin where a line of the cache does: no row of eight lies across two."""
     room = np.zeros(rows * columns + 8)
     skip = -room.ctypes.data // room.itemsize % 8
     return room[skip : skip + rows * columns].reshape(rows, columns)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import kernel
-from carom.systems.kernels.lanes import BLOCK, BLOCKS
+from carom.systems.kernels.lane_widths import BLOCK, BLOCKS
 from carom.systems.kernels.spatial import product
 
-# Where in a body's row its blocks of eight begin. Velocity, and the way since contacts were measured: linear (3), a gap,
-# angular (3), a gap. Inverse inertia in the world frame: upper half (6), the largest of it. Inverse mass along the axes
+# The blocks of a body's row. Velocity, and the way since contacts were measured: linear (3), a gap, angular (3), a gap.
+# Inverse inertia in the world frame: upper half (6), the largest of it. Inverse mass along the axes
 # (3), and the acceleration by forces (3).
 VELOCITY, WAY, INVERSE, MASS_AND_FELT = range(BLOCKS)
 BODY_WIDTH, ANGULAR = BLOCKS * BLOCK, 4

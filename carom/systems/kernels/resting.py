@@ -2,15 +2,33 @@
 
 from __future__ import annotations
 
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import POINT_SWEEPS, PUSH_SPEED, ROLL_SWEEPS, ROLLING_SOLVED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.lanes import address, choose, gather, larger, load, root, scatter, smaller, some, spread, store
+from carom.systems.kernels.lanes import (
+    address,
+    choose,
+    gather,
+    larger,
+    load,
+    root,
+    scatter,
+    smaller,
+    some,
+    spread,
+    store,
+)
 from carom.systems.kernels.packing import INVERSE, VELOCITY
 
-IDLE, RESTING, RUBBING, TWISTING, ROLLING = 0, 1, 2, 3, 4  # what the manifolds of a group ask for, each more than before
+IDLE, RESTING, RUBBING, TWISTING, ROLLING = (
+    0,
+    1,
+    2,
+    3,
+    4,
+)  # what the manifolds of a group ask for, each more than before
 TINY = 1e-300  # keeps lanes that have nothing to divide free of NaN
 
 

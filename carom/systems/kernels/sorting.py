@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import gap_of_ball, pose_of_other
@@ -17,7 +17,8 @@ from carom.systems.kernels.resting import IDLE, RESTING, ROLLING, RUBBING, TWIST
 
 @kernel("fresh", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b", "resting", "touching")
 def sort_groups(
-    groups, h, bends, resting_stage, ends, index_a, index_b, first, size, points, row, fresh, asks, lanes, bodies, center, rotation,
+    groups, h, bends, resting_stage, ends, index_a, index_b, first, size, points, row,
+    fresh, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
     normal, depth, point, offset_a, offset_b, resting, touching,
 ):  # fmt: skip
@@ -49,7 +50,9 @@ def sort_groups(
             if g >= ends[0] and body_a[c] >= 0 and body_b[c] >= 0:
                 time = h if bends and kind[c] >= 0 else 0.5 * h
                 for k in range(c, c + size[g, lane]):
-                    moved_on |= follow_turning(k, body_a[c], body_b[c], time, bodies, normal, center, offset_a, offset_b)
+                    moved_on |= follow_turning(
+                        k, body_a[c], body_b[c], time, bodies, normal, center, offset_a, offset_b
+                    )
             if moved_on:
                 for k in range(size[g, lane]):
                     write_point(
