@@ -34,7 +34,7 @@ def called_from(module: str) -> list[str]:
     """Return the other modules whose functions those of a module may call, in order of their names."""
     called: set[str] = set()
     for name in map(bytes.decode, IMPORTS.findall(source_of(module))):
-        if CALLED.fullmatch(name):
+        if CALLED.fullmatch(name) and name in sys.modules:
             called.update((name, *called_from(name)))
     return sorted(called)
 
