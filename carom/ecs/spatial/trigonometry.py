@@ -7,6 +7,9 @@ import math
 
 QUARTER_TURN = 1.5707963267341256  # pi/2 to 33 bits, so that small multiples of it are exact
 QUARTER_TURN_REST = 6.077100506506192e-11
+SINE_11, SINE_13, SINE_15 = -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000
+COSINE_10, COSINE_12 = -1.0 / 3628800, 1.0 / 479001600
+COSINE_14, COSINE_16 = -1.0 / 87178291200, 1.0 / 20922789888000
 LN2 = 0.6931471803691238  # likewise ln 2
 LN2_REST = 1.9082149292705877e-10
 LARGEST_EXPONENT = 700.0  # e^700 is near the largest float64
@@ -15,20 +18,20 @@ LARGEST_EXPONENT = 700.0  # e^700 is near the largest float64
 def sine_cosine(angle: float) -> tuple[float, float]:
     """Return sin and cos of ``angle`` (rad) for |angle| < 1e6 within 2 units in the last place, next to zeros of 1e-3.
 
-    Cody and Waite's reduction to [-pi/4, pi/4], then Taylor's series to the term below 1e-19 (Cody and Waite, Software
+    Cody and Waite's reduction to [-pi/4, pi/4], then Taylor's series to the term below 1e-17 (Cody and Waite, Software
     Manual for the Elementary Functions, 1980, chapter 8).
     """
     turns = math.floor(angle / QUARTER_TURN + 0.5)
     x = (angle - turns * QUARTER_TURN) - turns * QUARTER_TURN_REST
     z = x * x
-    s = 1.0 - z / 272.0 * (1.0 - z / 342.0)
-    s = 1.0 - z / 156.0 * (1.0 - z / 210.0 * s)
-    s = 1.0 - z / 72.0 * (1.0 - z / 110.0 * s)
-    s = x * (1.0 - z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * s)))
-    c = 1.0 - z / 240.0 * (1.0 - z / 306.0)
-    c = 1.0 - z / 132.0 * (1.0 - z / 182.0 * c)
-    c = 1.0 - z / 56.0 * (1.0 - z / 90.0 * c)
-    c = 1.0 - z / 2.0 * (1.0 - z / 12.0 * (1.0 - z / 30.0 * c))
+    s = -1.0 / 6 + z * (
+        1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (SINE_11 + z * (SINE_13 + z * SINE_15))))
+    )
+    s = x + x * z * s
+    c = 1.0 / 24 + z * (
+        -1.0 / 720 + z * (1.0 / 40320 + z * (COSINE_10 + z * (COSINE_12 + z * (COSINE_14 + z * COSINE_16))))
+    )
+    c = 1.0 - (0.5 * z - z * z * c)
     quadrant = turns - 4.0 * math.floor(turns / 4.0)
     if quadrant == 0.0:
         return s, c
