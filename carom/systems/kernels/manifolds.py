@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import MANIFOLD_POINTS, SAME_NORMAL
+from carom.systems.constants import IMMOVABLE, MANIFOLD_POINTS, SAME_NORMAL, SINGULAR
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel, woven
@@ -48,7 +48,7 @@ def prepare(g, r, points, rests, index_a, index_b, lanes, bodies):
     share, zero = load(lanes, r + of.SHARE), spread(0.0)
     for p in range(points):
         store(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.MASS, zero)
-    ktt, ktu, kuu, spin, roll = zero, zero, zero, zero, zero
+    ktt, ktu, kuu, spin, roll, movable = zero, zero, zero, zero, zero, zero
     for side in range(2):
         index = index_a if side == 0 else index_b
         masses = gather(bodies, index, g, MASS_AND_FELT)
@@ -76,14 +76,20 @@ def prepare(g, r, points, rests, index_a, index_b, lanes, bodies):
         ktt = ktt + (dot(masses, (t[0] * t[0], t[1] * t[1], t[2] * t[2])) + dot(lever_t, turn_t))
         kuu = kuu + (dot(masses, (u[0] * u[0], u[1] * u[1], u[2] * u[2])) + dot(lever_u, turn_u))
         ktu = ktu + (dot(masses, (t[0] * u[0], t[1] * u[1], t[2] * u[2])) + dot(lever_u, turn_t))
-        spin, roll = spin + dot(n, turn_n), roll + inertia[6]
+        spin, roll, movable = spin + dot(n, turn_n), roll + inertia[6], movable + masses[6]
     middle = three(lanes, r + of.MIDDLE_B)
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
-        store(lanes, q + of.MASS, inverse_or_none(rests, load(lanes, q + of.MASS)))
+        yields = load(lanes, q + of.MASS)
+        held = choose(yields - IMMOVABLE * movable, rests, zero)  # no impulse where locks all but forbid to part
+        store(lanes, q + of.MASS, inverse_or_none(held, yields))
         x, y, z = three(lanes, q + of.OFFSET_B)
         away = crossed((x - middle[0], y - middle[1], z - middle[2]), n)
         store(lanes, q + of.AWAY, root(dot(away, away)))
+    # Where one direction is locked, the other is as good as any.
+    trace = ktt + kuu
+    locked = SINGULAR * trace * trace - (ktt * kuu - ktu * ktu)
+    ktt, ktu, kuu = choose(locked, trace, ktt), choose(locked, zero, ktu), choose(locked, trace, kuu)
     inverse = inverse_or_none(rests, ktt * kuu - ktu * ktu)
     keep(lanes, r + of.GIVE, kuu * inverse, -ktu * inverse, ktt * inverse)
     store(lanes, r + of.SPIN, inverse_or_none(rests, spin))
