@@ -14,6 +14,7 @@ from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
+from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly
 from carom.systems.kernels.kinematic import keep_course
@@ -105,18 +106,23 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
     """Fly to the end of the substep or to what stops the flight; append the impacts on the way to their table."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     contact, progress, settings = world[Contact], world[Progress], world[Settings]
-    manifolds = world[Resting]
+    manifolds, bend = world[Resting], 0.5 if settings.integrator == "verlet" else 0.0
     now, reason, events, cut, count, pair, log = fly(
-        world.row_numbers(RigidBody), at, h, progress.left, 0.5 if settings.integrator == "verlet" else 0.0,
-        progress.clock, flight.center, flight.start_center, transform.rotation, flight.turned,
-        motion.linear, motion.angular, flight.time,
-        flight.acceleration, flight.angular_acceleration, flight.felt, flight.detected_center, flight.reach,
+        at, h, progress.left, bend, progress.clock,
+        flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,
+        flight.time, flight.acceleration, flight.angular_acceleration,
+        flight.felt, flight.detected_center, flight.reach,
         body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes, body.freedom,
         manifolds.count, manifolds.start, contact.body_a, contact.body_b, contact.normal, contact.depth,
         contact.offset_a, contact.offset_b, contact.share, contact.kind, contact.ball, contact.other,
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
         contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, events,
+    )  # fmt: skip
+    advance_bodies(
+        world.row_numbers(RigidBody), now, bend, flight.center, transform.rotation, flight.turned,
+        motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
+        body.inverse_mass, body.inertia, body.principal_axes, body.freedom,
     )  # fmt: skip
     world[Answered].impacts_cut += cut
     if count:

@@ -60,7 +60,9 @@ def complete_contacts(
         if c and a == row_a[c - 1] and b == row_b[c - 1] and kind[c - 1] < 0:  # another point of the same pair
             friction[c], restitution[c] = friction[c - 1], restitution[c - 1]
             rolling[c], spinning[c], kind[c] = rolling[c - 1], spinning[c - 1], -1
-            share[c] = share[c - 1] if is_parallel(c, c - 1, normal) else share_of_a(c, a, b, normal, shape, pose_rotation)
+            share[c] = (
+                share[c - 1] if is_parallel(c, c - 1, normal) else share_of_a(c, a, b, normal, shape, pose_rotation)
+            )
             continue
         share[c] = share_of_a(c, a, b, normal, shape, pose_rotation)
         friction[c] = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)

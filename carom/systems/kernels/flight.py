@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.bodies import turned_by
 from carom.systems.kernels.kernel import kernel
-from carom.systems.kernels.spatial import exponential, spun, turn
+from carom.systems.kernels.spatial import exponential, product, turn
 
 EULER, SEMI_IMPLICIT, VERLET = 0, 1, 2
 
@@ -28,8 +30,11 @@ def predict_middle(
     for i in rows:
         qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
         cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
-        ox, oy, oz = turn(qx, qy, qz, qw, cx, cy, cz)
-        offset = (ox, oy, oz)
+        off_origin = cx != 0.0 or cy != 0.0 or cz != 0.0
+        offset = (0.0, 0.0, 0.0)
+        if off_origin:
+            ox, oy, oz = turn(qx, qy, qz, qw, cx, cy, cz)
+            offset = (ox, oy, oz)
         for k in range(3):
             if freedom[i, k] == 0.0:
                 linear[i, k] = 0.0
@@ -44,10 +49,16 @@ def predict_middle(
             start_rotation[i, k] = rotation[i, k]
         if half == 0.0:
             continue
-        nx, ny, nz, nw = spun(qx, qy, qz, qw, angular[i, 0], angular[i, 1], angular[i, 2], half)
+        # Straight on and back to length 1, which is a turn up to the third order.
+        nx, ny, nz, nw = product(
+            0.5 * half * angular[i, 0], 0.5 * half * angular[i, 1], 0.5 * half * angular[i, 2], 1.0, qx, qy, qz, qw
+        )
+        inverse = 1.0 / sqrt(nx * nx + ny * ny + nz * nz + nw * nw)
+        nx, ny, nz, nw = nx * inverse, ny * inverse, nz * inverse, nw * inverse
         rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3] = nx, ny, nz, nw
-        ox, oy, oz = turn(nx, ny, nz, nw, cx, cy, cz)
-        offset = (ox, oy, oz)
+        if off_origin:
+            ox, oy, oz = turn(nx, ny, nz, nw, cx, cy, cz)
+            offset = (ox, oy, oz)
         for k in range(3):
             position[i, k] = center[i, k] + half * linear[i, k] - offset[k]
             linear[i, k] += half * last_acceleration[i, k]
@@ -62,13 +73,11 @@ def accelerate(
 ):  # fmt: skip
     """Turn forces into accelerations at the middle of the substep and bring the bodies back to its start."""
     for i in rows:
-        ax, ay, az = turned_by(
-            i,
-            torque[i, 0] + external_torque[i, 0],
-            torque[i, 1] + external_torque[i, 1],
-            torque[i, 2] + external_torque[i, 2],
-            inverse_inertia, principal_axes, freedom, rotation,
-        )  # fmt: skip
+        x, y, z = torque[i, 0], torque[i, 1], torque[i, 2]
+        x, y, z = x + external_torque[i, 0], y + external_torque[i, 1], z + external_torque[i, 2]
+        ax, ay, az = 0.0, 0.0, 0.0
+        if x != 0.0 or y != 0.0 or z != 0.0:
+            ax, ay, az = turned_by(i, x, y, z, inverse_inertia, principal_axes, freedom, rotation)
         angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2] = ax, ay, az
         for k in range(3):
             felt[i, k] = (force[i, k] + external_force[i, k]) * inverse_mass[i] * freedom[i, k]

@@ -25,7 +25,7 @@ TIME, SPEED, IMPULSE, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 6, 9, 12
     "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic",
 )  # fmt: skip
 def fly(
-    rows, start, h, left, bend, clock,
+    start, h, left, bend, clock,
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     felt, detected_center, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
@@ -189,12 +189,6 @@ def fly(
                 reason = OUT_OF_REACH
         if reason == OUT_OF_REACH:
             break
-    for i in rows:
-        if time[i] < now:
-            advance_body(
-                i, now, bend, center, rotation, turned, linear, angular, time, acceleration,
-                angular_acceleration, inverse_mass, inertia, principal_axes, freedom,
-            )  # fmt: skip
     return now, reason, events, cut, log_count, log_pair, log
 
 

@@ -25,6 +25,7 @@ if numba.config.DISABLE_JIT:
         some,
         spread,
         store,
+        whole,
     )
 else:
     from carom.systems.kernels.lanes_compiled import (
@@ -39,6 +40,7 @@ else:
         some,
         spread,
         store,
+        whole,
     )
 
 __all__ = [
@@ -55,6 +57,7 @@ __all__ = [
     "some",
     "spread",
     "store",
+    "whole",
 ]
 
 

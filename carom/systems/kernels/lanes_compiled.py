@@ -184,15 +184,26 @@ def choose(typing, test, a, b):
     return LANE(LANE, LANE, LANE), lower
 
 
-@intrinsic
-def root(typing, a):
-    """Return the square root."""
+def _by_llvm(name):
+    """Return how to lower a function of one lane that LLVM has."""
 
     def lower(context, builder, sig, values):
         kind = ir.FunctionType(VECTOR, [VECTOR])
-        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.sqrt.v{WIDTH}f64"), values)
+        return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDTH}f64"), values)
 
-    return LANE(LANE), lower
+    return lower
+
+
+@intrinsic
+def root(typing, a):
+    """Return the square root."""
+    return LANE(LANE), _by_llvm("sqrt")
+
+
+@intrinsic
+def whole(typing, a):
+    """Return the largest whole number up to a."""
+    return LANE(LANE), _by_llvm("floor")
 
 
 @intrinsic

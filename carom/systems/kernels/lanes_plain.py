@@ -48,6 +48,11 @@ def root(a):
     return np.sqrt(a)
 
 
+def whole(a):
+    """Return the largest whole number up to a."""
+    return np.floor(a)
+
+
 def some(test):
     """Tell whether the test is positive in some lane."""
     return bool((test > 0.0).any())

@@ -22,7 +22,9 @@ def finish_drift(
     for i in rows:
         qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
         cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
-        x, y, z = turn(qx, qy, qz, qw, cx, cy, cz)
+        x, y, z = 0.0, 0.0, 0.0
+        if cx != 0.0 or cy != 0.0 or cz != 0.0:
+            x, y, z = turn(qx, qy, qz, qw, cx, cy, cz)
         position[i, 0], position[i, 1], position[i, 2] = center[i, 0] - x, center[i, 1] - y, center[i, 2] - z
         if freedom[i, 0] + freedom[i, 1] + freedom[i, 2] < 3.0:  # not by way of the centre, which rounds
             qx, qy, qz, qw = start_rotation[i, 0], start_rotation[i, 1], start_rotation[i, 2], start_rotation[i, 3]

@@ -174,8 +174,8 @@ def find_resting(g, r, points, h, index_a, index_b, lanes, bodies):
         closing = dot(n, (a[0] - b[0], a[1] - b[1], a[2] - b[2])) + (dot(lever_a, a[4:7]) - dot(lever_b, b[4:7]))
         gap = -load(lanes, q + of.DEPTH)
         after = gap - closing * h - pressing * (0.5 * h * h)
-        # What was together before or is inside one another, and does not bounce, rests however fast it closes.
-        bounces = choose(larger(together, -SLOP - gap), restitution, one)
+        # What forces kept together before or is inside one another, and does not bounce, rests however fast it closes.
+        bounces = choose(larger(choose(all_forces, together, zero), -SLOP - gap), restitution, one)
         striking = choose(after, striking, choose(bounces, larger(striking, closing - limit), striking))
         touching = smaller(TOUCH - gap, -after)
         near = larger(near, choose(is_ball, touching, choose(gap - SLOP, zero, spread(SLOP)) - after))

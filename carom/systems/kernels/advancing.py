@@ -1,0 +1,173 @@
+"""Free motion in lanes: all bodies along their arcs at once."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+import numpy as np
+
+from carom.ecs.spatial.trigonometry import (
+    COSINE_10,
+    COSINE_12,
+    COSINE_14,
+    COSINE_16,
+    QUARTER_TURN,
+    QUARTER_TURN_REST,
+    SINE_11,
+    SINE_13,
+    SINE_15,
+)
+from carom.systems.constants import SMALL_ANGLE
+from carom.systems.kernels.bodies import advance_body
+from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lanes import WIDTH, address, choose, load, root, some, spread, store, whole
+from carom.systems.kernels.spatial import product, turn
+
+# Rows of the scratch, a lane each body: the time to go, and what moves in it; then what stays.
+TIME, CENTER, LINEAR, ANGULAR, TURNED, ROTATION = 0, 1, 4, 7, 10, 13
+ACCELERATION, ANGULAR_ACCELERATION, PRINCIPAL, INERTIA, ROWS = 17, 20, 23, 27, 30
+
+
+@kernel("center", "rotation", "turned", "linear", "angular", "time")
+def advance_bodies(
+    rows, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
+    inverse_mass, inertia, principal_axes, freedom,
+):  # fmt: skip
+    """Bring all bodies that are not there yet along their arcs to ``now``.
+
+    Those that are kinematic or have locked rotations go one by one.
+    """
+    scratch, row = np.zeros((ROWS, WIDTH)), np.empty(WIDTH, np.int64)
+    lanes = address(scratch)
+    filled = 0
+    for number, i in enumerate(rows):
+        if time[i] < now:
+            if inverse_mass[i] == 0.0 or freedom[i, 3] + freedom[i, 4] + freedom[i, 5] < 3.0:
+                advance_body(
+                    i, now, bend, center, rotation, turned, linear, angular, time, acceleration,
+                    angular_acceleration, inverse_mass, inertia, principal_axes, freedom,
+                )  # fmt: skip
+            else:
+                scratch[TIME, filled] = now - time[i]
+                time[i] = now
+                for k in range(3):
+                    scratch[CENTER + k, filled], scratch[LINEAR + k, filled] = center[i, k], linear[i, k]
+                    scratch[ANGULAR + k, filled], scratch[TURNED + k, filled] = angular[i, k], turned[i, k]
+                    scratch[ACCELERATION + k, filled] = acceleration[i, k]
+                    scratch[ANGULAR_ACCELERATION + k, filled] = angular_acceleration[i, k]
+                    scratch[INERTIA + k, filled] = inertia[i, k]
+                for k in range(4):
+                    scratch[ROTATION + k, filled] = rotation[i, k]
+                    scratch[PRINCIPAL + k, filled] = principal_axes[i, k]
+                row[filled] = i
+                filled += 1
+        if filled == WIDTH or (filled and number == len(rows) - 1):
+            advance(lanes, bend)
+            for lane in range(filled):
+                j = row[lane]
+                for k in range(3):
+                    center[j, k], linear[j, k] = scratch[CENTER + k, lane], scratch[LINEAR + k, lane]
+                    angular[j, k], turned[j, k] = scratch[ANGULAR + k, lane], scratch[TURNED + k, lane]
+                for k in range(4):
+                    rotation[j, k] = scratch[ROTATION + k, lane]
+            filled = 0
+
+
+@woven
+def advance(lanes, bend):
+    """Advance the bodies in the lanes: half the turning kick, free rotation, the other half."""
+    t = load(lanes, TIME)
+    for k in range(3):
+        v, a = load(lanes, LINEAR + k), load(lanes, ACCELERATION + k)
+        w, b = load(lanes, ANGULAR + k), load(lanes, ANGULAR_ACCELERATION + k)
+        store(lanes, CENTER + k, load(lanes, CENTER + k) + (v * t + a * bend * t * t))
+        store(lanes, LINEAR + k, v + a * t)
+        w = w + b * bend * t
+        store(lanes, ANGULAR + k, w)
+        store(lanes, TURNED + k, load(lanes, TURNED + k) + w * t)
+    wx, wy, wz = load(lanes, ANGULAR), load(lanes, ANGULAR + 1), load(lanes, ANGULAR + 2)
+    ix, iy, iz = load(lanes, INERTIA), load(lanes, INERTIA + 1), load(lanes, INERTIA + 2)
+    qx, qy, qz, qw = (
+        load(lanes, ROTATION), load(lanes, ROTATION + 1), load(lanes, ROTATION + 2), load(lanes, ROTATION + 3)
+    )  # fmt: skip
+    uneven = (ix - iy) * (ix - iy) + (iy - iz) * (iy - iz)
+    uneven = choose(ix * iy * iz, uneven, spread(0.0))
+    px, py, pz, pw = spun_in_lanes(qx, qy, qz, qw, wx, wy, wz, t)
+    if some(uneven):
+        ax, ay, az, aw = (
+            load(lanes, PRINCIPAL), load(lanes, PRINCIPAL + 1), load(lanes, PRINCIPAL + 2), load(lanes, PRINCIPAL + 3)
+        )  # fmt: skip
+        qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
+        one = spread(1.0)
+        ix, iy, iz = choose(uneven, ix, one), choose(uneven, iy, one), choose(uneven, iz, one)
+        qx, qy, qz, qw, vx, vy, vz = turned_in_lanes(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t)
+        qx, qy, qz, qw = product(qx, qy, qz, qw, -ax, -ay, -az, aw)
+        px, py, pz, pw = choose(uneven, qx, px), choose(uneven, qy, py), choose(uneven, qz, pz), choose(uneven, qw, pw)
+        wx, wy, wz = choose(uneven, vx, wx), choose(uneven, vy, wy), choose(uneven, vz, wz)
+    for k, q in enumerate((px, py, pz, pw)):
+        store(lanes, ROTATION + k, q)
+    for k, w in enumerate((wx, wy, wz)):
+        store(lanes, ANGULAR + k, w + load(lanes, ANGULAR_ACCELERATION + k) * (1.0 - bend) * t)
+
+
+@woven
+def spun_in_lanes(qx, qy, qz, qw, wx, wy, wz, t):
+    """Return what `spun` does."""
+    squared = (wx * wx + wy * wy + wz * wz) * t * t
+    small = SMALL_ANGLE * SMALL_ANGLE - squared
+    angle = root(choose(small, spread(1.0), squared))
+    s, c = sine_cosine_in_lanes(angle * 0.5)
+    scale = choose(small, 0.5 * t, s / angle * t)
+    x, y, z, w = product(wx * scale, wy * scale, wz * scale, choose(small, spread(1.0), c), qx, qy, qz, qw)
+    inverse = 1.0 / root(x * x + y * y + z * z + w * w)
+    return x * inverse, y * inverse, z * inverse, w * inverse
+
+
+@woven
+def turned_in_lanes(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t):
+    """Return what `freely_turned` does for bodies whose three moments are not one and none of them 0."""
+    lx, ly, lz = turn(-qx, -qy, -qz, qw, wx, wy, wz)
+    mx, my, mz = ix * lx, iy * ly, iz * lz
+    gx, gy, gz = turn(qx, qy, qz, qw, mx, my, mz)  # angular momentum in the world, which stays
+    jx, jy, jz = 0.25 / ix, 0.25 / iy, 0.5 / iz
+    for second in range(2):
+        if not second:
+            qx, qy, qz, qw, my, mz = turned_about(qx, qy, qz, qw, my, mz, jx * mx * t)
+        qy, qz, qx, qw, mz, mx = turned_about(qy, qz, qx, qw, mz, mx, jy * my * t)
+        if not second:
+            qz, qx, qy, qw, mx, my = turned_about(qz, qx, qy, qw, mx, my, jz * mz * t)
+        else:
+            qx, qy, qz, qw, my, mz = turned_about(qx, qy, qz, qw, my, mz, jx * mx * t)
+    inverse = 1.0 / root(qx * qx + qy * qy + qz * qz + qw * qw)
+    qx, qy, qz, qw = qx * inverse, qy * inverse, qz * inverse, qw * inverse
+    mx, my, mz = turn(-qx, -qy, -qz, qw, gx, gy, gz)
+    wx, wy, wz = turn(qx, qy, qz, qw, mx / ix, my / iy, mz / iz)
+    return qx, qy, qz, qw, wx, wy, wz
+
+
+@woven
+def turned_about(qx, qy, qz, qw, my, mz, half):
+    """Return q, and angular momentum as the body sees it, after a turn about its first axis by twice ``half``."""
+    s, c = sine_cosine_in_lanes(half)
+    sine, cosine = 2.0 * s * c, 1.0 - 2.0 * s * s
+    return (
+        qw * s + qx * c, qy * c + qz * s, qz * c - qy * s, qw * c - qx * s,
+        my * cosine + mz * sine, mz * cosine - my * sine,
+    )  # fmt: skip
+
+
+@woven
+def sine_cosine_in_lanes(angle):
+    """Return what `sine_cosine` does."""
+    turns = whole(angle / QUARTER_TURN + 0.5)
+    x = (angle - turns * QUARTER_TURN) - turns * QUARTER_TURN_REST
+    z = x * x
+    s = SINE_11 + z * (SINE_13 + z * SINE_15)
+    s = -1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 + z * s)))
+    s = x + x * z * s
+    c = COSINE_10 + z * (COSINE_12 + z * (COSINE_14 + z * COSINE_16))
+    c = 1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320 + z * c))
+    c = 1.0 - (0.5 * z - z * z * c)
+    quadrant = turns - 4.0 * whole(turns / 4.0)
+    odd, second = quadrant - 2.0 * whole(quadrant / 2.0), quadrant - 1.5
+    sine, cosine = choose(odd, c, s), choose(odd, -s, c)
+    return choose(second, -sine, sine), choose(second, -cosine, cosine)
