@@ -9,14 +9,14 @@ from carom.ecs.components.material import Combine
 from carom.systems.constants import LEANING, SAME_POINT
 from carom.systems.kernels.balls import BOX, HALF_SPACE
 from carom.systems.kernels.frames import turned_back
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
 from carom.systems.kernels.recycling import first_of_pair, smaller_reach, turned
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
 
 
-@inlined
+@woven
 def combined(x, y, rule_x, rule_y, default):
     """Return one value of two materials by the stronger of their rules, or by the quantity's default."""
     rule = max(rule_x, rule_y)
@@ -100,13 +100,13 @@ def complete_contacts(
             other_rotation[c, k] = pose_rotation[o, k]
 
 
-@inlined
+@woven
 def is_parallel(c, o, normal):
     """Tell whether two contacts have one normal."""
     return normal[c, 0] == normal[o, 0] and normal[c, 1] == normal[o, 1] and normal[c, 2] == normal[o, 2]
 
 
-@inlined
+@woven
 def share_of_a(c, a, b, normal, shape, pose_rotation):
     """Return how much the point of contact c goes with b rather than with a, over whose face it glides."""
     share = 0.5
@@ -117,7 +117,7 @@ def share_of_a(c, a, b, normal, shape, pose_rotation):
     return share
 
 
-@inlined
+@woven
 def is_flat(i, c, normal, shape, pose_rotation):
     """Tell whether a collider turns a face to contact c, over which its point glides."""
     if shape[i] == PLANE_SHAPE:
@@ -129,7 +129,7 @@ def is_flat(i, c, normal, shape, pose_rotation):
     return x + y + z - max(x, y, z) <= LEANING * LEANING
 
 
-@inlined
+@woven
 def surface_of_pair(c, a, b, normal, surface_velocity, pose_rotation):
     """Return the velocity of b's surface against a's, beyond that of their bodies, along contact c."""
     if not (runs(a, surface_velocity) or runs(b, surface_velocity)):
@@ -141,13 +141,13 @@ def surface_of_pair(c, a, b, normal, surface_velocity, pose_rotation):
     return x - across * normal[c, 0], y - across * normal[c, 1], z - across * normal[c, 2]
 
 
-@inlined
+@woven
 def runs(i, surface_velocity):
     """Tell whether a collider's surface runs like a belt."""
     return surface_velocity[i, 0] != 0.0 or surface_velocity[i, 1] != 0.0 or surface_velocity[i, 2] != 0.0
 
 
-@inlined
+@woven
 def is_centred(collider, body, pose_position, center):
     """Tell whether a collider's shape lies about its body's centre of mass."""
     return (
@@ -168,7 +168,7 @@ def is_aligned(collider, body, pose_rotation, rotation):
     )
 
 
-@inlined
+@woven
 def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass):
     """Tell whether a collider is a ball or point about the centre of mass of a body that impulses can move."""
     body = body_row[collider]
