@@ -18,45 +18,38 @@ from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly
 from carom.systems.kernels.kinematic import keep_course
+from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.packing import pack_bodies
 from carom.systems.kernels.settling import finish_drift
-from carom.systems.kernels.sorting import sort_groups
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
+from carom.systems.threads import Threads, share_out
 
 
-@system(reads=(RigidBody, Transform, Motion, Settings), writes=(Contact, Flight, Progress, Resting))
+@system(reads=(RigidBody, Transform, Motion, Settings, Threads), writes=(Contact, Flight, Progress, Resting))
 def sort_out_contacts(world: World, dt: float) -> None:
     """Say which contacts rest in this substep; their bodies count as touching."""
     progress, resting = world[Progress], world[Resting]
     progress.resting = progress.balls_resting = 0
     if not resting.groups:
         return
-    contact, flight, motion, body = world[Contact], world[Flight], world[Motion], world[RigidBody]
-    rotation, settings = world[Transform].rotation, world[Settings]
+    flight, motion, body = world[Flight], world[Motion], world[RigidBody]
     pack_bodies(
-        world.row_numbers(RigidBody), motion.linear, motion.angular, flight.felt,
-        body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom, rotation, resting.bodies,
+        world.row_numbers(RigidBody), motion.linear, motion.angular, flight.felt, body.inverse_mass,
+        body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation, resting.bodies,
     )  # fmt: skip
-    progress.resting, progress.balls_resting = sort_groups(
-        resting.groups, dt, settings.integrator == "verlet", float(settings.response == "full"),
-        resting.ends, resting.index_a, resting.index_b, resting.first, resting.size, resting.points, resting.row,
-        resting.fresh, resting.asks, resting.lanes, resting.bodies, flight.center, rotation,
-        contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
-        contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
-        contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.touching,
-    )  # fmt: skip
+    progress.resting, progress.balls_resting = resting.sort(world, dt)
 
 
-@system(reads=(RigidBody, Settings, Progress), writes=(Motion, Contact, Flight, Resting))
+@system(reads=(RigidBody, Settings, Progress, Threads), writes=(Motion, Contact, Flight, Resting))
 def hold(world: World, dt: float) -> None:
     """Solve the resting contacts: they do not close, stick or slide within the cone, and resist rolling."""
     progress, motion = world[Progress], world[Motion]
     if not progress.resting:
         return
-    world[Resting].press(world.row_numbers(RigidBody), motion, dt)
+    world[Resting].press(world, dt)
     if progress.balls_resting and world[Settings].integrator == "verlet":
         contact, flight = world[Contact], world[Flight]
         bend_arcs(
@@ -66,11 +59,11 @@ def hold(world: World, dt: float) -> None:
         )  # fmt: skip
 
 
-@system(reads=(RigidBody, Progress), writes=(Motion, Resting))
+@system(reads=(RigidBody, Progress, Settings, Threads), writes=(Motion, Resting))
 def relax(world: World, dt: float) -> None:
     """Take the speed by which overlap left out of the velocities again."""
     if world[Progress].resting:
-        world[Resting].relax(world.row_numbers(RigidBody), world[Motion], dt)
+        world[Resting].relax(world, dt)
 
 
 @system(writes=(Contact, Resting))
@@ -80,7 +73,7 @@ def hand_impulses_over(world: World, dt: float) -> None:
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads),
     writes=(
         Transform, Motion, Flight, Contact, Impact, ColliderPose, Enter, Inside, Answered, BroadPhase, FclObjects,
         PackedHulls, PackedMeshes, Commands, Resting,
@@ -119,10 +112,14 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
         contact.surface, contact.friction, contact.restitution, contact.resting,
         contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, events,
     )  # fmt: skip
-    advance_bodies(
-        world.row_numbers(RigidBody), now, bend, flight.center, transform.rotation, flight.turned,
-        motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
-        body.inverse_mass, body.inertia, body.principal_axes, body.freedom,
+    rows = world.row_numbers(RigidBody)
+    share_out(
+        world, -(-len(rows) // WIDTH),
+        lambda begin, end: advance_bodies(
+            rows[WIDTH * begin : WIDTH * end], now, bend, flight.center, transform.rotation, flight.turned,
+            motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
+            body.inverse_mass, body.inertia, body.principal_axes, body.freedom,
+        ),
     )  # fmt: skip
     world[Answered].impacts_cut += cut
     if count:
@@ -136,7 +133,7 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
     return now, reason, events
 
 
-@system(reads=(RigidBody,), writes=(Transform, Motion, Flight, Contact, Resting))
+@system(reads=(RigidBody, Settings, Threads), writes=(Transform, Motion, Flight, Contact, Resting))
 def settle(world: World, dt: float) -> None:
     """End the substep: drag's second half, origins placed, and how deep contacts have come to be."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
@@ -145,7 +142,7 @@ def settle(world: World, dt: float) -> None:
         flight.start_position, flight.start_rotation, motion.linear, motion.angular, flight.center, transform.rotation,
     )  # fmt: skip
     _finish(world, ended=True)
-    world[Resting].sink(world.row_numbers(RigidBody), world[Flight], world[Contact])
+    world[Resting].sink(world)
 
 
 def _finish(world: World, *, ended: bool) -> None:

@@ -3,21 +3,26 @@
 from __future__ import annotations
 
 from math import pi
+from typing import Any
 
 import numpy as np
 
-from carom.ecs import Motion
-from carom.ecs.column import Floats, Integers
+from carom.ecs import Motion, RigidBody, Transform, World
+from carom.ecs.column import Floats
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, RELAX_SWEEPS, RIGID_RATE
 from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
+from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
 from carom.systems.kernels.packing import BODY_WIDTH, pack_velocities, pack_ways, unpack_velocities
 from carom.systems.kernels.resting import press_groups, start_warm, sum_impulses
 from carom.systems.kernels.settling import sink_contacts
+from carom.systems.kernels.sorting import sort_groups
+from carom.systems.settings import Settings
+from carom.systems.threads import Threads, parts_for, share_out
 
 Yielding = tuple[float, float, float]
 
@@ -26,7 +31,7 @@ class Resting(Resource):
     """Runs of contacts on one plane, in groups that are solved side by side, and the bodies they are of."""
 
     def __init__(self) -> None:
-        self.count = self.groups = 0
+        self.count = self.groups = self.levels = 0
         self.start = np.zeros(1, np.int64)
         self.bodies, self.lanes = aligned(1, BODY_WIDTH), aligned(0, WIDTH)
         self._reserve(0)
@@ -35,11 +40,8 @@ class Resting(Resource):
         self.group_of, self.lane_of = np.empty(count, np.int64), np.empty(count, np.int64)
         self.index_a, self.index_b = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
-        self.points, self.row, self.asks = (
-            np.empty(count, np.int64),
-            np.empty(count, np.int64),
-            np.zeros(count, np.int64),
-        )
+        self.points, self.row = np.empty(count, np.int64), np.empty(count, np.int64)
+        self.asks, self.level_ends = np.zeros(count, np.int64), np.empty(count, np.int64)
         self.fresh, self.ends = np.ones(count, np.bool_), np.zeros(2, np.int64)
 
     def group(self, contact: Contact, inverse_mass: Floats) -> None:
@@ -52,10 +54,10 @@ class Resting(Resource):
             self.bodies = aligned(nobody + 1, BODY_WIDTH)
         if len(self.group_of) < self.count:
             self._reserve(2 * self.count)
-        self.groups, rows = group_manifolds(
+        self.groups, rows, self.levels = group_manifolds(
             self.count, self.start, contact.body_a, contact.body_b, inverse_mass, nobody,
             self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
-            self.points, self.row, self.ends,
+            self.points, self.row, self.ends, self.level_ends,
         )  # fmt: skip
         self.asks[:], self.fresh[:] = 0, True
         if len(self.lanes) < rows:
@@ -67,38 +69,72 @@ class Resting(Resource):
             contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
         )  # fmt: skip
 
-    def press(self, rows: Integers, motion: Motion, h: float) -> None:
-        """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
-        soft, rigid = yielding(h)
-        pack_velocities(rows, motion.linear, motion.angular, self.bodies)
-        start_warm(
-            self.groups, self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies
-        )  # fmt: skip
-        self._solve(1, h, soft, rigid)
-        unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
+    def sort(self, world: World, h: float) -> tuple[int, int]:
+        """Find which manifolds rest; return how many do, and how many of those are of balls on exact arcs."""
+        contact, flight, settings = world[Contact], world[Flight], world[Settings]
 
-    def sink(self, rows: Integers, flight: Flight, contact: Contact) -> None:
-        """Find how deep contacts have come to be."""
-        if self.groups:
-            pack_ways(rows, flight.start_center, flight.center, flight.turned, self.bodies)
-            sink_contacts(
-                self.groups, self.index_a, self.index_b, self.first, self.size, self.points, self.row,
-                contact.kind, self.bodies, self.lanes, contact.depth,
+        def sort(begin: int, end: int) -> tuple[int, int]:
+            found: tuple[int, int] = sort_groups(
+                begin, end, h, settings.integrator == "verlet", float(settings.response == "full"), self.ends,
+                self.index_a, self.index_b, self.first, self.size, self.points, self.row,
+                self.fresh, self.asks, self.lanes, self.bodies, flight.center, world[Transform].rotation,
+                contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
+                contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
+                contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.touching,
             )  # fmt: skip
+            return found
 
-    def relax(self, rows: Integers, motion: Motion, h: float) -> None:
-        """Take the speed by which overlap left out of the velocities, and sum up the impulses."""
-        hard = (0.0, 1.0, 0.0)
+        numbers, balls = zip(*share_out(world, self.groups, sort), strict=True)
+        return sum(numbers), sum(balls)
+
+    def press(self, world: World, h: float) -> None:
+        """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
+        rows, motion = world.row_numbers(RigidBody), world[Motion]
         pack_velocities(rows, motion.linear, motion.angular, self.bodies)
-        self._solve(RELAX_SWEEPS, h, hard, hard)
-        unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
-        sum_impulses(self.groups, self.points, self.row, self.lanes)
-
-    def _solve(self, sweeps: int, h: float, soft: Yielding, rigid: Yielding) -> None:
-        press_groups(
-            sweeps, h, self.ends, soft, rigid,
+        self._together(
+            world, start_warm, self.levels, self.level_ends,
             self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
         )  # fmt: skip
+        self._solve(world, 1, h, *yielding(h))
+        unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
+
+    def sink(self, world: World) -> None:
+        """Find how deep contacts have come to be."""
+        if not self.groups:
+            return
+        flight, contact = world[Flight], world[Contact]
+        pack_ways(world.row_numbers(RigidBody), flight.start_center, flight.center, flight.turned, self.bodies)
+        share_out(
+            world, self.groups,
+            lambda begin, end: sink_contacts(
+                begin, end, self.index_a, self.index_b, self.first, self.size, self.points, self.row,
+                contact.kind, self.bodies, self.lanes, contact.depth,
+            ),
+        )  # fmt: skip
+
+    def relax(self, world: World, h: float) -> None:
+        """Take the speed by which overlap left out of the velocities, and sum up the impulses."""
+        rows, motion, hard = world.row_numbers(RigidBody), world[Motion], (0.0, 1.0, 0.0)
+        pack_velocities(rows, motion.linear, motion.angular, self.bodies)
+        self._solve(world, RELAX_SWEEPS, h, hard, hard)
+        unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
+        share_out(
+            world, self.groups, lambda begin, end: sum_impulses(begin, end, self.points, self.row, self.lanes)
+        )  # fmt: skip
+
+    def _solve(self, world: World, sweeps: int, h: float, soft: Yielding, rigid: Yielding) -> None:
+        self._together(
+            world, press_groups, sweeps, h, self.ends, self.levels, self.level_ends, soft, rigid,
+            self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
+        )  # fmt: skip
+
+    def _together(self, world: World, kernel: Kernel, *arguments: Any) -> None:
+        """Run a kernel that goes level by level in all threads at once."""
+        parts, gate = parts_for(world, self.groups), np.zeros(1, np.int64)
+        if parts == 1:
+            kernel(0, 1, gate, *arguments)
+        else:
+            world[Threads].run(parts, lambda part: kernel(part, parts, gate, *arguments))
 
     def hand_over(self, contact: Contact) -> None:
         """Write the impulses of the resting stage into the contact table, those of the step added to what is there."""

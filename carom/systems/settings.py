@@ -10,6 +10,7 @@ import numpy as np
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
 
+MOST_THREADS = 64
 Integrator = Literal["euler", "semi_implicit", "verlet"]
 Collision = Literal["auto", "fcl"]
 Response = Literal["full", "reflect"]
@@ -27,6 +28,7 @@ class Settings(Resource):
     collision: Collision = "auto"  # fcl: no kernel stands in for FCL, but on meshes
     response: Response = "full"  # reflect: impacts only, no resting contacts
     seed: int = 0
+    threads: int = 1  # that share the work of a step; the bits do not depend on it
 
     def __post_init__(self) -> None:
         """Refuse what cannot be stepped; raise DeclarationError naming every fault."""
@@ -35,6 +37,8 @@ class Settings(Resource):
             faults.append(f"dt must be finite and above 0 s, received {self.dt:g}")
         if self.substeps < 1:
             faults.append(f"substeps must be at least 1, received {self.substeps}")
+        if not 1 <= self.threads <= MOST_THREADS:
+            faults.append(f"threads must be from 1 to {MOST_THREADS}, received {self.threads}")
         if not np.isfinite(self.gravity).all():
             faults.append(f"gravity must be finite, received {list(self.gravity)}")
         if self.dimensions not in (2, 3):

@@ -45,6 +45,7 @@ from carom.systems.resting import Resting
 from carom.systems.settings import Random, Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.step import STEP
+from carom.systems.threads import Threads
 
 CHECK_VARIABLE = "CAROM_CHECK"
 
@@ -66,7 +67,7 @@ class Simulation:
         self.clock = Clock()
         self._earlier = EarlierPoses()
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
-        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes(), Resting())
+        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes(), Resting(), Threads())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 

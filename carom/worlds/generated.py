@@ -17,7 +17,7 @@ from carom.systems.assembly import COMBINE_QUANTITIES
 from carom.systems.extensions import origin
 from carom.systems.forces import LAWS
 from carom.systems.own_components import components_of_files, is_own
-from carom.systems.settings import Settings
+from carom.systems.settings import MOST_THREADS, Settings
 from carom.systems.shapes import SHAPES
 from carom.worlds.color import ColorWord
 from carom.worlds.errors import WordError
@@ -29,8 +29,12 @@ from carom.worlds.values import Flag, In, Text, Whole, Words, either, word_of
 SPECIAL = {"rotation": RotationWord, "color": ColorWord}
 SETTING_UNITS = {"dt": "s", "gravity": "m/s2"}
 SETTING_BOUNDS: dict[str, dict[str, float]] = {"dt": {"above": 0.0}}
-SETTING_WHOLE: dict[str, tuple[int, int | None]] = {"substeps": (1, None), "dimensions": (2, 3)}
-STEP_WORDS = ("dt", "substeps", "integrator")
+SETTING_WHOLE: dict[str, tuple[int, int | None]] = {
+    "substeps": (1, None),
+    "dimensions": (2, 3),
+    "threads": (1, MOST_THREADS),
+}
+STEP_WORDS = ("dt", "substeps", "integrator", "threads")
 COLUMN_BOUNDS: dict[str, dict[str, float]] = {
     "mass": {"above": 0.0},
     "inertia": {"least": 0.0},

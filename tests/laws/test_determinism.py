@@ -9,6 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from carom.ecs import state_hash
+from carom.systems.resting import Resting
+from carom.systems.simulation import Simulation
+from carom.systems.threads import FEWEST
+
 FRAMES = 240
 WORLDS = ("billiards", "stack", "cannon", "heap")  # heap: boxes, balls and capsules stirred by a paddle
 HASHES = """
@@ -122,3 +127,27 @@ def test_kernels_do_the_same_without_the_jit(here: list[str]) -> None:
     frames = 3
     plain = hashes(frames, *WORLDS, "shapes", NUMBA_DISABLE_JIT="1")
     assert plain == [line for line in here if int(line.split()[1]) <= frames] + hashes(frames, "shapes")
+
+
+def crowd(threads: int) -> list[str]:
+    """Return the hashes of 20 steps of 343 cubes and balls that fall on each other, shared by so many threads."""
+    simulation = Simulation(threads=threads)
+    simulation.add(collider={"plane": {}})
+    for k in range(343):
+        collider = {"box": {"size": (1.0, 1.0, 1.0)}} if k % 5 else {"sphere": {"radius": 0.5}}
+        place = (1.02 * (k % 7) + 0.03 * (k // 49), 0.52 + 1.03 * (k // 49), 1.02 * (k // 7 % 7) - 0.02 * (k // 49))
+        simulation.add(collider=collider, body={}, transform={"position": place})
+    found = []
+    for _ in range(20):
+        simulation.step()
+        found.append(state_hash(simulation.world))
+    assert simulation.world[Resting].groups >= FEWEST
+    return found
+
+
+def test_threads_share_the_work_and_not_a_bit_changes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One, two and four threads lead a crowd the same way, whatever this machine has."""
+    monkeypatch.setattr("carom.systems.threads.processors", lambda: 4)
+    alone = crowd(1)
+    assert crowd(2) == alone
+    assert crowd(4) == alone

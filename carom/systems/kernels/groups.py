@@ -32,10 +32,10 @@ ABSENT = -1e300  # m, the depth of a point that a lane does not have
 BUCKETS = 256  # of manifolds that are shuffled
 
 
-@kernel("group_of", "lane_of", "index_a", "index_b", "first", "size", "points", "row", "ends")
+@kernel("group_of", "lane_of", "index_a", "index_b", "first", "size", "points", "row", "ends", "level_ends")
 def group_manifolds(
     count, start, body_a, body_b, inverse_mass, nobody,
-    group_of, lane_of, index_a, index_b, first, size, points, row, ends,
+    group_of, lane_of, index_a, index_b, first, size, points, row, ends, level_ends,
 ):  # fmt: skip
     """Put manifolds into groups that, one after the other, do what the manifolds would in a shuffled order.
 
@@ -44,8 +44,9 @@ def group_manifolds(
     an order that runs through a pile from one end to the other have hundreds of levels. Those with something that
     cannot move come last.
 
-    Return (groups, rows of all). Of a level first come those with the most points. ``row`` is where the rows of a group
-    begin, ``ends`` (2,) where the groups of either kind end; ``nobody`` is the index of what has no body.
+    Return (groups, rows of all, levels). Of a level first come those with the most points. ``row`` is where the rows of
+    a group begin, ``ends`` (2,) where the groups of either kind end, ``level_ends`` where those of each level do;
+    ``nobody`` is the index of what has no body.
     """
     shuffled = shuffle(count, start, body_a, body_b)
     reached = np.zeros((2, len(inverse_mass)), np.int64)
@@ -75,11 +76,15 @@ def group_manifolds(
         k = (stands[m] * levels + level[m] + 1) * MANIFOLD_POINTS - (start[m + 1] - start[m])
         order[begin[k]] = m
         begin[k] += 1
-    group, lane, rows, last = -1, WIDTH, 0, -1
+    group, lane, rows, last, begun = -1, WIDTH, 0, -1, 0
     ends[0] = 0
     for m in order:
         if lane == WIDTH or stands[m] * levels + level[m] != last:
+            if stands[m] * levels + level[m] != last:
+                level_ends[begun] = level_ends[begun - 1] if begun else 0
+                begun += 1
             group, lane, last = group + 1, 0, stands[m] * levels + level[m]
+            level_ends[begun - 1] = group + 1
             row[group], points[group] = rows, start[m + 1] - start[m]
             rows += MANIFOLD_ROWS + POINT_ROWS * points[group]
             for k in range(WIDTH):
@@ -92,7 +97,7 @@ def group_manifolds(
         size[group, lane] = start[m + 1] - start[m]
         lane += 1
     ends[1] = group + 1
-    return group + 1, rows
+    return group + 1, rows, begun
 
 
 @inlined

@@ -59,7 +59,7 @@ def compiled(function: Callable[..., Any], **options: Any) -> Any:
 
     Numba itself looks at a function's own file only, and would go on using what it calls as it was.
     """
-    dispatcher = numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, **options)(function)
+    dispatcher = numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, nogil=True, **options)(function)
     files = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)
     if files is not None:
         files._source_stamp = stamp_of(function.__module__)

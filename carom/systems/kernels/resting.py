@@ -5,6 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import POINT_SWEEPS, PUSH_SPEED, ROLL_SWEEPS, ROLLING_SOLVED
 from carom.systems.kernels import groups as of
+from carom.systems.kernels.gate import wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lanes import (
@@ -94,59 +95,78 @@ def rubbed(r, lanes, a, b, along, across):
     return a, b
 
 
-@kernel("bodies")
-def start_warm(groups, index_a, index_b, points, row, asks, lanes, bodies):
-    """Apply the impulses of the substep before."""
+@kernel("gate", "bodies")
+def start_warm(part, parts, gate, levels, level_ends, index_a, index_b, points, row, asks, lanes, bodies):
+    """Apply the impulses of the substep before.
+
+    One of ``parts`` threads takes every so many groups of a level, and waits at the ``gate`` for the others after it.
+    """
     lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
-    for g in range(groups):
-        if asks[g] == IDLE:
-            continue
-        r = row[g]
-        a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
-        total = spread(0.0)
-        for p in range(points[g]):
-            q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            j = load(lanes, q + of.WARM)
-            total = total + j
-            a = turned_by_row(a, -j, lanes, q + of.TURN_A)
-            b = turned_by_row(b, j, lanes, q + of.TURN_B)
-        nx, ny, nz = three(lanes, r + of.NORMAL)
-        a = pushed(a, three(lanes, r + of.MASS_A), -total * nx, -total * ny, -total * nz)
-        b = pushed(b, three(lanes, r + of.MASS_B), total * nx, total * ny, total * nz)
-        a, b = rubbed(r, lanes, a, b, load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1))
-        if asks[g] >= TWISTING:
-            j = load(lanes, r + of.SPUN)
-            a, b = turned_by_row(a, -j, lanes, r + of.TURN_N_A), turned_by_row(b, j, lanes, r + of.TURN_N_B)
-        if asks[g] == ROLLING:
-            x, y, z = three(lanes, r + of.ROLLED)
-            one = spread(1.0)
-            ax, ay, az = about(gather(bodies, index_a, g, INVERSE), x, y, z)
-            bx, by, bz = about(gather(bodies, index_b, g, INVERSE), x, y, z)
-            a, b = turned(a, -one, ax, ay, az), turned(b, one, bx, by, bz)
-        scatter(bodies, index_a, g, VELOCITY, a)
-        scatter(bodies, index_b, g, VELOCITY, b)
+    for level in range(levels):
+        for g in range((level_ends[level - 1] if level else 0) + part, level_ends[level], parts):
+            if asks[g] != IDLE:
+                press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
+        if parts > 1:
+            wait_for_all(gate, parts, level + 1)
 
 
-@kernel("lanes", "bodies")
-def press_groups(sweeps, h, ends, soft, rigid, index_a, index_b, points, row, asks, lanes, bodies):
-    """Solve every group that rests ``sweeps`` times over.
+@woven
+def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
+    """Apply the impulses of a group."""
+    a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+    total = spread(0.0)
+    for p in range(points):
+        q = r + MANIFOLD_ROWS + POINT_ROWS * p
+        j = load(lanes, q + of.WARM)
+        total = total + j
+        a = turned_by_row(a, -j, lanes, q + of.TURN_A)
+        b = turned_by_row(b, j, lanes, q + of.TURN_B)
+    nx, ny, nz = three(lanes, r + of.NORMAL)
+    a = pushed(a, three(lanes, r + of.MASS_A), -total * nx, -total * ny, -total * nz)
+    b = pushed(b, three(lanes, r + of.MASS_B), total * nx, total * ny, total * nz)
+    a, b = rubbed(r, lanes, a, b, load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1))
+    if asks >= TWISTING:
+        j = load(lanes, r + of.SPUN)
+        a, b = turned_by_row(a, -j, lanes, r + of.TURN_N_A), turned_by_row(b, j, lanes, r + of.TURN_N_B)
+    if asks == ROLLING:
+        x, y, z = three(lanes, r + of.ROLLED)
+        one = spread(1.0)
+        ax, ay, az = about(gather(bodies, index_a, g, INVERSE), x, y, z)
+        bx, by, bz = about(gather(bodies, index_b, g, INVERSE), x, y, z)
+        a, b = turned(a, -one, ax, ay, az), turned(b, one, bx, by, bz)
+    scatter(bodies, index_a, g, VELOCITY, a)
+    scatter(bodies, index_b, g, VELOCITY, b)
+
+
+@kernel("gate", "lanes", "bodies")
+def press_groups(
+    part, parts, gate, sweeps, h, ends, levels, level_ends, soft, rigid,
+    index_a, index_b, points, row, asks, lanes, bodies,
+):  # fmt: skip
+    """Solve every group that rests ``sweeps`` times over, sharing the groups of a level as `start_warm` does.
 
     ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`press`). Those with something that
     cannot move come last, so that what is under a pile has the last word.
     """
     lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
-    for _ in range(sweeps):
-        for g in range(ends[1]):
-            if asks[g] != IDLE:
-                rate, hardness, give_way = soft if g < ends[0] else rigid
-                press(g, row[g], points[g], asks[g], 1.0 / h, rate, hardness, give_way, index_a, index_b, lanes, bodies)
+    for sweep in range(sweeps):
+        for level in range(levels):
+            for g in range((level_ends[level - 1] if level else 0) + part, level_ends[level], parts):
+                if asks[g] != IDLE:
+                    rate, hardness, give_way = soft if g < ends[0] else rigid
+                    press(
+                        g, row[g], points[g], asks[g], 1.0 / h, rate, hardness, give_way,
+                        index_a, index_b, lanes, bodies,
+                    )  # fmt: skip
+            if parts > 1:
+                wait_for_all(gate, parts, sweep * levels + level + 1)
 
 
 @kernel("lanes")
-def sum_impulses(groups, points, row, lanes):
+def sum_impulses(begin, end, points, row, lanes):
     """Add the impulses of the substep to those of the step."""
     lanes = address(lanes)
-    for g in range(groups):
+    for g in range(begin, end):
         r = row[g]
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p

@@ -40,13 +40,13 @@ def finish_drift(
 
 
 @kernel("lanes", "depth")
-def sink_contacts(groups, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
+def sink_contacts(begin, end, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
     """Write the depths that contacts have come to be; those of balls on exact arcs are measured.
 
     A point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
     """
     rows, moved, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
-    for g in range(groups):
+    for g in range(begin, end):
         r = row[g]
         n = three(rows, r + of.NORMAL)
         a, b = gather(moved, index_a, g, WAY), gather(moved, index_b, g, WAY)

@@ -17,7 +17,7 @@ from carom.systems.kernels.resting import IDLE, RESTING, ROLLING, RUBBING, TWIST
 
 @kernel("fresh", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b", "resting", "touching")
 def sort_groups(
-    groups, h, bends, resting_stage, ends, index_a, index_b, first, size, points, row,
+    begin, end, h, bends, resting_stage, ends, index_a, index_b, first, size, points, row,
     fresh, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
     normal, depth, point, offset_a, offset_b, resting, touching,
@@ -29,7 +29,7 @@ def sort_groups(
     """
     rows, packed, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
     number, balls = 0, 0
-    for g in range(groups):
+    for g in range(begin, end):
         r = row[g]
         changed = fresh[g]
         fresh[g] = False
