@@ -55,7 +55,7 @@ class Resting(Resource):
         if len(self.group_of) < self.count:
             self._reserve(2 * self.count)
         self.groups, rows, self.levels = group_manifolds(
-            self.count, self.start, contact.body_a, contact.body_b, inverse_mass, nobody,
+            self.count, self.start, contact.a, contact.b, contact.body_a, contact.body_b, inverse_mass, nobody,
             self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
             self.points, self.row, self.ends, self.level_ends,
         )  # fmt: skip

@@ -5,6 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
+from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import MANIFOLD_POINTS
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.lanes import WIDTH, address, spread, store
@@ -34,7 +35,7 @@ BUCKETS = 256  # of manifolds that are shuffled
 
 @kernel("group_of", "lane_of", "index_a", "index_b", "first", "size", "points", "row", "ends", "level_ends")
 def group_manifolds(
-    count, start, body_a, body_b, inverse_mass, nobody,
+    count, start, a, b, body_a, body_b, inverse_mass, nobody,
     group_of, lane_of, index_a, index_b, first, size, points, row, ends, level_ends,
 ):  # fmt: skip
     """Put manifolds into groups that, one after the other, do what the manifolds would in a shuffled order.
@@ -48,23 +49,23 @@ def group_manifolds(
     a group begin, ``ends`` (2,) where the groups of either kind end, ``level_ends`` where those of each level do;
     ``nobody`` is the index of what has no body.
     """
-    shuffled = shuffle(count, start, body_a, body_b)
+    shuffled = shuffle(count, start, a, b)
     reached = np.zeros((2, len(inverse_mass)), np.int64)
     level, stands = np.empty(count, np.int64), np.empty(count, np.int64)
     levels = 0
     for m in shuffled:
-        a, b = body_a[start[m]], body_b[start[m]]
-        moving_a, moving_b = is_moving(a, inverse_mass), is_moving(b, inverse_mass)
+        i, o = body_a[start[m]], body_b[start[m]]
+        moving_a, moving_b = is_moving(i, inverse_mass), is_moving(o, inverse_mass)
         stands[m] = 0 if moving_a and moving_b else 1
         level[m] = 0
         if moving_a:
-            level[m] = reached[stands[m], a]
+            level[m] = reached[stands[m], i]
         if moving_b:
-            level[m] = max(level[m], reached[stands[m], b])
+            level[m] = max(level[m], reached[stands[m], o])
         if moving_a:
-            reached[stands[m], a] = level[m] + 1
+            reached[stands[m], i] = level[m] + 1
         if moving_b:
-            reached[stands[m], b] = level[m] + 1
+            reached[stands[m], o] = level[m] + 1
         levels = max(levels, level[m] + 1)
     begin = np.zeros(2 * levels * MANIFOLD_POINTS + 1, np.int64)
     for m in range(count):
@@ -91,8 +92,8 @@ def group_manifolds(
                 index_a[group, k], index_b[group, k], first[group, k], size[group, k] = nobody, nobody, -1, 0
         if not stands[m]:
             ends[0] = group + 1
-        a, b = body_a[start[m]], body_b[start[m]]
-        index_a[group, lane], index_b[group, lane] = a if a >= 0 else nobody, b if b >= 0 else nobody
+        i, o = body_a[start[m]], body_b[start[m]]
+        index_a[group, lane], index_b[group, lane] = i if i >= 0 else nobody, o if o >= 0 else nobody
         first[group, lane], group_of[m], lane_of[m] = start[m], group, lane
         size[group, lane] = start[m + 1] - start[m]
         lane += 1
@@ -101,11 +102,15 @@ def group_manifolds(
 
 
 @inlined
-def shuffle(count, start, body_a, body_b):
-    """Return the manifolds in an order without order, in which those that stay keep their places."""
+def shuffle(count, start, a, b):
+    """Return the manifolds in an order without order, in which those that stay keep their places.
+
+    By who they are of, not where in the table: rows change when a world is made compact.
+    """
     bucket, begin = np.empty(count, np.int64), np.zeros(BUCKETS + 1, np.int64)
     for m in range(count):
-        bucket[m] = (body_a[start[m]] * 40503 + body_b[start[m]] * 30011) % 65521 % BUCKETS
+        c = start[m]
+        bucket[m] = ((a[c] & INDEX_MASK) * 40503 + (b[c] & INDEX_MASK) * 30011) % 65521 % BUCKETS
         begin[bucket[m] + 1] += 1
     for k in range(BUCKETS):
         begin[k + 1] += begin[k]
