@@ -37,6 +37,8 @@ def advance_bodies(
     Those that are kinematic or have locked rotations go one by one.
     """
     scratch, row = np.zeros((ROWS, WIDTH)), np.empty(WIDTH, np.int64)
+    for lane in range(WIDTH):  # what has no body is one that stands still
+        scratch[ROTATION + 3, lane] = scratch[PRINCIPAL + 3, lane] = 1.0
     lanes = address(scratch)
     filled = 0
     for number, i in enumerate(rows):
