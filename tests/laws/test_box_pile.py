@@ -1,11 +1,8 @@
-"""A thousand boxes dropped into a bin come to rest; where CAROM_SLOW is set, since it takes most of a minute."""
+"""A thousand boxes dropped into a bin come to rest."""
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
-import pytest
 
 from carom.ecs import Motion
 from carom.ecs.relations.contact import Contact
@@ -14,7 +11,6 @@ from carom.tools.bench.engines import Carom
 from carom.tools.bench.overlap import lost
 
 
-@pytest.mark.skipif(not os.environ.get("CAROM_SLOW"), reason="slow: set CAROM_SLOW=1")
 def test_a_pile_of_a_thousand_boxes_comes_to_rest() -> None:
     """After 15 s none is as fast as 1 mm/s, no overlap is deeper than 2 cm, and none is lost."""
     scene = box_pile(1000)
