@@ -15,6 +15,7 @@ import numpy as np
 
 from carom.ecs.access import GUARDED
 from carom.ecs.errors import AccessError
+from carom.systems.kernels.stored import Stored
 
 IMPORTS = re.compile(rb"^ *from (carom\.[\w.]+) import", re.MULTILINE)
 #: Modules whose functions kernels call; of all other modules kernels use numbers only.
@@ -54,15 +55,15 @@ def stamp_of(module: str) -> str:
     return hashlib.blake2b(b"".join(parts)).hexdigest()
 
 
-def compiled(function: Callable[..., Any], **options: Any) -> Any:
+def compiled(function: Callable[..., Any], *, entry: bool = False, **options: Any) -> Any:
     """Return Numba's dispatcher of a function, cached on disk until something that it depends on changes.
 
-    Numba itself looks at a function's own file only, and would go on using what it calls as it was.
+    Numba itself looks at a function's own file only, and would go on using what it calls as it was. No compiled
+    function calls an ``entry``.
     """
-    dispatcher = numba.njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, nogil=True, **options)(function)
-    files = getattr(getattr(dispatcher, "_cache", None), "_cache_file", None)
-    if files is not None:
-        files._source_stamp = stamp_of(function.__module__)
+    dispatcher = numba.njit(error_model="numpy", no_cfunc_wrapper=True, nogil=True, **options)(function)
+    if not numba.config.DISABLE_JIT:
+        dispatcher._cache = Stored(function, lambda: stamp_of(function.__module__), entry=entry)
     return dispatcher
 
 
@@ -89,7 +90,7 @@ class Kernel:
         assert not unknown, f"{function.__name__} has no arguments {unknown}"
         self.name = function.__name__
         self.__doc__ = function.__doc__
-        self._run = compiled(function)
+        self._run = compiled(function, entry=True)
         self._outputs = [names.index(name) for name in outputs]
         self._names = names
         self._settled = False
