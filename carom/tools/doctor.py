@@ -55,6 +55,7 @@ def kernels() -> str:
     from numba.core.caching import FunctionCache
 
     from carom.systems.kernels.kernel import kernel
+    from carom.systems.kernels.stored import ENDING
 
     mend = "set the environment variable NUMBA_CACHE_DIR to a folder that can be written"
     try:
@@ -64,7 +65,7 @@ def kernels() -> str:
             pass
     except (OSError, RuntimeError) as fault:
         raise FaultError(f"no folder to cache kernels in: {fault}", mend) from fault
-    count = len(list(folder.glob("*.nbi")))
+    count = len(list(folder.glob(f"*{ENDING}")))
     return f"{count} cached in {folder}" + ("" if count else "; run: carom warm")
 
 

@@ -63,7 +63,7 @@ def compiled(function: Callable[..., Any], *, entry: bool = False, **options: An
     """
     dispatcher = numba.njit(error_model="numpy", no_cfunc_wrapper=True, nogil=True, **options)(function)
     if not numba.config.DISABLE_JIT:
-        dispatcher._cache = Stored(function, lambda: stamp_of(function.__module__), entry=entry)
+        dispatcher._cache = Stored(function, stamp_of(function.__module__), entry=entry)
     return dispatcher
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call,misc"
 import hashlib
-import os
 import pickle
 import sys
 from collections.abc import Callable
@@ -18,10 +17,7 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache
 from numba.core.runtime import rtsys
 from numba.core.serialize import dumps
 
-MESSAGE = (
-    "carom: compiling kernels, which takes from some seconds to some minutes, once; "
-    "`carom warm` compiles all of them beforehand"
-)
+MESSAGE = "carom: compiling kernels, once, which may take a minute or two; `carom warm` compiles all of them beforehand"
 ENDING = ".nbc"
 
 
@@ -67,7 +63,7 @@ class Files:
         written = path.with_suffix(f".{uuid4().hex}")
         try:
             written.write_bytes(self._stamp + b"\n" + dumps(data))
-            os.replace(written, path)
+            written.replace(path)
         finally:
             written.unlink(missing_ok=True)
 
@@ -86,10 +82,10 @@ class Stored(FunctionCache):
     """What Numba asks for a function's code before it compiles it.
 
     Numba itself takes code for fresh as long as the function's own file is, and readies its whole compiler before it
-    loads any, which takes longer than loading all of it; ``stamp`` is to return a digest of all that counts.
+    loads any, which takes longer than loading all of it; ``stamp`` is a digest of all that counts.
     """
 
-    def __init__(self, function: Callable[..., Any], stamp: Callable[[], str], *, entry: bool) -> None:
+    def __init__(self, function: Callable[..., Any], stamp: str, *, entry: bool) -> None:
         self._function, self._stamp = function, stamp
         self._impl_class = EntryCode if entry else CompileResultCacheImpl
         self._opened = False
@@ -99,7 +95,7 @@ class Stored(FunctionCache):
         if not self._opened:
             super().__init__(self._function)
             name = f"{self._function.__module__.rpartition('.')[2]}.{self._function.__qualname__}"
-            self._cache_file = Files(Path(self._cache_path), name, self._stamp())
+            self._cache_file = Files(Path(self._cache_path), name, self._stamp)
             self._opened = True
         rtsys.initialize(target_context)
         try:

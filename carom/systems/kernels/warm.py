@@ -2,24 +2,39 @@
 
 from __future__ import annotations
 
+import hashlib
 import multiprocessing
+import sys
 from concurrent.futures import ProcessPoolExecutor
-
-#: Systems whose kernels take about half of the time to compile; the other process compiles all others.
-HEAVY = ("hold", "drift", "settle", "relax")
 
 
 def warm() -> None:
     """Compile what is not yet in the cache."""
-    with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as pool:
-        tasks = [
-            pool.submit(compile_systems, True),
-            pool.submit(compile_systems, False),
-            pool.submit(compile_stand_ins),
-            pool.submit(compile_for_fcl),
-        ]
-        for task in tasks:
+    with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn"), initializer=be_silent) as pool:
+        for task in [pool.submit(part) for part in PARTS]:
             task.result()
+
+
+def key_of_cache() -> str:
+    """Return a name for all that is compiled, here and now: another one where any of it would be compiled anew."""
+    import numba
+    from numba.core.registry import cpu_target
+
+    import carom.systems.simulation  # noqa: F401
+    from carom.systems.kernels.kernel import CALLED, stamp_of
+
+    target = cpu_target.target_context.codegen().magic_tuple()  # what it is compiled for: system, processor, features
+    stamps = [stamp_of(name) for name in sorted(sys.modules) if CALLED.fullmatch(name) and name != __name__]
+    depends = (sys.version_info[:2], numba.__version__, target, stamps)
+    digest = hashlib.blake2b(repr(depends).encode(), digest_size=8).hexdigest()
+    return f"carom-kernels-numba-{numba.__version__}-{target[1]}-{digest}"
+
+
+def be_silent() -> None:
+    """Let this process compile without telling so: whoever started it has."""
+    from carom.systems.kernels.stored import Announcement
+
+    Announcement.due = False
 
 
 def look_for_vectors(there: bool) -> None:
@@ -32,15 +47,17 @@ def look_for_vectors(there: bool) -> None:
     numba.config.LOOP_VECTORIZE = 1 if there else 0
 
 
-def compile_stand_ins() -> None:
-    """Measure pairs of every shape that has kernels, and renew some."""
+def compile_measuring() -> None:
+    """Measure pairs of every shape that has kernels, and of one that FCL measures; merge and renew what comes out."""
     look_for_vectors(there=True)
 
     import numpy as np
 
     from carom.ecs import Collider
     from carom.systems.detection.narrow import measure_pairs
+    from carom.systems.detection.seams import without_seams
     from carom.systems.kernels.broad_pairs import renew_pairs
+    from carom.systems.kernels.recycling import merge_contacts
     from carom.systems.shapes.geometry import hull_of
     from carom.systems.shapes.mesh import Mesh
     from carom.systems.simulation import Simulation
@@ -54,56 +71,39 @@ def compile_stand_ins() -> None:
     simulation = Simulation(checked=False)
     simulation.add(collider={"plane": {}})
     simulation.add(collider={"shape": Mesh(solid)})
-    for collider in ({"sphere": {"radius": 0.5}}, *shapes, *shapes):
+    round_one = {"cylinder": {"radius": 0.5, "length": 1.0}}
+    for collider in ({"sphere": {"radius": 0.5}}, *shapes, *shapes, round_one):
         simulation.add(collider=collider, body={"mass": 1.0})
     world = simulation.world
     rows = world.row_numbers(Collider)
     pairs = np.array([(a, b) for a in rows for b in rows if a < b and b > 1])
     with world.faces(None):
-        measure_pairs(world, pairs, np.ones(len(pairs)))
+        found = without_seams(world, measure_pairs(world, pairs, np.ones(len(pairs))))
+    count = len(found.row_a)
+    merge_contacts(count, *found[:-1], *found[:-1], *found.room(2 * count))
     room = np.empty((2 * len(pairs), 2), np.int64)
     renew_pairs(pairs, pairs, np.zeros(world.capacity, np.bool_), room)  # of bodies that leave their fat bounds
 
 
-def compile_for_fcl() -> None:
-    """Measure two boxes as FCL sees them."""
+def compile_frame() -> None:
+    """Step a world in which balls rest and roll, one body is on keyframes, and every law of force acts."""
     look_for_vectors(there=False)
 
-    import numpy as np
-
-    from carom.systems.detection.narrow import measure_pairs
     from carom.systems.simulation import Simulation
 
     simulation = Simulation(checked=False)
-    for _ in range(2):
-        simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={"mass": 1.0})
-    with simulation.world.faces(None):
-        measure_pairs(simulation.world, np.array([[0, 1]]), np.zeros(1), "fcl")
-
-
-def compile_systems(heavy: bool) -> None:
-    """Run the heavy systems of the step, or all others, once on a world that makes each call its kernels."""
-    look_for_vectors(there=False)
-
-    from carom.ecs.relations.contact import Contact
-    from carom.systems.progress import Progress
-    from carom.systems.simulation import Simulation
-
-    simulation = Simulation(checked=False)
-    world = simulation.world
     simulation.add(collider={"plane": {}})
-    simulation.add(collider={"sphere": {"radius": 0.5}}, body={}, transform={"position": (0.0, 0.5, 0.0)})
+    for x, speed in ((0.0, 0.0), (5.0, 1.0)):
+        place, motion = {"position": (x, 0.5, 0.0)}, {"linear": (speed, 0.0, 0.0)}
+        simulation.add(collider={"sphere": {"radius": 0.5}}, body={}, transform=place, motion=motion)
     way = ({"at": 0.0}, {"at": 1.0, "position": (1.0, 0.0, 0.0)})
     simulation.add(body={"type": "kinematic"}, keyframes=way)
     simulation.force("linear_drag", coefficient=1.0)
     simulation.force("quadratic_drag", area=1.0)
     simulation.force("mutual_gravitation")
     simulation.force("constant_push", force=(1.0, 0.0, 0.0))
-    with world.faces(None):
-        if heavy:  # a contact to hold, which detection would have found
-            world.resize(Contact, 1)
-            world[Contact].resting[0], world[Contact].body_b[0] = True, 1
-            world[Progress].resting = 1
-        for _, system in simulation.schedule:
-            if (system.name in HEAVY) is heavy:
-                system(world, simulation.settings.dt)
+    simulation.step(3)
+
+
+#: Each takes about half of the time and has a process of its own.
+PARTS = (compile_measuring, compile_frame)

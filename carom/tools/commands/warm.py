@@ -10,15 +10,22 @@ from carom.tools.commands.options import print_json
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
-    """Declare no arguments."""
+    """Declare what is printed instead."""
+    parser.add_argument(
+        "--key", action="store_true", help="compile nothing; print a key for the cache, another one where that is stale"
+    )
 
 
 def execute(arguments: argparse.Namespace) -> int:
     """Compile every kernel, saying so before it begins."""
-    print("compiling the kernels, which takes some seconds the first time ...", file=sys.stderr, flush=True)
-    start = perf_counter()
-    from carom.systems.kernels.warm import warm
+    from carom.systems.kernels.warm import key_of_cache, warm
 
+    if arguments.key:
+        key = key_of_cache()
+        print_json({"key": key}) if arguments.json else print(key)
+        return 0
+    print("compiling the kernels, which takes a minute or two the first time ...", file=sys.stderr, flush=True)
+    start = perf_counter()
     warm()
     seconds = perf_counter() - start
     if arguments.json:
