@@ -20,12 +20,32 @@ from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT
 from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.packing import pack_bodies
+from carom.systems.kernels.reach import may_leave_reach
 from carom.systems.kernels.settling import finish_drift
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.threads import Threads, share_out
+
+
+@system(
+    reads=(RigidBody, Motion, Collider, Material, Parent, Settings, Geometries, Progress),
+    writes=(
+        Transform, Flight, Contact, ColliderPose, Enter, Inside, Answered, BroadPhase, FclObjects,
+        PackedHulls, PackedMeshes, Commands, Resting,
+    ),
+)  # fmt: skip
+def look_ahead(world: World, dt: float) -> None:
+    """Detect anew, once for all bodies, where one may leave what detection foresaw before the step ends."""
+    flight, motion, progress = world[Flight], world[Motion], world[Progress]
+    left = progress.left + dt
+    if progress.substep > 1 and may_leave_reach(
+        world.row_numbers(RigidBody), left, flight.center, flight.detected_center, flight.reach,
+        motion.linear, flight.felt,
+    ):  # fmt: skip
+        world[Resting].hand_over(world[Contact])
+        detect_again(world, left)
 
 
 @system(reads=(RigidBody, Transform, Motion, Settings, Threads), writes=(Contact, Flight, Progress, Resting))
@@ -101,7 +121,7 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
     contact, progress, settings = world[Contact], world[Progress], world[Settings]
     manifolds, bend = world[Resting], 0.5 if settings.integrator == "verlet" else 0.0
     now, reason, events, cut, count, pair, log = fly(
-        at, h, progress.left, bend, progress.clock,
+        world.row_numbers(RigidBody), at, h, bend, progress.clock,
         flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,
         flight.time, flight.acceleration, flight.angular_acceleration,
         flight.felt, flight.detected_center, flight.reach,

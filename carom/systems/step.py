@@ -16,7 +16,7 @@ from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
 from carom.systems.keyframes import follow_keyframes
 from carom.systems.progress import begin_step, begin_substep
-from carom.systems.response import drift, hand_impulses_over, hold, relax, settle, sort_out_contacts
+from carom.systems.response import drift, hand_impulses_over, hold, look_ahead, relax, settle, sort_out_contacts
 from carom.systems.settings import Settings
 
 
@@ -36,6 +36,7 @@ STEP = Schedule(
     Phase(
         "substep",
         begin_substep,
+        look_ahead,  # once more for all bodies that are faster now than was foreseen
         predict,  # bodies at the middle of the substep (verlet)
         clear_forces,
         apply_wind,  # before drags, which are relative to the medium

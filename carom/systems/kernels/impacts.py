@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import sqrt
-
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
@@ -12,6 +10,7 @@ from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body
 from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.reach import time_within_all, time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
 
 DONE, OUT_OF_REACH = 0, 1
@@ -25,7 +24,7 @@ TIME, SPEED, IMPULSE, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 6, 9, 12
     "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic",
 )  # fmt: skip
 def fly(
-    start, h, left, bend, clock,
+    rows, start, h, bend, clock,
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     felt, detected_center, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
@@ -35,13 +34,13 @@ def fly(
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts.
 
-    Returns (time reached, reason, events, cut, impacts logged, pair of each, log). ``left`` is the time from the
-    substep's end to the step's. Pairs are the ``count`` manifolds that begin at rows of the contact table: those of
-    ``kind`` >= 0 are of a ball on an exact arc (`strike`), the others strike with all their points at once (`blow`).
-    Where a body comes to move faster than its detection foresaw, everything is brought to that instant; the caller
-    detects anew and calls again. What the substep has counted so far goes on: ``events``, and for each pair
-    ``strikes`` and ``plastic``, else detection in the middle would renew the patience with endless rows of impacts.
-    ``cut`` counts impacts beyond the cap, which are let pass.
+    Returns (time reached, reason, events, cut, impacts logged, pair of each, log). Pairs are the ``count`` manifolds
+    that begin at rows of the contact table: those of ``kind`` >= 0 are of a ball on an exact arc (`strike`), the others
+    strike with all their points at once (`blow`). Where a body comes to move faster than its detection foresaw, the
+    flight goes on for as long as none can have left its reach, and brings everything to that instant; the caller
+    detects anew and calls again. What the substep has counted so far goes on: ``events``, and for each pair ``strikes``
+    and ``plastic``, else detection in the middle would renew the patience with endless rows of impacts. ``cut`` counts
+    impacts beyond the cap, which are let pass.
     """
     pairs, ends = np.empty(count, np.int64), np.empty(count, np.int64)
     taken = 0
@@ -79,8 +78,10 @@ def fly(
         seek[m] = m
     # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
     log, log_pair, log_count = np.empty((64, WIDTH)), np.empty(64, np.int64), 0
-    now, cut = start, 0
-    reason = DONE
+    now, end, cut = start, h, 0
+    within = time_within_all(rows, h - now, center, detected_center, reach, linear, acceleration)
+    if within < h - now:
+        end = now + within
     first = True
     while True:
         # Foresee the next impact of every pair whose bodies changed course.
@@ -105,8 +106,8 @@ def fly(
         seek_count = 0
 
         # The soonest of all: down the tournament to its leaf.
-        if soonest[1] > h:
-            now = h
+        if soonest[1] > end:
+            now = end
             break
         m = 1
         while m < leaves:
@@ -118,7 +119,7 @@ def fly(
         p = pairs[m]
         if events >= most:
             cut += 1
-            now = h
+            now = end = h
             break
         i, o = body_a[p], body_b[p]
         if kind[p] >= 0:
@@ -179,17 +180,10 @@ def fly(
                 if of_body[slot] != m or (not together and (body == i or i < 0)):
                     seek[seek_count] = of_body[slot]
                     seek_count += 1
-            away, quick, push = 0.0, 0.0, 0.0
-            for k in range(3):
-                away += (center[body, k] - detected_center[body, k]) ** 2
-                quick += linear[body, k] ** 2
-                push += felt[body, k] ** 2
-            until = h - now + left
-            if sqrt(away) + (sqrt(quick) + 0.5 * sqrt(push) * until) * until > reach[body]:
-                reason = OUT_OF_REACH
-        if reason == OUT_OF_REACH:
-            break
-    return now, reason, events, cut, log_count, log_pair, log
+            within = time_within_reach(body, h - now, center, detected_center, reach, linear, acceleration)
+            if within < h - now:
+                end = min(end, now + within)
+    return now, DONE if now >= h else OUT_OF_REACH, events, cut, log_count, log_pair, log
 
 
 @inlined
