@@ -57,7 +57,7 @@ def sort_out_contacts(world: World, dt: float) -> None:
         return
     flight, motion, body = world[Flight], world[Motion], world[RigidBody]
     pack_bodies(
-        world.row_numbers(RigidBody), motion.linear, motion.angular, flight.felt, body.inverse_mass,
+        world.row_numbers(RigidBody), flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
         body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation, resting.bodies,
     )  # fmt: skip
     progress.resting, progress.balls_resting = resting.sort(world, dt)

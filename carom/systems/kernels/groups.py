@@ -7,21 +7,22 @@ import numpy as np
 
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import MANIFOLD_POINTS
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lanes import WIDTH, address, spread, store
 from carom.systems.kernels.spatial import plane_axes
 
 # Rows of eight numbers that a group has, a lane each manifold. First what is filled in when contacts are found: the
 # normal, two tangents, friction, restitution, resistance to rolling and spinning (m), 1 where it is of a ball on an
 # exact arc, one by its points, and the impulses: friction along the tangents, spinning, rolling, and friction summed
-# over the step; then the velocity of b's surface against a's; 1 where it rests, and where it did before.
+# over the step; then the velocity of b's surface against a's; the radii of two balls on arcs; 1 where it rests, and
+# where it did before.
 NORMAL, TANGENT, FRICTION, RESTITUTION, ROLLING, SPINNING, BALL, SHARE = 0, 3, 9, 10, 11, 12, 13, 14
-RUB, SPUN, ROLLED, RUBBED, SURFACE, RESTS, TOGETHER, FILLED = 15, 17, 18, 21, 24, 27, 28, 29
+RUB, SPUN, ROLLED, RUBBED, SURFACE, RADIUS_A, RADIUS_B, RESTS, TOGETHER, FILLED = 15, 17, 18, 21, 24, 27, 28, 29, 30, 31
 # Then what follows from where the bodies are: inverse masses along the axes, the middle of the points from both bodies,
 # how a unit impulse there along the tangents, and a twist about the normal, turn either body; the inverse of the
 # inverse mass along the tangents (a symmetric 2 x 2), the inertia about the normal, and about any axis across it.
-MASS_A, MASS_B, MIDDLE_A, MIDDLE_B, TURN_T_A, TURN_U_A, TURN_T_B, TURN_U_B = 29, 32, 35, 38, 41, 44, 47, 50
-TURN_N_A, TURN_N_B, GIVE, SPIN, ROLL, MANIFOLD_ROWS = 53, 56, 59, 62, 63, 64
+MASS_A, MASS_B, MIDDLE_A, MIDDLE_B, TURN_T_A, TURN_U_A, TURN_T_B, TURN_U_B = 31, 34, 37, 40, 43, 46, 49, 52
+TURN_N_A, TURN_N_B, GIVE, SPIN, ROLL, MANIFOLD_ROWS = 55, 58, 61, 64, 65, 66
 
 # Rows of each point, after those of the manifold: where it is from both bodies, depth, normal impulse and its sum over
 # the step; then its levers (r x n), how a unit impulse turns either body, the mass along the normal, and how far it is
@@ -176,7 +177,7 @@ def write_normal(r, lane, nx, ny, nz, lanes):
         lanes[r + NORMAL + k, lane] = value
 
 
-@inlined
+@woven
 def write_point(q, lane, c, offset_a, offset_b, depth, lanes):
     """Write where contact c is, and how deep, into the lane of its manifold."""
     for k in range(3):

@@ -8,17 +8,21 @@ from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.lane_widths import BLOCK, BLOCKS
 from carom.systems.kernels.spatial import product
 
-# The blocks of a body's row. Velocity, and the way since contacts were measured: linear (3), a gap, angular (3), a gap.
+# The blocks of a body's row. Velocity, and the way since contacts were measured: linear (3), a gap, angular (3), a gap;
+# before it sets out, where its centre is (3).
 # Inverse inertia in the world frame: upper half (6), the largest moment. Inverse mass along the axes (3), acceleration
 # by forces (3), inverse mass without locks.
 VELOCITY, WAY, INVERSE, MASS_AND_FELT = range(BLOCKS)
+CENTER = WAY
 BODY_WIDTH, ANGULAR = BLOCKS * BLOCK, 4
 AT_WAY, AT_INVERSE, AT_MASS = WAY * BLOCK, INVERSE * BLOCK, MASS_AND_FELT * BLOCK
 
 
 @kernel("bodies")
-def pack_bodies(rows, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom, rotation, bodies):
-    """Write velocities, inverse masses and inertias of bodies where they are."""
+def pack_bodies(
+    rows, center, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom, rotation, bodies
+):
+    """Write where bodies are, their velocities, inverse masses and inertias."""
     for k in range(BODY_WIDTH):
         bodies[-1, k] = 0.0
     for i in rows:
@@ -34,6 +38,7 @@ def pack_bodies(rows, linear, angular, felt, inverse_mass, inverse_inertia, prin
         bodies[i, AT_MASS + 6] = inverse_mass[i]
         for k in range(3):
             bodies[i, VELOCITY + k], bodies[i, VELOCITY + ANGULAR + k] = linear[i, k], angular[i, k]
+            bodies[i, AT_WAY + k] = center[i, k]
             bodies[i, AT_MASS + k], bodies[i, AT_MASS + 3 + k] = inverse_mass[i] * freedom[i, k], felt[i, k]
 
 

@@ -6,8 +6,9 @@ from __future__ import annotations
 from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import gap_of_ball, pose_of_other
+from carom.systems.kernels.balls_in_lanes import are_balls, fill_radii, measure_balls_in_lanes, write_measured
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, write_point
-from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.kinematic import follow_turning
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, root, smaller, some, spread, store
 from carom.systems.kernels.manifolds import crossed, prepare
@@ -33,12 +34,20 @@ def sort_groups(
         r = row[g]
         changed = fresh[g]
         fresh[g] = False
-        moved_on = False
+        measured = g < ends[0] and are_balls(g, first, kind)
+        if measured:
+            if changed:
+                fill_radii(g, r, first, sign, radius, extent, lanes)
+            measure_balls_in_lanes(g, r, index_a, index_b, rows, packed)
+            write_measured(g, r, first, body_a, center, lanes, normal, depth, point, offset_a, offset_b)
+        moved_on = measured
         for lane in range(WIDTH):
             c = first[g, lane]
             if c < 0:
                 continue
             lanes[r + of.TOGETHER, lane] = 1.0 if resting[c] else 0.0
+            if measured:
+                continue
             if kind[c] >= 0:
                 moved_on = True
                 measure_ball(
@@ -184,7 +193,7 @@ def find_resting(g, r, points, h, index_a, index_b, lanes, bodies):
     return choose(-near, zero, choose(held, one, choose(striking, zero, one)))
 
 
-@inlined
+@woven
 def measure_ball(
     c, center, rotation, kind, ball, other, sign, radius, extent, other_position, other_rotation,
     normal, depth, point, offset_a, offset_b,
