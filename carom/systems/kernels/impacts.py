@@ -6,11 +6,11 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import IMPACTS_AT_LEAST, IMPACTS_PER_PAIR, PATIENCE
-from carom.systems.kernels.balls import NEVER
+from carom.systems.kernels.balls import BALL, NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body
-from carom.systems.kernels.kernel import inlined, kernel
-from carom.systems.kernels.reach import time_within_all, time_within_reach
+from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.reach import are_apart, time_within_all, time_within_reach, way_within
 from carom.systems.kernels.strikes import foresee, strike
 
 DONE, OUT_OF_REACH = 0, 1
@@ -43,13 +43,17 @@ def fly(
     impacts beyond the cap, which are let pass.
     """
     pairs, ends = np.empty(count, np.int64), np.empty(count, np.int64)
-    taken = 0
+    taken, near = 0, 0
     for m in range(count):
-        if kind[beginning[m]] >= 0 or not resting[beginning[m]]:
-            pairs[taken], ends[taken] = beginning[m], beginning[m + 1]
+        p = beginning[m]
+        if kind[p] >= 0 or not resting[p]:
+            near += 1
+            if resting[p] and restitution[p] == 0.0:  # no blow makes it an impact
+                continue
+            pairs[taken], ends[taken] = p, beginning[m + 1]
             taken += 1
     pairs, ends = pairs[:taken], ends[:taken]
-    most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * len(pairs)
+    most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * near
 
     # Which pairs each body takes part in, as slices of one array.
     begin = np.zeros(len(inverse_mass) + 1, np.int64)
@@ -82,6 +86,9 @@ def fly(
     within = time_within_all(rows, h - now, center, detected_center, reach, linear, acceleration)
     if within < h - now:
         end = now + within
+    way = np.zeros(len(inverse_mass) + 1)  # how far each body can fly; that of no body, at -1, is 0
+    for i in rows:
+        way[i] = way_within(i, h - now, linear, acceleration)
     first = True
     while True:
         # Foresee the next impact of every pair whose bodies changed course.
@@ -96,6 +103,15 @@ def fly(
                 enter_time(soonest, leaves + m, foreseen)
                 continue
             blown = (not first or start > 0.0) and restitution[p] > 0.0 and plastic[p] < PATIENCE
+            if resting[p] and not blown:
+                enter_time(soonest, leaves + m, NEVER)
+                continue
+            if (
+                first
+                and kind[p] == BALL
+                and are_apart(p, ball[p], other[p], center, other_position, radius, extent, way)
+            ):
+                continue
             foreseen = foresee(
                 p, ball[p], other[p], now, h, blown, bend,
                 center, rotation, linear, angular, time, acceleration, felt,
@@ -186,9 +202,11 @@ def fly(
     return now, DONE if now >= h else OUT_OF_REACH, events, cut, log_count, log_pair, log
 
 
-@inlined
+@woven
 def enter_time(soonest, leaf, time):
     """Set a leaf of the tournament and play the games above it again."""
+    if soonest[leaf] == time:
+        return
     soonest[leaf] = time
     while leaf > 1:
         leaf //= 2

@@ -1,11 +1,31 @@
-"""Reach: for how long what detection foresaw holds for the bodies as they move now."""
+"""Reach: how far bodies can fly, and for how long what detection foresaw holds for them as they move now."""
 
 from __future__ import annotations
 
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import ROOT_GAP
 from carom.systems.kernels.kernel import kernel, woven
+
+
+@woven
+def way_within(i, span, linear, acceleration):
+    """Return how far (m) body i can fly within ``span`` seconds."""
+    quick, push = 0.0, 0.0
+    for k in range(3):
+        quick += linear[i, k] ** 2
+        push += acceleration[i, k] ** 2
+    return (sqrt(quick) + 0.5 * sqrt(push) * span) * span
+
+
+@woven
+def are_apart(p, i, o, center, other_position, radius, extent, way):
+    """Tell whether the ball i of pair p and the ball o, or what stands there, are too far apart to meet."""
+    away = 0.0
+    for k in range(3):
+        away += (center[i, k] - (center[o, k] if o >= 0 else other_position[p, k])) ** 2
+    return away > (radius[p] + extent[p, 0] + way[i] + way[o] + ROOT_GAP) ** 2
 
 
 @woven
