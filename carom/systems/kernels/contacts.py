@@ -9,7 +9,7 @@ from carom.ecs.components.material import Combine
 from carom.systems.constants import LEANING, SAME_POINT
 from carom.systems.kernels.balls import BOX, HALF_SPACE
 from carom.systems.kernels.frames import turned_back
-from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
 from carom.systems.kernels.recycling import first_of_pair, smaller_reach, turned
 
@@ -157,7 +157,7 @@ def is_centred(collider, body, pose_position, center):
     )
 
 
-@inlined
+@woven
 def is_aligned(collider, body, pose_rotation, rotation):
     """Tell whether a collider's shape is turned as its body is."""
     return (

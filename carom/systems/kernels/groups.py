@@ -122,7 +122,7 @@ def shuffle(count, start, a, b):
     return order
 
 
-@inlined
+@woven
 def is_moving(i, inverse_mass):
     """Tell whether i is a body that impulses move."""
     return i >= 0 and inverse_mass[i] > 0.0
@@ -169,7 +169,7 @@ def fill_groups(
         lanes[r + ROLLED + 2, lane] = wz - along * nz
 
 
-@inlined
+@woven
 def write_normal(r, lane, nx, ny, nz, lanes):
     """Write a normal and its tangents into the lane of a manifold."""
     tx, ty, tz, ux, uy, uz = plane_axes(nx, ny, nz)

@@ -11,12 +11,12 @@ from math import pi
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import RECYCLED_SLIP, RECYCLED_TURN
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE
 from carom.systems.kernels.spatial import turn
 
 
-@inlined
+@woven
 def form_of_pair(a, b, shape, size, geometry):
     """Return a number that changes with any shape or size: a polynomial of them in pi, which is no root of others."""
     form = 0.0
@@ -44,10 +44,10 @@ def recycle_contacts(
     for p in range(len(pairs)):
         x, y = pairs[p, 0], pairs[p, 1]
         stays[p] = False
+        if is_ball(x, shape) or is_ball(y, shape):
+            continue
         o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
         if o == old_count or a[o] != handles[x] or b[o] != handles[y]:
-            continue
-        if is_ball(x, shape) or is_ball(y, shape):
             continue
         if form[o] != form_of_pair(x, y, shape, size, geometry):
             continue
@@ -83,7 +83,7 @@ def recycle_contacts(
     return count
 
 
-@inlined
+@woven
 def first_of_pair(o, old_count, x, y, a, b, handles, row_shift):
     """Return the first contact from ``o`` on, all sorted by pair, that is of the rows (x, y) or of a later pair."""
     while o < old_count:
@@ -96,7 +96,7 @@ def first_of_pair(o, old_count, x, y, a, b, handles, row_shift):
     return o
 
 
-@inlined
+@woven
 def smaller_reach(a, b, bound_half, bound_radius):
     """Return the longest half extent of the smaller of two colliders (m)."""
     of_a = bound_radius[a] + max(bound_half[a, 0], bound_half[a, 1], bound_half[a, 2])
@@ -104,13 +104,13 @@ def smaller_reach(a, b, bound_half, bound_radius):
     return min(of_a, of_b)
 
 
-@inlined
+@woven
 def is_ball(i, shape):
     """Tell whether a collider is a ball or a point."""
     return shape[i] == SPHERE_SHAPE or shape[i] == POINT_SHAPE
 
 
-@inlined
+@woven
 def turned(i, c, column, rotation):
     """Return a vector of contact c as collider i, in whose frame it is, is turned now."""
     return turn(
@@ -123,11 +123,19 @@ def seat_contacts(
     count, recycled, row_a, row_b, normal, depth, point, shape, size, geometry, position, rotation,
     seat_a, seat_b, lean_a, lean_b, seat_depth, form,
 ):  # fmt: skip
-    """Write where the points and the normals of contacts that were found anew are on the two shapes."""
+    """Write where the points and the normals of contacts that were found anew are on the two shapes.
+
+    Those of balls are never recycled, and nowhere.
+    """
     for c in range(count):
         if recycled[c]:
             continue
         a, b = row_a[c], row_b[c]
+        if is_ball(a, shape) or is_ball(b, shape):
+            seat_depth[c], form[c] = 0.0, 0.0
+            for k in range(3):
+                seat_a[c, k], seat_b[c, k], lean_a[c, k], lean_b[c, k] = 0.0, 0.0, 0.0, 0.0
+            continue
         half = 0.5 * depth[c]
         nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
         for i, sense, seat, lean in ((a, half, seat_a, lean_a), (b, -half, seat_b, lean_b)):
