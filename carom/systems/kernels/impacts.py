@@ -37,7 +37,7 @@ def fly(
     Returns (time reached, reason, events, cut, impacts logged, pair of each, log). Pairs are the ``count`` manifolds
     that begin at rows of the contact table: those of ``kind`` >= 0 are of a ball on an exact arc (`strike`), the others
     strike with all their points at once (`blow`). Where a body comes to move faster than its detection foresaw, the
-    flight goes on for as long as none can have left its reach, and brings everything to that instant; the caller
+    flight goes on for as long as none can have left its reach; the caller brings all bodies to the time reached,
     detects anew and calls again. What the substep has counted so far goes on: ``events``, and for each pair ``strikes``
     and ``plastic``, else detection in the middle would renew the patience with endless rows of impacts. ``cut`` counts
     impacts beyond the cap, which are let pass.
