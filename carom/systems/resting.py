@@ -21,6 +21,7 @@ from carom.systems.kernels.packing import BODY_WIDTH, pack_velocities, pack_ways
 from carom.systems.kernels.resting import press_groups, start_warm, sum_impulses
 from carom.systems.kernels.settling import sink_contacts
 from carom.systems.kernels.sorting import sort_groups
+from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.threads import Threads, parts_for, share_out
 
@@ -72,10 +73,11 @@ class Resting(Resource):
     def sort(self, world: World, h: float) -> tuple[int, int]:
         """Find which manifolds rest; return how many do, and how many of those are of balls on exact arcs."""
         contact, flight, settings = world[Contact], world[Flight], world[Settings]
+        last = world[Progress].left == 0.0
 
         def sort(begin: int, end: int) -> tuple[int, int]:
             found: tuple[int, int] = sort_groups(
-                begin, end, h, settings.integrator == "verlet", float(settings.response == "full"), self.ends,
+                begin, end, h, settings.integrator == "verlet", last, float(settings.response == "full"), self.ends,
                 self.index_a, self.index_b, self.first, self.size, self.points, self.row,
                 self.fresh, self.asks, self.lanes, self.bodies, flight.center, world[Transform].rotation,
                 contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,

@@ -382,7 +382,7 @@ def test_in_two_dimensions_every_body_keeps_to_its_plane() -> None:
     world, rows = simulation.world, simulation.world.row_numbers(RigidBody)
     depths = world[Transform].position[rows, 2].copy()
     assert (world[RigidBody].freedom[rows] == [1.0, 1.0, 0.0, 0.0, 0.0, 1.0]).all()
-    for _ in range(600):
+    for _ in range(900):
         simulation.step()
         assert (world[Motion].linear[rows, 2] == 0.0).all()
         assert (world[Motion].angular[rows, :2] == 0.0).all()

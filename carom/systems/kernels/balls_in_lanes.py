@@ -13,24 +13,24 @@ from carom.systems.kernels.resting import TINY, dot, keep
 
 
 @woven
-def are_balls(g, first, kind):
-    """Tell whether all manifolds of a group are of a ball with a ball."""
+def fill_radii(g, r, first, kind, sign, radius, extent, lanes):
+    """Write the radii of both balls into the lanes of a group; -1 where not all of its manifolds are of two balls."""
     balls = True
     for lane in range(WIDTH):
         c = first[g, lane]
         balls &= c < 0 or kind[c] == BALL
-    return balls
-
-
-@woven
-def fill_radii(g, r, first, sign, radius, extent, lanes):
-    """Write the radii of both balls into the lanes of a group."""
     for lane in range(WIDTH):
         c = first[g, lane]
         of_a, of_b = 0.0, 0.0
         if c >= 0:
             of_a, of_b = (radius[c], extent[c, 0]) if sign[c] > 0.0 else (extent[c, 0], radius[c])
-        lanes[r + of.RADIUS_A, lane], lanes[r + of.RADIUS_B, lane] = of_a, of_b
+        lanes[r + of.RADIUS_A, lane], lanes[r + of.RADIUS_B, lane] = of_a if balls else -1.0, of_b
+
+
+@woven
+def are_balls(r, lanes):
+    """Tell whether all manifolds of a group are of two balls, as `fill_radii` found."""
+    return lanes[r + of.RADIUS_A, 0] >= 0.0
 
 
 @woven
@@ -52,16 +52,26 @@ def measure_balls_in_lanes(g, r, index_a, index_b, lanes, bodies):
 
 
 @woven
-def write_measured(g, r, first, body_a, center, lanes, normal, depth, point, offset_a, offset_b):
-    """Write what has been measured in lanes into the contact table."""
+def write_normals(g, r, first, lanes, normal):
+    """Write the normals of a group into the contact table."""
+    for lane in range(WIDTH):
+        c = first[g, lane]
+        if c >= 0:
+            for k in range(3):
+                normal[c, k] = lanes[r + of.NORMAL + k, lane]
+
+
+@woven
+def write_points(g, r, first, index_a, center, lanes, depth, point, offset_a, offset_b):
+    """Write the points of a group into the contact table."""
     q = r + MANIFOLD_ROWS
     for lane in range(WIDTH):
         c = first[g, lane]
         if c < 0:
             continue
-        i = body_a[c]
+        i = index_a[g, lane]
         depth[c] = lanes[q + of.DEPTH, lane]
         for k in range(3):
             n, to_a = lanes[r + of.NORMAL + k, lane], lanes[q + of.OFFSET_A + k, lane]
-            normal[c, k], offset_a[c, k], offset_b[c, k] = n, to_a, lanes[q + of.OFFSET_B + k, lane]
+            offset_a[c, k], offset_b[c, k] = to_a, lanes[q + of.OFFSET_B + k, lane]
             point[c, k] = center[i, k] + (to_a - 0.5 * depth[c] * n)

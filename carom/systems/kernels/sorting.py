@@ -6,7 +6,13 @@ from __future__ import annotations
 from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import gap_of_ball, pose_of_other
-from carom.systems.kernels.balls_in_lanes import are_balls, fill_radii, measure_balls_in_lanes, write_measured
+from carom.systems.kernels.balls_in_lanes import (
+    are_balls,
+    fill_radii,
+    measure_balls_in_lanes,
+    write_normals,
+    write_points,
+)
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, write_point
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.kinematic import follow_turning
@@ -18,7 +24,7 @@ from carom.systems.kernels.resting import IDLE, RESTING, ROLLING, RUBBING, TWIST
 
 @kernel("fresh", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b", "resting", "touching")
 def sort_groups(
-    begin, end, h, bends, resting_stage, ends, index_a, index_b, first, size, points, row,
+    begin, end, h, bends, last, resting_stage, ends, index_a, index_b, first, size, points, row,
     fresh, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
     normal, depth, point, offset_a, offset_b, resting, touching,
@@ -26,20 +32,24 @@ def sort_groups(
     """Say which manifolds rest at the start of the substep and prepare them, mark their bodies as touching.
 
     A group is prepared when it is ``fresh`` from detection, when others of it rest, and where balls have moved on.
+    The contact table learns where balls touch each other in the ``last`` substep, else only what `bend_arcs` asks for.
     Return how many manifolds rest, and how many of those are of balls on exact arcs.
     """
-    rows, packed, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    rows, packed, of_a, of_b = address(lanes), address(bodies), address(index_a), address(index_b)
     number, balls = 0, 0
     for g in range(begin, end):
         r = row[g]
         changed = fresh[g]
         fresh[g] = False
-        measured = g < ends[0] and are_balls(g, first, kind)
+        if changed:
+            fill_radii(g, r, first, kind, sign, radius, extent, lanes)
+        measured = g < ends[0] and are_balls(r, lanes)
         if measured:
-            if changed:
-                fill_radii(g, r, first, sign, radius, extent, lanes)
-            measure_balls_in_lanes(g, r, index_a, index_b, rows, packed)
-            write_measured(g, r, first, body_a, center, lanes, normal, depth, point, offset_a, offset_b)
+            measure_balls_in_lanes(g, r, of_a, of_b, rows, packed)
+            if bends or last:
+                write_normals(g, r, first, lanes, normal)
+            if last:
+                write_points(g, r, first, index_a, center, lanes, depth, point, offset_a, offset_b)
         moved_on = measured
         for lane in range(WIDTH):
             c = first[g, lane]
@@ -71,7 +81,7 @@ def sort_groups(
             find_tangents(r, rows)
         if changed or moved_on:
             find_levers(r, points[g], rows)
-        rests = find_resting(g, r, points[g], h, index_a, index_b, rows, packed) * resting_stage
+        rests = find_resting(g, r, points[g], h, of_a, of_b, rows, packed) * resting_stage
         before = load(rows, r + of.RESTS)
         store(rows, r + of.RESTS, rests)
         changed |= some(rests - before) or some(before - rests)
@@ -85,16 +95,17 @@ def sort_groups(
                     resting[k] = held
             if held:
                 number += 1
-                balls += kind[c] >= 0
-                if body_a[c] >= 0:
-                    touching[body_a[c]] = True
-                if body_b[c] >= 0:
-                    touching[body_b[c]] = True
+                balls += measured or kind[c] >= 0
+                a, b = index_a[g, lane], index_b[g, lane]
+                if a < len(touching):
+                    touching[a] = True
+                if b < len(touching):
+                    touching[b] = True
         if changed:
             asks[g] = asked(r, points[g], rests, rows)
             forget(r, points[g], rests, rows)
         if asks[g] != IDLE and (changed or moved_on):
-            prepare(g, r, points[g], rests, index_a, index_b, rows, packed)
+            prepare(g, r, points[g], rests, of_a, of_b, rows, packed)
     return number, balls
 
 
