@@ -56,6 +56,8 @@ def sort_out_contacts(world: World, dt: float) -> None:
     if not resting.groups:
         return
     flight, motion, body = world[Flight], world[Motion], world[RigidBody]
+    if len(resting.bodies) != world.capacity + 1:  # commands have made the world larger since detection
+        resting.group(world[Contact], body.inverse_mass)
     pack_bodies(
         world.row_numbers(RigidBody), flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
         body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation, resting.bodies,
