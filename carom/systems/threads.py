@@ -19,15 +19,16 @@ FEWEST = 64  # groups of eight below which handing some of them over takes longe
 
 
 class Threads(Resource):
-    """The other threads of a world, made when it first shares a kernel out."""
+    """The other threads of a world, made when it first shares a kernel out among so many."""
 
     def __init__(self) -> None:
         self.pool: ThreadPoolExecutor | None = None
+        self.parts = 1
 
     def run(self, parts: int, task: Callable[[int], Result]) -> list[Result]:
-        """Run ``task`` for each of ``parts`` numbers, all at once."""
-        if self.pool is None:
-            self.pool = ThreadPoolExecutor(parts - 1, thread_name_prefix="carom")
+        """Run ``task`` for each of ``parts`` numbers, all at once: tasks may wait for each other."""
+        if self.pool is None or self.parts != parts:
+            self.pool, self.parts = ThreadPoolExecutor(parts - 1, thread_name_prefix="carom"), parts
         others = [self.pool.submit(copy_context().run, task, part) for part in range(1, parts)]
         return [task(0), *(other.result() for other in others)]
 

@@ -64,18 +64,6 @@ def turned_by(i, tx, ty, tz, inverse_inertia, principal, freedom, rotation):
 
 
 @inlined
-def write_spread(i, inverse_mass, inverse_inertia, principal, freedom, rotation, spread):
-    """Write how body i yields: its inverse mass along x, y and z, then the upper half of I^-1 in the world frame."""
-    for k in range(3):
-        spread[i, k] = inverse_mass[i] * freedom[i, k]
-    spread[i, 3], spread[i, 4], spread[i, 5] = turned_by(
-        i, 1.0, 0.0, 0.0, inverse_inertia, principal, freedom, rotation
-    )
-    _, spread[i, 6], spread[i, 7] = turned_by(i, 0.0, 1.0, 0.0, inverse_inertia, principal, freedom, rotation)
-    _, _, spread[i, 8] = turned_by(i, 0.0, 0.0, 1.0, inverse_inertia, principal, freedom, rotation)
-
-
-@inlined
 def inverse_mass_along(i, nx, ny, nz, inverse_mass, freedom):
     """Return how fast the centre of body i moves along a unit vector by a unit impulse along it."""
     if freedom[i, 0] + freedom[i, 1] + freedom[i, 2] == 3.0:

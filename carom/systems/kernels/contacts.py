@@ -61,10 +61,10 @@ def complete_contacts(
             friction[c], restitution[c] = friction[c - 1], restitution[c - 1]
             rolling[c], spinning[c], kind[c] = rolling[c - 1], spinning[c - 1], -1
             share[c] = (
-                share[c - 1] if is_parallel(c, c - 1, normal) else share_of_a(c, a, b, normal, shape, pose_rotation)
+                share[c - 1] if is_parallel(c, c - 1, normal) else share_of_b(c, a, b, normal, shape, pose_rotation)
             )
             continue
-        share[c] = share_of_a(c, a, b, normal, shape, pose_rotation)
+        share[c] = share_of_b(c, a, b, normal, shape, pose_rotation)
         friction[c] = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)
         restitution[c] = combined(
             material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
@@ -107,7 +107,7 @@ def is_parallel(c, o, normal):
 
 
 @woven
-def share_of_a(c, a, b, normal, shape, pose_rotation):
+def share_of_b(c, a, b, normal, shape, pose_rotation):
     """Return how much the point of contact c goes with b rather than with a, over whose face it glides."""
     share = 0.5
     if is_flat(a, c, normal, shape, pose_rotation):

@@ -58,8 +58,8 @@ def sort_groups(
             lanes[r + of.TOGETHER, lane] = 1.0 if resting[c] else 0.0
             if measured:
                 continue
-            if kind[c] >= 0:
-                moved_on = True
+            moves = kind[c] >= 0
+            if moves:
                 measure_ball(
                     c, center, rotation, kind, ball, other, sign, radius, extent, other_position, other_rotation,
                     normal, depth, point, offset_a, offset_b,
@@ -67,16 +67,12 @@ def sort_groups(
                 for k in range(3):
                     lanes[r + of.NORMAL + k, lane] = normal[c, k]
             if g >= ends[0] and body_a[c] >= 0 and body_b[c] >= 0:
-                time = h if bends and kind[c] >= 0 else 0.5 * h
+                time = h if bends and moves else 0.5 * h
                 for k in range(c, c + size[g, lane]):
-                    moved_on |= follow_turning(
-                        k, body_a[c], body_b[c], time, bodies, normal, center, offset_a, offset_b
-                    )
-            if moved_on:
-                for k in range(size[g, lane]):
-                    write_point(
-                        r + MANIFOLD_ROWS + POINT_ROWS * k, lane, c + k, offset_a, offset_b, depth, lanes
-                    )  # fmt: skip
+                    moves |= follow_turning(k, body_a[c], body_b[c], time, bodies, normal, center, offset_a, offset_b)
+            for k in range(size[g, lane] if moves else 0):
+                write_point(r + MANIFOLD_ROWS + POINT_ROWS * k, lane, c + k, offset_a, offset_b, depth, lanes)
+            moved_on |= moves
         if moved_on:
             find_tangents(r, rows)
         if changed or moved_on:
