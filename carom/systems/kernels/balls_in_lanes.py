@@ -7,9 +7,9 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import BALL
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS
 from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lane_vectors import TINY, dot, keep
 from carom.systems.kernels.lanes import WIDTH, choose, gather, larger, load, root, spread, store
 from carom.systems.kernels.packing import CENTER
-from carom.systems.kernels.resting import TINY, dot, keep
 
 
 @woven

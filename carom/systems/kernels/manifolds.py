@@ -7,9 +7,9 @@ from carom.systems.constants import IMMOVABLE, MANIFOLD_POINTS, SAME_NORMAL, SIN
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lane_vectors import TINY, about, crossed, dot, keep, three
 from carom.systems.kernels.lanes import choose, gather, larger, load, root, spread, store
 from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT
-from carom.systems.kernels.resting import TINY, about, dot, keep, three
 
 
 @kernel("start")
@@ -27,12 +27,6 @@ def find_manifolds(count, row_a, row_b, normal, start):
         number += 1
     start[number] = count
     return number
-
-
-@woven
-def crossed(a, b):
-    """Return a x b."""
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 @woven

@@ -8,6 +8,7 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.gate import wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lane_vectors import TINY, about, dot, keep, three
 from carom.systems.kernels.lanes import (
     address,
     choose,
@@ -30,37 +31,6 @@ IDLE, RESTING, RUBBING, TWISTING, ROLLING = (
     3,
     4,
 )  # what the manifolds of a group ask for, each more than before
-TINY = 1e-300  # keeps lanes that have nothing to divide free of NaN
-
-
-@woven
-def three(lanes, row):
-    """Return three rows."""
-    return load(lanes, row), load(lanes, row + 1), load(lanes, row + 2)
-
-
-@woven
-def keep(lanes, row, x, y, z):
-    """Write three rows."""
-    store(lanes, row, x)
-    store(lanes, row + 1, y)
-    store(lanes, row + 2, z)
-
-
-@woven
-def dot(a, b):
-    """Return a . b."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-@woven
-def about(inertia, x, y, z):
-    """Return I^-1 v; ``inertia`` begins with the upper half of I^-1."""
-    return (
-        inertia[0] * x + inertia[1] * y + inertia[2] * z,
-        inertia[1] * x + inertia[3] * y + inertia[4] * z,
-        inertia[2] * x + inertia[4] * y + inertia[5] * z,
-    )
 
 
 @woven

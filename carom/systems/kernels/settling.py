@@ -6,10 +6,9 @@ from __future__ import annotations
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.lane_vectors import crossed, dot, three
 from carom.systems.kernels.lanes import WIDTH, address, gather, load, store
-from carom.systems.kernels.manifolds import crossed
 from carom.systems.kernels.packing import WAY
-from carom.systems.kernels.resting import dot, three
 from carom.systems.kernels.spatial import turn
 
 

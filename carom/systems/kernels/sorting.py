@@ -16,10 +16,11 @@ from carom.systems.kernels.balls_in_lanes import (
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, write_point
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.kinematic import follow_turning
+from carom.systems.kernels.lane_vectors import crossed, dot, keep, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, root, smaller, some, spread, store
-from carom.systems.kernels.manifolds import crossed, prepare
+from carom.systems.kernels.manifolds import prepare
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
-from carom.systems.kernels.resting import IDLE, RESTING, ROLLING, RUBBING, TWISTING, dot, keep, three
+from carom.systems.kernels.resting import IDLE, RESTING, ROLLING, RUBBING, TWISTING
 
 
 @kernel("fresh", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b", "resting", "touching")

@@ -1,0 +1,46 @@
+"""Vectors of lanes: three rows of a group, and what can be done with them."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lanes import load, store
+from carom.systems.kernels.spatial import cross
+
+TINY = 1e-300  # keeps lanes that have nothing to divide free of NaN
+
+
+@woven
+def three(lanes, row):
+    """Return three rows."""
+    return load(lanes, row), load(lanes, row + 1), load(lanes, row + 2)
+
+
+@woven
+def keep(lanes, row, x, y, z):
+    """Write three rows."""
+    store(lanes, row, x)
+    store(lanes, row + 1, y)
+    store(lanes, row + 2, z)
+
+
+@woven
+def dot(a, b):
+    """Return a . b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@woven
+def about(inertia, x, y, z):
+    """Return I^-1 v; ``inertia`` begins with the upper half of I^-1."""
+    return (
+        inertia[0] * x + inertia[1] * y + inertia[2] * z,
+        inertia[1] * x + inertia[3] * y + inertia[4] * z,
+        inertia[2] * x + inertia[4] * y + inertia[5] * z,
+    )
+
+
+@woven
+def crossed(a, b):
+    """Return a x b."""
+    return cross(a[0], a[1], a[2], b[0], b[1], b[2])
