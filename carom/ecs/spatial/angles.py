@@ -12,18 +12,7 @@ import numpy.typing as npt
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial.checks import refuse
-from carom.ecs.spatial.trigonometry import (
-    COSINE_10,
-    COSINE_12,
-    COSINE_14,
-    COSINE_16,
-    QUARTER_TURN,
-    QUARTER_TURN_REST,
-    SINE_11,
-    SINE_13,
-    SINE_15,
-    sine_cosine,
-)
+from carom.ecs.spatial.trigonometry import QUARTER_TURN, QUARTER_TURN_REST, series, sine_cosine
 
 LARGEST_ANGLE = 1e9  # rad; above it the reduced angle holds no digit worth having
 PI_REST = 1.2246467991473532e-16  # pi beyond float64
@@ -70,15 +59,7 @@ def sines_cosines(angle: npt.ArrayLike) -> tuple[Floats, Floats]:
         return np.asarray(one_sine), np.asarray(one_cosine)
     turns = np.floor(angle / QUARTER_TURN + 0.5)
     x = (angle - turns * QUARTER_TURN) - turns * QUARTER_TURN_REST
-    z = x * x
-    s = -1.0 / 6 + z * (
-        1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (SINE_11 + z * (SINE_13 + z * SINE_15))))
-    )
-    s = x + x * z * s
-    c = 1.0 / 24 + z * (
-        -1.0 / 720 + z * (1.0 / 40320 + z * (COSINE_10 + z * (COSINE_12 + z * (COSINE_14 + z * COSINE_16))))
-    )
-    c = 1.0 - (0.5 * z - z * z * c)
+    s, c = series(x)
     quadrant = turns - 4.0 * np.floor(turns / 4.0)
     odd, half = (quadrant == 1.0) | (quadrant == 3.0), quadrant >= 2.0
     sine, cosine = np.where(odd, c, s), np.where(odd, -s, c)

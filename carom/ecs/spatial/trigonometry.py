@@ -4,6 +4,12 @@ libm and NumPy choose other code by CPU. These are plain functions; kernels comp
 """
 
 import math
+from typing import TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+Real = TypeVar("Real", float, npt.NDArray[np.float64])
 
 QUARTER_TURN = 1.5707963267341256  # pi/2 to 33 bits, so that small multiples of it are exact
 QUARTER_TURN_REST = 6.077100506506192e-11
@@ -15,14 +21,11 @@ LN2_REST = 1.9082149292705877e-10
 LARGEST_EXPONENT = 700.0  # e^700 is near the largest float64
 
 
-def sine_cosine(angle: float) -> tuple[float, float]:
-    """Return sin and cos of ``angle`` (rad) for |angle| < 1e6 within 2 units in the last place, next to zeros of 1e-3.
+def series(x: Real) -> tuple[Real, Real]:
+    """Return sin and cos of ``x`` (rad) in [-pi/4, pi/4] by Taylor's series to the term below 1e-17.
 
-    Cody and Waite's reduction to [-pi/4, pi/4], then Taylor's series to the term below 1e-17 (Cody and Waite, Software
-    Manual for the Elementary Functions, 1980, chapter 8).
+    Of one angle, of an array of them, or of a lane.
     """
-    turns = math.floor(angle / QUARTER_TURN + 0.5)
-    x = (angle - turns * QUARTER_TURN) - turns * QUARTER_TURN_REST
     z = x * x
     s = -1.0 / 6 + z * (
         1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 + z * (SINE_11 + z * (SINE_13 + z * SINE_15))))
@@ -32,6 +35,17 @@ def sine_cosine(angle: float) -> tuple[float, float]:
         -1.0 / 720 + z * (1.0 / 40320 + z * (COSINE_10 + z * (COSINE_12 + z * (COSINE_14 + z * COSINE_16))))
     )
     c = 1.0 - (0.5 * z - z * z * c)
+    return s, c
+
+
+def sine_cosine(angle: float) -> tuple[float, float]:
+    """Return sin and cos of ``angle`` (rad) for |angle| < 1e6 within 2 units in the last place, next to zeros of 1e-3.
+
+    Cody and Waite's reduction to [-pi/4, pi/4] (Software Manual for the Elementary Functions, 1980, chapter 8).
+    """
+    turns = math.floor(angle / QUARTER_TURN + 0.5)
+    x = (angle - turns * QUARTER_TURN) - turns * QUARTER_TURN_REST
+    s, c = series(x)
     quadrant = turns - 4.0 * math.floor(turns / 4.0)
     if quadrant == 0.0:
         return s, c

@@ -5,22 +5,12 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
-from carom.ecs.spatial.trigonometry import (
-    COSINE_10,
-    COSINE_12,
-    COSINE_14,
-    COSINE_16,
-    QUARTER_TURN,
-    QUARTER_TURN_REST,
-    SINE_11,
-    SINE_13,
-    SINE_15,
-)
+from carom.ecs.spatial.trigonometry import QUARTER_TURN, QUARTER_TURN_REST
 from carom.systems.constants import SMALL_ANGLE
 from carom.systems.kernels.bodies import advance_body
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lanes import WIDTH, address, choose, load, root, some, spread, store, whole
-from carom.systems.kernels.spatial import product, turn
+from carom.systems.kernels.spatial import product, series, turn
 
 # Rows of the scratch, a lane each body: the time to go, and what moves in it; then what stays.
 TIME, CENTER, LINEAR, ANGULAR, TURNED, ROTATION = 0, 1, 4, 7, 10, 13
@@ -162,13 +152,7 @@ def sine_cosine_in_lanes(angle):
     """Return what `sine_cosine` does."""
     turns = whole(angle / QUARTER_TURN + 0.5)
     x = (angle - turns * QUARTER_TURN) - turns * QUARTER_TURN_REST
-    z = x * x
-    s = SINE_11 + z * (SINE_13 + z * SINE_15)
-    s = -1.0 / 6 + z * (1.0 / 120 + z * (-1.0 / 5040 + z * (1.0 / 362880 + z * s)))
-    s = x + x * z * s
-    c = COSINE_10 + z * (COSINE_12 + z * (COSINE_14 + z * COSINE_16))
-    c = 1.0 / 24 + z * (-1.0 / 720 + z * (1.0 / 40320 + z * c))
-    c = 1.0 - (0.5 * z - z * z * c)
+    s, c = series(x)
     quadrant = turns - 4.0 * whole(turns / 4.0)
     odd, second = quadrant - 2.0 * whole(quadrant / 2.0), quadrant - 1.5
     sine, cosine = choose(odd, c, s), choose(odd, -s, c)

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 import numba
@@ -75,6 +76,11 @@ def inlined(function: Callable[..., Any]) -> Any:
 def woven(function: Callable[..., Any]) -> Any:
     """Compile a function into each of its callers, where handing over its arrays would cost more than a tenth of it."""
     return compiled(function, no_cpython_wrapper=True, forceinline=True)
+
+
+def calling(function: Callable[..., Any], **compiled_ones: Any) -> Callable[..., Any]:
+    """Return a plain function as one that calls compiled functions in the place of plain ones of these names."""
+    return FunctionType(function.__code__, vars(sys.modules[function.__module__]) | compiled_ones)
 
 
 class Kernel:

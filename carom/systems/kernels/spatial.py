@@ -6,9 +6,10 @@ from math import sqrt
 
 from carom.ecs.spatial import scalars, trigonometry
 from carom.systems.constants import SMALL_ANGLE
-from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.kernel import calling, inlined
 
-sine_cosine = inlined(trigonometry.sine_cosine)
+series = inlined(trigonometry.series)
+sine_cosine = inlined(calling(trigonometry.sine_cosine, series=series))
 exponential = inlined(trigonometry.exponential)
 cross = inlined(scalars.cross)
 turn = inlined(scalars.turn)
