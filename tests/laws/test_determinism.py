@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -141,13 +142,16 @@ def crowd(threads: int) -> list[str]:
     for _ in range(20):
         simulation.step()
         found.append(state_hash(simulation.world))
+        if threads == 4 and simulation.frame == 10:  # a world may ask for more of them at any time
+            simulation.settings = replace(simulation.settings, threads=5)
+            simulation.world.add(simulation.settings)
     assert simulation.world[Resting].groups >= FEWEST
     return found
 
 
 def test_threads_share_the_work_and_not_a_bit_changes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One, two and four threads lead a crowd the same way, whatever this machine has."""
-    monkeypatch.setattr("carom.systems.threads.processors", lambda: 4)
+    """One, two and four threads, and five from the tenth step on, lead a crowd the same way, whatever is here."""
+    monkeypatch.setattr("carom.systems.threads.processors", lambda: 8)
     alone = crowd(1)
     assert crowd(2) == alone
     assert crowd(4) == alone
