@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
+from functools import cache
 from typing import TypeVar
 
 import numba
@@ -33,6 +34,7 @@ class Threads(Resource):
         return [task(0), *(other.result() for other in others)]
 
 
+@cache  # to ask takes longer than most kernels
 def processors() -> int:
     """Return how many processors there are: threads that wait for each other on one of them would only wait."""
     return os.cpu_count() or 1
