@@ -14,7 +14,7 @@ from carom.tools.bench.overlap import lost
 def test_a_pile_of_a_thousand_boxes_comes_to_rest() -> None:
     """After 15 s none is as fast as 1 mm/s, no overlap is deeper than 2 cm, and none is lost."""
     scene = box_pile(1000)
-    engine = Carom(scene)
+    engine = Carom(scene, 1)
     for _ in range(900):
         engine.step()
     world = engine.simulation.world
@@ -31,7 +31,7 @@ def test_a_pile_of_a_thousand_balls_calms_down() -> None:
     17 cm/s and lie up to 27 cm in each other.
     """
     scene = sphere_pile(1000)
-    engine = Carom(scene)
+    engine = Carom(scene, 1)
     world, deepest = engine.simulation.world, 0.0
     for _ in range(180):
         engine.step()

@@ -84,7 +84,7 @@ def test_carom_is_given_the_scene() -> None:
     """Balls and boxes where, how and as fast as told; they fall along z by the parabola, and weigh by their volume."""
     scene = contact_scenes.free_flight(10)
     scene.ball[::2], scene.half[::2] = True, 0.2
-    engine = Carom(scene)
+    engine = Carom(scene, 1)
     position, rotation = engine.poses()
     assert np.array_equal(position, scene.position)
     assert rotation == pytest.approx(scene.rotation, abs=1e-15)
@@ -145,6 +145,6 @@ def test_a_lost_body_fails_the_bench() -> None:
     """The bound is none."""
     made = at_rest(1, np.array([[0.0, 0.0, -3.0]]), 0.5)
     made.walls = bin_walls(10.0, 5.0)
-    (figure,) = quality("one", Row(lambda: made, 1.0), made, Carom(made), bounded=True)
+    (figure,) = quality("one", Row(lambda: made, 1.0), made, Carom(made, 1), bounded=True)
     assert not figure.holds
     assert str(figure).split() == ["FAILS", "one,", "lost", "1", "bodies", "at", "most", "0", "bodies"]

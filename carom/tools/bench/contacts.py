@@ -1,4 +1,4 @@
-"""Contacts: whole scenes against other engines, in turns on one thread, with what they got beside what they took."""
+"""Contacts: whole scenes against other engines, in turns, with what they got beside what they took."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import numpy as np
 from carom.tools.bench import contact_scenes as scenes
 from carom.tools.bench.contact_scenes import Scene
 from carom.tools.bench.engines import ENGINES, Engine
-from carom.tools.bench.measure import Figure, Timing, figure, timed, timed_process
+from carom.tools.bench.measure import By, Figure, Timing, figure, timed, timed_process
 from carom.tools.bench.overlap import lost, mean_overlap
 
 PEERS, OURS = ("rapier3d",), "carom"
@@ -34,12 +34,16 @@ simulation.step()
 
 @dataclass(frozen=True)
 class Row:
-    """A scene and its bounds: CPU time by rapier3d's, mean overlap, and how far a body may stray from its start."""
+    """A scene and its bounds: time by rapier3d's, mean overlap, and how far a body may stray from its start.
+
+    Time is that of the processor, of more threads than one that on the wall.
+    """
 
     scene: Callable[[], Scene]
     ratio: float
     overlap: float = inf  # m
     drift: float = inf  # m
+    threads: int = 1
 
 
 ROWS = {
@@ -50,6 +54,8 @@ ROWS = {
     "pyramid_40": Row(partial(scenes.pyramid, 40), 1.0, drift=0.12),
     "terrain_500": Row(partial(scenes.terrain, 500), 1.5),
     "free_flight_10000": Row(partial(scenes.free_flight, 10_000), 0.12),
+    "sphere_pile_10000_two_threads": Row(partial(scenes.sphere_pile, 10_000), 1.0, overlap=0.006, threads=2),
+    "box_pile_4000_two_threads": Row(partial(scenes.box_pile, 4000), 1.4, overlap=0.002, threads=2),
 }
 
 
@@ -62,14 +68,17 @@ def figures() -> Iterator[Figure]:
 def compare(name: str) -> Iterator[Figure]:
     """Step a scene by all engines that are installed, and tell what each took and what became of the bodies."""
     row, scene = ROWS[name], ROWS[name].scene()
-    found = {engine: make(scene) for engine, make in ENGINES.items() if engine == OURS or find_spec(engine)}
+    there = {engine: make for engine, make in ENGINES.items() if engine == OURS or find_spec(engine)}
+    found = {engine: make(scene, row.threads) for engine, make in there.items()}
     taken = dict(zip(found, stepped(list(found.values()), scene.steps), strict=True))
     ours = taken[OURS]
     for engine, theirs in taken.items():
         yield figure(f"{name}, {engine}", "ms a step", theirs, inf, 1e3)
         if engine != OURS:
-            ratio = Timing(ours.wall / theirs.wall, ours.cpu / theirs.cpu, ours.repeats)
-            yield figure(f"{name}, {OURS} by {engine}", "x", ratio, row.ratio if engine in PEERS else inf)
+            wall, cpu = ours.wall / theirs.wall, ours.cpu / theirs.cpu
+            bound = row.ratio if engine in PEERS else inf
+            by: By = "cpu" if row.threads == 1 else "wall"
+            yield Figure(f"{name}, {OURS} by {engine}", "x", wall, cpu, bound, by, repeats=ours.repeats)
     for engine, stood in found.items():
         yield from quality(f"{name}, {engine}", row, scene, stood, bounded=engine == OURS)
 
@@ -103,7 +112,7 @@ def read_poses() -> Iterator[Figure]:
     """Time copying the poses of all bodies out of a world, and out of the peers."""
     scene = scenes.free_flight(READ)
     for name in (OURS, *PEERS):
-        engine = ENGINES[name](scene)
+        engine = ENGINES[name](scene, 1)
         engine.step()
         bound = 0.05 if name == OURS else inf
         yield figure(f"reading {READ:,} poses, {name}", "ms", timed(engine.poses, READS), bound, 1e3)

@@ -20,7 +20,7 @@ UPRIGHT = (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5))  # turns local y, along which l
 
 
 class Engine(Protocol):
-    """What steps a scene, on one thread and without putting bodies to sleep."""
+    """What steps a scene, without putting bodies to sleep."""
 
     def step(self) -> None:
         """Step by dt."""
@@ -32,8 +32,9 @@ class Engine(Protocol):
 class Carom:
     """Ours."""
 
-    def __init__(self, scene: Scene) -> None:
-        self.simulation = simulation = Simulation(dt=DT, gravity=(0.0, 0.0, -GRAVITY), checked=False)
+    def __init__(self, scene: Scene, threads: int) -> None:
+        gravity = (0.0, 0.0, -GRAVITY)
+        self.simulation = simulation = Simulation(dt=DT, gravity=gravity, threads=threads, checked=False)
         for center, half in scene.walls:
             simulation.add(collider={"box": {"size": 2.0 * half}}, material=ROUGH, transform={"position": center})
         if scene.land is not None:
@@ -65,12 +66,12 @@ class Carom:
 class Rapier:
     """Rapier, through its own Python package; in single precision."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, threads: int) -> None:
         import rapier3d
 
         self.world = rapier3d.PhysicsWorld(gravity=(0.0, 0.0, -GRAVITY))
         self.world.integration_parameters.dt = DT
-        self.world.set_num_threads(1)
+        self.world.set_num_threads(threads)
         shape, rough = rapier3d.Collider, {"friction": FRICTION, "restitution": 0.0}
         for center, half in scene.walls:
             self.world.add_collider(shape.cuboid(*half.tolist(), translation=tuple(center.tolist()), **rough))
@@ -113,4 +114,5 @@ def rotation_vector(rotation: Floats) -> Floats:
     return vector
 
 
-ENGINES: dict[str, Callable[[Scene], Engine]] = {"carom": Carom, "rapier3d": Rapier}  # peers by the module they need
+#: By the module that each needs.
+ENGINES: dict[str, Callable[[Scene, int], Engine]] = {"carom": Carom, "rapier3d": Rapier}

@@ -16,6 +16,8 @@ from typing import Literal
 from carom.ecs.errors import CaromError
 from carom.tools.bench import BENCHES
 
+By = Literal["wall", "cpu", "value"]
+
 
 class PeerMissingError(CaromError):
     """A bench compares with a library that is not installed."""
@@ -42,7 +44,7 @@ class Figure:
     wall: float
     cpu: float
     bound: float
-    by: Literal["wall", "cpu", "value"] = "wall"
+    by: By = "wall"
     at_least: bool = False
     repeats: int = 1
 
