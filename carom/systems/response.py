@@ -132,7 +132,8 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
         contact.offset_a, contact.offset_b, contact.share, contact.kind, contact.ball, contact.other,
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
-        contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, events,
+        contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, manifolds.closing(world, at, h),
+        events,
     )  # fmt: skip
     rows = world.row_numbers(RigidBody)
     share_out(

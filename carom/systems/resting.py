@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Floats
+from carom.ecs.column import Booleans, Floats
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, RELAX_SWEEPS, RIGID_RATE
+from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
 from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.lanes import WIDTH, aligned
@@ -99,6 +100,21 @@ class Resting(Resource):
         )  # fmt: skip
         self._solve(world, 1, h, *yielding(h))
         unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
+
+    def closing(self, world: World, at: float, h: float) -> Booleans:
+        """Tell which manifolds, by their first contacts, may strike; all of them in the middle of a substep."""
+        closing = np.ones(len(self.start), np.bool_)
+        if at == 0.0 and self.groups:
+            motion = world[Motion]
+            pack_velocities(world.row_numbers(RigidBody), motion.linear, motion.angular, self.bodies)
+            share_out(
+                world, self.groups,
+                lambda begin, end: find_closing(
+                    begin, end, h, self.index_a, self.index_b, self.first, self.points, self.row,
+                    self.lanes, self.bodies, closing,
+                ),
+            )  # fmt: skip
+        return closing
 
     def sink(self, world: World) -> None:
         """Find how deep contacts have come to be."""

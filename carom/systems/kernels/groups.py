@@ -20,9 +20,10 @@ NORMAL, TANGENT, FRICTION, RESTITUTION, ROLLING, SPINNING, BALL, SHARE = 0, 3, 9
 RUB, SPUN, ROLLED, RUBBED, SURFACE, RADIUS_A, RADIUS_B, RESTS, TOGETHER, FILLED = 15, 17, 18, 21, 24, 27, 28, 29, 30, 31
 # Then what follows from where the bodies are: inverse masses along the axes, the middle of the points from both bodies,
 # how a unit impulse there along the tangents, and a twist about the normal, turn either body; the inverse of the
-# inverse mass along the tangents (a symmetric 2 x 2), the inertia about the normal, and about any axis across it.
+# inverse mass along the tangents (a symmetric 2 x 2), the inertia about the normal, and about any axis across it; at
+# last 1 where a point may close within the substep.
 MASS_A, MASS_B, MIDDLE_A, MIDDLE_B, TURN_T_A, TURN_U_A, TURN_T_B, TURN_U_B = 31, 34, 37, 40, 43, 46, 49, 52
-TURN_N_A, TURN_N_B, GIVE, SPIN, ROLL, MANIFOLD_ROWS = 55, 58, 61, 64, 65, 66
+TURN_N_A, TURN_N_B, GIVE, SPIN, ROLL, CLOSES, MANIFOLD_ROWS = 55, 58, 61, 64, 65, 66, 67
 
 # Rows of each point, after those of the manifold: where it is from both bodies, depth, normal impulse and its sum over
 # the step; then its levers (r x n), how a unit impulse turns either body, the mass along the normal, and how far it is

@@ -30,17 +30,17 @@ def fly(
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
     count, beginning, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
-    surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, events,
+    surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, events,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts.
 
     Returns (time reached, reason, events, cut, impacts logged, pair of each, log). Pairs are the ``count`` manifolds
     that begin at rows of the contact table: those of ``kind`` >= 0 are of a ball on an exact arc (`strike`), the others
-    strike with all their points at once (`blow`). Where a body comes to move faster than its detection foresaw, the
-    flight goes on for as long as none can have left its reach; the caller brings all bodies to the time reached,
-    detects anew and calls again. What the substep has counted so far goes on: ``events``, and for each pair ``strikes``
-    and ``plastic``, else detection in the middle would renew the patience with endless rows of impacts. ``cut`` counts
-    impacts beyond the cap, which are let pass.
+    strike with all their points at once (`blow`), and as bodies move at first only where they are ``closing``.
+    Where a body comes to move faster than its detection foresaw, the flight goes on for as long as none can have left
+    its reach; the caller brings all bodies to the time reached, detects anew and calls again. What the substep has
+    counted so far goes on: ``events``, and for each pair ``strikes`` and ``plastic``, else to detect in the middle
+    would renew the patience with endless rows of impacts. ``cut`` counts impacts beyond the cap, which are let pass.
     """
     pairs, ends = np.empty(count, np.int64), np.empty(count, np.int64)
     taken, near = 0, 0
@@ -77,9 +77,11 @@ def fly(
         leaves *= 2
     soonest = np.full(2 * leaves, NEVER)
     seek = np.empty(2 * len(pairs) + 2, np.int64)
-    seek_count = len(pairs)
-    for m in range(seek_count):
-        seek[m] = m
+    seek_count = 0
+    for m in range(len(pairs)):
+        if kind[pairs[m]] >= 0 or closing[pairs[m]]:
+            seek[seek_count] = m
+            seek_count += 1
     # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
     log, log_pair, log_count = np.empty((64, WIDTH)), np.empty(64, np.int64), 0
     now, end, cut = start, h, 0

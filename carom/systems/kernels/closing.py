@@ -1,0 +1,43 @@
+"""Closing: which manifolds may strike within the substep, so that the flight need not ask those that cannot."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.constants import ROOT_GAP
+from carom.systems.kernels import groups as of
+from carom.systems.kernels.balls_in_lanes import are_balls
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
+from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.lane_vectors import crossed, dot, three
+from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, some, spread, store
+from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
+
+
+@kernel("lanes", "closing")
+def find_closing(begin, end, h, index_a, index_b, first, points, row, lanes, bodies, closing):
+    """Tell for the first contact of each manifold that does not rest whether a point may close within ``h`` seconds.
+
+    What `foresee_blow` finds is among them: forces count in full where they press. Groups of balls alone are left out.
+    """
+    rows, packed, of_a, of_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    one, none = spread(1.0), spread(0.0)
+    for g in range(begin, end):
+        r = row[g]
+        free = choose(load(rows, r + of.SHARE), one - load(rows, r + of.RESTS), none)
+        if are_balls(r, lanes) or not some(free):
+            continue
+        a, b = gather(packed, of_a, g, VELOCITY), gather(packed, of_b, g, VELOCITY)
+        felt_a, felt_b = gather(packed, of_a, g, MASS_AND_FELT)[3:6], gather(packed, of_b, g, MASS_AND_FELT)[3:6]
+        n = three(rows, r + of.NORMAL)
+        way = dot(n, (a[0] - b[0], a[1] - b[1], a[2] - b[2])) * h
+        way = way + (larger(none, dot(n, felt_a)) + larger(none, -dot(n, felt_b))) * (0.5 * h * h)
+        closes = none
+        for p in range(points[g]):
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
+            lever_a, lever_b = crossed(three(rows, q + of.OFFSET_A), n), crossed(three(rows, q + of.OFFSET_B), n)
+            turning = (dot(lever_a, a[4:7]) - dot(lever_b, b[4:7])) * h
+            closes = choose(way + turning + load(rows, q + of.DEPTH) + ROOT_GAP, one, closes)
+        store(rows, r + of.CLOSES, closes)
+        for lane in range(WIDTH):
+            if first[g, lane] >= 0:
+                closing[first[g, lane]] = lanes[r + of.CLOSES, lane] > 0.0
