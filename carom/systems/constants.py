@@ -303,3 +303,15 @@ IMMOVABLE = 1e-6
 # whatever locked axes are there. Larger: friction of needles is solved along one direction. Smaller than rounding: what
 # no impulse can stop asks for any.
 SINGULAR = 1e-13
+
+# m. How far from a sensor who is inside must come to be out, and how deep a trip in or out must be to be seen. Larger:
+# sensors overlook who grazes them, and who leaves one slowly does so late. Smaller than what landing bodies tremble by:
+# who comes to lie at the border of a sensor goes in and out.
+SENSED = 1e-5
+
+# s, m. How near the time of a crossing is found, or the gap there. Larger: times are less exact; smaller: rounding.
+CROSSED, CROSSING_GAP = 1e-12, 1e-13
+
+# Times within a substep at which a pair is measured in the search for a trip into a sensor and back; 6 are usual.
+# Fewer: more trips past its edges are overlooked; more: what glides along a mesh that is a sensor takes longer.
+MOST_PROBES = 64

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from carom.ecs import World, system
 from carom.ecs.component import Resource
-from carom.ecs.relations.enter import Enter
+from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
 from carom.systems.settings import Settings
 
@@ -19,13 +19,14 @@ class Progress(Resource):
     balls_resting: int = 0
 
 
-@system(reads=(Settings,), writes=(Progress, Impact, Enter))
+@system(reads=(Settings,), writes=(Progress, Impact, Enter, Exit))
 def begin_step(world: World, dt: float) -> None:
     """Forget the events of the step before and set the clock."""
     progress = world[Progress]
     progress.substep = 0
     world.resize(Impact, 0)
     world.resize(Enter, 0)
+    world.resize(Exit, 0)
 
 
 @system(reads=(Settings,), writes=(Progress,))

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
-from carom.ecs.commands import Commands
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
-from carom.ecs.relations.enter import Enter, Inside
 from carom.ecs.relations.impact import Impact
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.broad import BroadPhase
@@ -14,6 +12,7 @@ from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
+from carom.systems.detection.sensors import Sensing
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly
@@ -32,8 +31,8 @@ from carom.systems.threads import Threads, share_out
 @system(
     reads=(RigidBody, Motion, Collider, Material, Parent, Settings, Geometries, Progress),
     writes=(
-        Transform, Flight, Contact, ColliderPose, Enter, Inside, Answered, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Commands, Resting,
+        Transform, Flight, Contact, ColliderPose, Answered, BroadPhase, FclObjects, PackedHulls, PackedMeshes,
+        Resting, Sensing,
     ),
 )  # fmt: skip
 def look_ahead(world: World, dt: float) -> None:
@@ -97,8 +96,8 @@ def hand_impulses_over(world: World, dt: float) -> None:
 @system(
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads),
     writes=(
-        Transform, Motion, Flight, Contact, Impact, ColliderPose, Enter, Inside, Answered, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Commands, Resting,
+        Transform, Motion, Flight, Contact, Impact, ColliderPose, Answered, BroadPhase, FclObjects, PackedHulls,
+        PackedMeshes, Resting, Sensing,
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:

@@ -33,6 +33,7 @@ from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
+from carom.systems.detection.sensors import Sensing
 from carom.systems.finish import find_not_finite
 from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
@@ -67,7 +68,7 @@ class Simulation:
         self.clock = Clock()
         self._earlier = EarlierPoses()
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
-        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes(), Resting(), Threads())
+        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes(), Resting(), Sensing(), Threads())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 

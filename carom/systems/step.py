@@ -17,6 +17,7 @@ from carom.systems.integration import clear_forces, kick, predict, sum_forces
 from carom.systems.keyframes import follow_keyframes
 from carom.systems.progress import begin_step, begin_substep
 from carom.systems.response import drift, hand_impulses_over, hold, look_ahead, relax, settle, sort_out_contacts
+from carom.systems.sensors import sense
 from carom.systems.settings import Settings
 
 
@@ -31,7 +32,7 @@ STEP = Schedule(
         begin_step,
         follow_keyframes,  # velocities of bodies on keyframes, for the whole step
         place_colliders,  # poses and bounds of all colliders, widened by what they may travel
-        find_contacts,  # the contact table, and who entered a sensor
+        find_contacts,  # the contact table, and who may meet a sensor
     ),
     Phase(
         "substep",
@@ -51,6 +52,7 @@ STEP = Schedule(
         kick,  # each body's arc
         hold,  # velocities that respect resting contacts
         drift,  # the flight along the arcs, with impacts at their exact times
+        sense,  # who entered and left sensors on the way
         settle,  # origins placed, and how deep contacts have come to be
         relax,  # velocities without what pushed overlap out
         repeat=substeps,

@@ -12,7 +12,7 @@ from carom.ecs import Collider, World
 from carom.ecs.column import Floats
 from carom.ecs.component import Relation
 from carom.ecs.errors import did_you_mean
-from carom.ecs.relations.enter import Enter
+from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import WordError, shown
@@ -21,7 +21,11 @@ from carom.worlds.names import matching
 from carom.worlds.terms import Term, read_term
 from carom.worlds.units import VALUE, read_quantity
 
-PARTIES: dict[type[Relation], tuple[str, str]] = {Impact: ("a", "b"), Enter: ("sensor", "entity")}
+PARTIES: dict[type[Relation], tuple[str, str]] = {
+    Impact: ("a", "b"),
+    Enter: ("sensor", "entity"),
+    Exit: ("sensor", "entity"),
+}
 
 
 @dataclass(frozen=True)
@@ -84,10 +88,10 @@ class Event:
 
 
 def read_event(words: Any, world: World) -> Event:
-    """Return the event of ``{impact: [a, b], nth}`` or ``{enter: [sensor, entity], nth}``; raise WordError."""
-    kind, pair = (Impact, words.impact) if words.impact is not None else (Enter, words.enter)
+    """Return the event of ``{impact: [a, b], nth}``, or of ``enter`` or ``exit: [sensor, entity]``; raise WordError."""
+    ((kind, pair),) = ((kind, pair) for kind in PARTIES if (pair := getattr(words, kind.key)) is not None)
     groups = [frozenset(int(world.find(name)) for name in matching(pattern, world.names())) for pattern in pair]
-    if kind is Enter:
+    if kind is not Impact:
         plain = [world.name(entity) for entity in groups[0] if not world[Collider].sensor[world.row(entity)]]
         if plain:
             raise WordError("is no sensor", received=repr(plain[0]), accepted="a collider with sensor: true")

@@ -106,14 +106,16 @@ class When(Words):
 
     impact: tuple[str, str] | None = Field(None, description="two colliders that strike each other")
     enter: tuple[str, str] | None = Field(None, description="a sensor and who enters it")
+    exit: tuple[str, str] | None = Field(None, description="a sensor and who leaves it")
     nth: Count = Field(1, description="which of these events, from 1")
 
     @model_validator(mode="after")
     def check(self) -> When:
-        """Refuse both events and neither."""
-        if (self.impact is None) is (self.enter is None):
-            received = "both" if self.impact else "none"
-            raise WordError("must state one event", received=received, accepted="impact or enter")
+        """Refuse several events and none."""
+        events = [key for key in ("impact", "enter", "exit") if getattr(self, key) is not None]
+        if len(events) != 1:
+            received = " and ".join(events) or "none"
+            raise WordError("must state one event", received=received, accepted="impact, enter or exit")
         return self
 
 

@@ -219,6 +219,10 @@ expect:
             "when: unknown entity; received 'flor'; accepted: ball, floor; did you mean 'floor'?",
         ),
         (
+            "{when: {impact: [ball, floor], exit: [floor, ball]}, time: {is: 1, within: 1}}",
+            "when: must state one event; received impact and exit; accepted: impact, enter or exit",
+        ),
+        (
             "{when: {enter: [floor, ball]}, time: {is: 1, within: 1}}",
             "when: is no sensor; received 'floor'; accepted: a collider with sensor: true",
         ),

@@ -64,7 +64,8 @@ def outcomes(expectation: str, world: str = WORLD) -> list[Outcome]:
         "{at: 1 s, ball.position.y: {is: 1.3, within: 5 %}}",
         "{when: {impact: [ball, floor]}, time: {is: 0.5, within: 1e-6}, point: {is: [0, 0, 0], within: 1 um}}",
         "{when: {impact: [floor, ball], nth: 1}, speed: {is: 4.905, within: 1e-6}, impulse: {is: 19.62, within: 1e-5}}",
-        "{when: {enter: [gate, ball]}, time: {is: 0.37, within: 0.02}, ball.position.y: {is: 0.6, within: 0.1}}",
+        "{when: {enter: [gate, ball]}, time: {is: 0.371308, within: 1e-6}, ball.position.y: {is: 0.6, within: 0.1}}",
+        "{when: {exit: [gate, ball]}, time: {is: 0.422663, within: 1e-6}}",
     ],
 )
 def test_it_holds(expectation: str) -> None:

@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, RigidBody, Transform, World, system
-from carom.ecs.commands import Commands
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
-from carom.ecs.relations.enter import Enter, Inside
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import BroadPhase, overlapping
@@ -18,7 +16,7 @@ from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.narrow import Found
 from carom.systems.detection.recycling import measure_what_moved
 from carom.systems.detection.seams import without_seams
-from carom.systems.detection.sensors import sense
+from carom.systems.detection.sensors import Sensing, without_sensors
 from carom.systems.kernels.contacts import complete_contacts, renew_contacts
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.recycling import seat_contacts
@@ -30,13 +28,13 @@ from carom.systems.shapes.geometry import Geometries
 @system(
     reads=(Transform, Motion, RigidBody, Collider, Material, Settings, Geometries),
     writes=(
-        ColliderPose, Contact, Enter, Inside, Answered, Flight, BroadPhase, FclObjects, PackedHulls, PackedMeshes,
-        Commands, Resting,
+        ColliderPose, Contact, Answered, Flight, BroadPhase, FclObjects, PackedHulls, PackedMeshes, Resting, Sensing,
     ),
 )  # fmt: skip
 def find_contacts(world: World, dt: float) -> None:
-    """Fill the contact table with every pair that touches or may touch within the step; tell who entered sensors."""
+    """Fill the contact table with every pair that touches or may touch within the step; note those of sensors."""
     contact = world[Contact]
+    world[Sensing].forget()
     contact.impulse[: contact.count] = 0.0
     contact.friction_impulse[: contact.count] = 0.0
     detect(world)
@@ -51,11 +49,10 @@ def detect_again(world: World, left: float) -> None:
 def detect(world: World) -> None:
     """Replace the contact table by one for the current poses, carrying over what known contacts hold."""
     world[Answered].detections += 1
-    pairs = overlapping(world)
+    pairs = without_sensors(world, overlapping(world))
     reaches = np.empty(len(pairs))
     reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
-    found = sense(world, measure_what_moved(world, pairs, reaches))
-    store(world, without_seams(world, found))
+    store(world, without_seams(world, measure_what_moved(world, pairs, reaches)))
 
 
 def store(world: World, found: Found) -> None:

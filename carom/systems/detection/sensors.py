@@ -1,58 +1,57 @@
-"""Sensors: who entered, and the layer a sensor gives to those who do."""
+"""Sensing: the pairs of sensors, kept from the solver; who crosses their borders is found in every substep."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
-from carom.ecs import Collider, World
-from carom.ecs.commands import Commands
-from carom.ecs.relations.enter import Enter, Inside
-from carom.systems.settings import Settings
-
-if TYPE_CHECKING:
-    from carom.systems.detection.narrow import Found
+from carom.ecs import Collider, ColliderPose, Transform, World
+from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.component import Resource
+from carom.ecs.spatial import quaternion
 
 
-def sense(world: World, found: Found) -> Found:
-    """Take the sensors' pairs out of ``found``, log who newly overlaps one, and queue its change of layer."""
+class Sensing(Resource):
+    """Pairs of a sensor and who may meet it within the step, in order of handles; a cache of the step.
+
+    ``pairs`` (n, 2) are handles. Poses (n, 2) are of both shapes in the frames of their bodies, of a static one in the
+    world. ``gaps`` (n,) are those at the end of the last substep, None where pairs are new.
+    """
+
+    def __init__(self) -> None:
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin a step."""
+        self.pairs: Integers = np.empty((0, 2), np.int64)
+        self.positions, self.rotations = np.empty((0, 2, 3)), np.empty((0, 2, 4))
+        self.gaps: Floats | None = None
+
+    def note(self, world: World, rows: Integers) -> None:
+        """Add pairs of rows (n, 2), the sensor first, to those of the step."""
+        pose, transform = world[ColliderPose], world[Transform]
+        body = pose.body_row[rows]
+        positions, rotations, moves = pose.position[rows], pose.rotation[rows], (body >= 0)[..., None]
+        back = quaternion.conjugate(transform.rotation[body])
+        in_body = quaternion.rotate(back, positions - transform.position[body])
+        pairs = np.concatenate([self.pairs, world.entities(rows)])
+        positions = np.concatenate([self.positions, np.where(moves, in_body, positions)])
+        rotations = np.concatenate([self.rotations, np.where(moves, quaternion.multiply(back, rotations), rotations)])
+        self.pairs, first = np.unique(pairs, axis=0, return_index=True)
+        self.positions, self.rotations, self.gaps = positions[first], rotations[first], None
+
+    def keep(self, which: Booleans) -> None:
+        """Forget the other pairs."""
+        self.pairs, self.positions, self.rotations = self.pairs[which], self.positions[which], self.rotations[which]
+        self.gaps = None if self.gaps is None else self.gaps[which]
+
+
+def without_sensors(world: World, pairs: Integers) -> Integers:
+    """Return ``pairs`` (n, 2) of rows without those of sensors, which are noted."""
     sensor = world[Collider].sensor
-    sensing_a = sensor[found.row_a]
-    sensing = sensing_a | sensor[found.row_b]
-    if not sensing.any():
-        if world.count(Inside):
-            world.resize(Inside, 0)
-        return found
-    overlapping = sensing & (found.depth >= 0.0)
-    sensors = world.entities(np.where(sensing_a, found.row_a, found.row_b)[overlapping])
-    entities = world.entities(np.where(sensing_a, found.row_b, found.row_a)[overlapping])
-    now = sorted(set(zip(sensors.tolist(), entities.tolist(), strict=True)))  # each pair once, whatever its points
-    inside = world[Inside]
-    before = set(zip(inside.sensor[: inside.count].tolist(), inside.entity[: inside.count].tolist(), strict=True))
-    for one, other in now:
-        if (one, other) not in before:
-            _log(world, one, other)
-    world.resize(Inside, len(now))
-    inside = world[Inside]
-    inside.sensor[: len(now)], inside.entity[: len(now)] = [s for s, _ in now], [e for _, e in now]
-    keep = ~sensing
-    return found.take(keep)
-
-
-def _log(world: World, sensor: int, entity: int) -> None:
-    count = world.count(Enter)
-    world.resize(Enter, count + 1)
-    enter = world[Enter]
-    enter.time[count] = (world.frame - 1) * world[Settings].dt
-    enter.sensor[count], enter.entity[count] = sensor, entity
-    row = world.row(sensor)
-    layer, mask = int(world[Collider].enter_layer[row]), int(world[Collider].enter_mask[row])
-    if layer >= 0:
-        world[Commands].ask(lambda world: _change_layer(world, entity, layer, mask))
-
-
-def _change_layer(world: World, entity: int, layer: int, mask: int) -> None:
-    with world.edit(Collider) as collider:
-        row = world.row(entity)
-        collider.layer[row], collider.mask[row] = layer, mask
+    if not sensor[: world.used()].any():
+        return pairs
+    senses = sensor[pairs]
+    of_sensors = senses.any(axis=1)
+    rows = pairs[of_sensors]
+    world[Sensing].note(world, np.where(senses[of_sensors, :1], rows, rows[:, ::-1]))
+    return pairs[~of_sensors]

@@ -1,10 +1,10 @@
-"""Happenings: impacts and sensors entered, as lines of a log at the simulated time they happened."""
+"""Happenings: impacts, and sensors entered and left, as lines of a log at the simulated time they happened."""
 
 from __future__ import annotations
 
 from carom.ecs import World
 from carom.ecs.errors import EntityError
-from carom.ecs.relations.enter import Enter
+from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.stream import Stamp, Stream
@@ -20,18 +20,19 @@ class Happenings:
         self._pending: list[tuple[Stamp, str, str]] = []
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
-        """Keep a line for each impact and each entering of the last step."""
+        """Keep a line for each impact, and each sensor entered or left in the last step."""
         world = simulation.world
-        impact, enter = world[Impact], world[Enter]
+        impact = world[Impact]
         for row in range(min(impact.count, MOST_LINES)):
             pair = f"{_name(world, impact.a[row])} and {_name(world, impact.b[row])}"
             text = f"{pair} strike at {impact.speed[row]:.3g} m/s, {impact.impulse[row]:.3g} N s"
             self._pending.append((Stamp(stamp.frame, float(impact.time[row])), "DEBUG", text))
         if impact.count > MOST_LINES:
             self._pending.append((stamp, "DEBUG", f"{impact.count - MOST_LINES} more impacts in this step"))
-        for row in range(enter.count):
-            text = f"{_name(world, enter.entity[row])} enters {_name(world, enter.sensor[row])}"
-            self._pending.append((Stamp(stamp.frame, float(enter.time[row])), "INFO", text))
+        for table, crosses in ((world[Enter], "enters"), (world[Exit], "leaves")):
+            for row in range(table.count):
+                text = f"{_name(world, table.entity[row])} {crosses} {_name(world, table.sensor[row])}"
+                self._pending.append((Stamp(stamp.frame, float(table.time[row])), "INFO", text))
 
     def write(self, stream: Stream) -> None:
         """Write the kept lines."""
