@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.ecs.column import Integers
+from carom.ecs.column import Floats, Integers
 from carom.ecs.components.parent import Parent
 from carom.ecs.components.transform import Transform
 from carom.ecs.errors import EntityError
@@ -25,12 +25,17 @@ def compose(world: World, children: Integers | None = None) -> None:
     """
     rows = world.row_numbers(Parent, Transform) if children is None else children
     with world.edit(Transform) as transform:
-        parent = world[Parent]
-        for level in levels(world, rows):
-            carriers = world.slots.rows(parent.entity[level])
-            turn = transform.rotation[carriers]
-            transform.position[level] = transform.position[carriers] + quaternion.rotate(turn, parent.position[level])
-            transform.rotation[level] = quaternion.multiply(turn, parent.rotation[level])
+        carry(world, rows, transform.position, transform.rotation)
+
+
+def carry(world: World, children: Integers, position: Floats, rotation: Floats) -> None:
+    """Write into the columns of poses where children (rows) are, given where those who carry them are there."""
+    parent = world[Parent]
+    for level in levels(world, children):
+        carriers = world.slots.rows(parent.entity[level])
+        turn = rotation[carriers]
+        position[level] = position[carriers] + quaternion.rotate(turn, parent.position[level])
+        rotation[level] = quaternion.multiply(turn, parent.rotation[level])
 
 
 def levels(world: World, rows: Integers) -> list[Integers]:

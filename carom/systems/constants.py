@@ -315,3 +315,11 @@ CROSSED, CROSSING_GAP = 1e-12, 1e-13
 # Times within a substep at which a pair is measured in the search for a trip into a sensor and back; 6 are usual.
 # Fewer: more trips past its edges are overlooked; more: what glides along a mesh that is a sensor takes longer.
 MOST_PROBES = 64
+
+# m. A ray that begins no farther than this from a surface begins on it: what it leads into is met at once, what it
+# leads out of is not. Larger: thin plates are overlooked from within. Smaller than the rounding of positions: a ray
+# that begins where another has hit meets the same face again.
+ON_SURFACE = 1e-9
+
+# m. Farthest from the origin that a query may look: products of two such lengths are still numbers.
+FARTHEST_QUERY = 1e100

@@ -42,6 +42,8 @@ from carom.systems.layers import Layers
 from carom.systems.observer import Observer
 from carom.systems.places import extended
 from carom.systems.progress import Progress
+from carom.systems.queries.scene import Scene
+from carom.systems.queries.space import Space
 from carom.systems.resting import Resting
 from carom.systems.settings import Random, Settings
 from carom.systems.shapes.geometry import Geometries
@@ -66,9 +68,10 @@ class Simulation:
         self.watched = False
         self.observers: list[Observer] = []
         self.clock = Clock()
+        self.space = Space(self.world)
         self._earlier = EarlierPoses()
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
-        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes(), Resting(), Sensing(), Threads())
+        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes(), Resting(), Sensing(), Threads(), Scene())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 

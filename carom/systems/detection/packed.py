@@ -37,6 +37,10 @@ class Packed(Resource, ABC, Generic[One, Every]):
     def pack(self, made: dict[int, One]) -> Every:
         """Return the arrays of all of them by number."""
 
+    def and_further(self, further: dict[int, Geometry]) -> Every:
+        """Return the arrays of all that is packed and of further geometries, by numbers of their own."""
+        return self.pack({**self._made, **{number: self.make(geometry) for number, geometry in further.items()}})
+
     def holding(self, world: World) -> Every:
         """Return the arrays, with the geometry of every collider of these shapes in them."""
         items = world[Geometries].items

@@ -25,6 +25,7 @@ if numba.config.DISABLE_JIT:
         some,
         spread,
         store,
+        which,
         whole,
     )
 else:
@@ -40,6 +41,7 @@ else:
         some,
         spread,
         store,
+        which,
         whole,
     )
 
@@ -57,6 +59,7 @@ __all__ = [
     "some",
     "spread",
     "store",
+    "which",
     "whole",
 ]
 

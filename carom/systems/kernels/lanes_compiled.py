@@ -218,6 +218,17 @@ def some(typing, test):
 
 
 @intrinsic
+def which(typing, test):
+    """Return the lanes in which the test is positive, each a bit, the first the lowest."""
+
+    def lower(context, builder, sig, values):
+        bits = builder.bitcast(builder.fcmp_ordered(">", values[0], _zero()), ir.IntType(WIDTH))
+        return builder.zext(bits, WHOLE)
+
+    return types.int64(LANE), lower
+
+
+@intrinsic
 def gather(typing, bodies, index, group, block):
     """Return the eight numbers of a block of each body of a group, each number a lane."""
 

@@ -58,6 +58,11 @@ def some(test):
     return bool((test > 0.0).any())
 
 
+def which(test):
+    """Return the lanes in which the test is positive, each a bit, the first the lowest."""
+    return int(((test > 0.0) << np.arange(WIDTH)).sum())
+
+
 def gather(bodies, index, group, block):
     """Return the eight numbers of a block of each body of a group, each number a lane."""
     return tuple(bodies[index[group], BLOCK * block : BLOCK * block + BLOCK].T.copy())

@@ -9,4 +9,5 @@ BENCHES = {  # name on the command line: module
     "ecs": "table",
     "detect": "detect",
     "contacts": "contacts",
+    "motion": "motion",
 }
