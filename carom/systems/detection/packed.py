@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import ClassVar, Generic, TypeVar
+from typing import ClassVar, Generic, Self, TypeVar
 
 import numpy as np
 
@@ -36,6 +36,12 @@ class Packed(Resource, ABC, Generic[One, Every]):
     @abstractmethod
     def pack(self, made: dict[int, One]) -> Every:
         """Return the arrays of all of them by number."""
+
+    def forked(self) -> Self:
+        """Return one that knows as much and learns by itself."""
+        other = type(self)()
+        other._made, other._known, other._packed = dict(self._made), self._known.copy(), self._packed
+        return other
 
     def and_further(self, further: dict[int, Geometry]) -> Every:
         """Return the arrays of all that is packed and of further geometries, by numbers of their own."""

@@ -48,7 +48,7 @@ def look_for_vectors(there: bool) -> None:
 
 
 def compile_measuring() -> None:
-    """Measure pairs of every shape that has kernels, and of one that FCL measures; merge and renew them; cast a ray."""
+    """Measure pairs of every shape that has kernels, and of one that FCL measures; merge and renew them; ask space."""
     look_for_vectors(there=True)
 
     import numpy as np
@@ -83,6 +83,7 @@ def compile_measuring() -> None:
     merge_contacts(count, *found[:-1], *found[:-1], *found.room(2 * count))
     room = np.empty((2 * len(pairs), 2), np.int64)
     simulation.space.cast_ray((0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
+    simulation.space.find_overlaps(shapes[0], (0.0, 0.0, 0.0))
     renew_pairs(pairs, pairs, np.zeros(world.capacity, np.bool_), room)  # of bodies that leave their fat bounds
 
 

@@ -129,20 +129,25 @@ def _cast(
     origin, direction, limit = given.settle(origin, direction, limit)
     scene = world[Scene].of_now(world)
     takes = seen(world, scene.rows, scene.body, filters)
-    room = ROOM * len(origin) if wanted == ALL else len(origin)
-    colliders = scene.shape, scene.size, scene.geometry, scene.position, scene.rotation, scene.hulls, scene.meshes
-    while True:
-        ray, row, face = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64)
-        distance = np.empty(room)
-        count = cast(
-            wanted, origin, direction, limit, takes, scene.endless, scene.members, scene.tree, *colliders,
-            scene.mesh_tree, ray, row, distance, face,
-        )  # fmt: skip
-        if count >= 0:
-            break
-        room *= 2
-    ray, row, distance, face = ray[:count], row[:count], distance[:count], face[:count]
-    normal = np.empty((count, 3))
-    face_hits(origin, direction, ray, row, distance, *colliders, face, normal)
+    ray, row, distance, face = meet(scene, takes, wanted, origin, direction, limit)
+    normal = np.empty((len(ray), 3))
+    face_hits(origin, direction, ray, row, distance, *scene.colliders, face, normal)
     point = origin[ray] + distance[:, None] * direction[ray]
     return len(origin), AllRayHits(ray, *scene.entities(world, row), point, normal, distance, face)
+
+
+def meet(
+    scene: Scene, takes: Booleans, wanted: int, origin: Floats, direction: Floats, limit: Floats
+) -> tuple[Integers, Integers, Floats, Integers]:
+    """Return (ray, row, distance, part) of what rays meet, as `cast` comes upon it."""
+    room = ROOM * len(origin) if wanted == ALL else len(origin)
+    while True:
+        ray, row, part = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room, np.int64)
+        distance = np.empty(room)
+        count = cast(
+            wanted, origin, direction, limit, takes, scene.endless, scene.members, scene.tree, *scene.colliders,
+            scene.mesh_tree, ray, row, distance, part,
+        )  # fmt: skip
+        if count >= 0:
+            return ray[:count], row[:count], distance[:count], part[:count]
+        room *= 2

@@ -86,6 +86,9 @@ class Scene(Resource):
             meshes = world[PackedMeshes].and_further(drawn)
         if meshes is not self.meshes:
             self.meshes, self.mesh_tree = meshes, over_meshes(meshes)
+        self.colliders = (
+            self.shape, self.size, self.geometry, self.position, self.rotation, self.hulls, self.meshes,
+        )  # fmt: skip
 
     def entities(self, world: World, rows: Integers) -> tuple[Integers, Integers]:
         """Return the entities that colliders (rows) belong to, bodies or themselves where they stand, and their own."""

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import inf
-from typing import Unpack
+from typing import Any, Unpack
 
 import numpy.typing as npt
 
 from carom.ecs import World
-from carom.ecs.column import Booleans
-from carom.systems.queries import rays
+from carom.ecs.column import Booleans, Integers
+from carom.ecs.spatial.quaternion import IDENTITY
+from carom.systems.queries import places, rays
 from carom.systems.queries.filters import Filters
+from carom.systems.queries.places import Closest, Insides, Nearest, Overlap, Overlaps
 from carom.systems.queries.rays import AllRayHits, RayHit, RayHits
+from carom.systems.shapes.shape import Shape
 
 
 class Space:
@@ -70,3 +74,61 @@ class Space:
     ) -> AllRayHits:
         """Return every collider that one ray meets, in order of distance."""
         return rays.cast_rays_all(self._world, origin, direction, reach, **filters)
+
+    def closest_points(self, points: npt.ArrayLike, reach: npt.ArrayLike = inf, **filters: Unpack[Filters]) -> Closest:
+        """Return the nearest place of each collider no farther than ``reach``, m, from ``points`` (n, 3), m."""
+        return places.closest_points(self._world, points, reach, **filters)
+
+    def closest_point(self, point: npt.ArrayLike, reach: float = inf, **filters: Unpack[Filters]) -> Nearest | None:
+        """Return the place nearest to one point, None where there is none within ``reach``, m."""
+        return places.nearest(places.closest_points(self._world, point, reach, **filters))
+
+    def closest_to_shapes(
+        self,
+        shape: Shape | Mapping[str, Any],
+        positions: npt.ArrayLike,
+        rotations: npt.ArrayLike = IDENTITY,
+        reach: npt.ArrayLike = inf,
+        **filters: Unpack[Filters],
+    ) -> Closest:
+        """Return the nearest place of each collider no farther than ``reach``, m, from a shape in several places."""
+        return places.closest_to_shapes(self._world, shape, positions, rotations, reach, **filters)
+
+    def closest_to_shape(
+        self,
+        shape: Shape | Mapping[str, Any],
+        position: npt.ArrayLike,
+        rotation: npt.ArrayLike = IDENTITY,
+        reach: float = inf,
+        **filters: Unpack[Filters],
+    ) -> Nearest | None:
+        """Return the place nearest to a shape, None where there is none within ``reach``, m."""
+        return places.nearest(places.closest_to_shapes(self._world, shape, position, rotation, reach, **filters))
+
+    def find_overlaps(
+        self,
+        shape: Shape | Mapping[str, Any],
+        positions: npt.ArrayLike,
+        rotations: npt.ArrayLike = IDENTITY,
+        **filters: Unpack[Filters],
+    ) -> Overlaps:
+        """Return who overlaps a shape at ``positions`` (n, 3), m, turned by ``rotations`` (n, 4)."""
+        return places.find_overlaps(self._world, shape, positions, rotations, **filters)
+
+    def find_overlap(
+        self,
+        shape: Shape | Mapping[str, Any],
+        position: npt.ArrayLike,
+        rotation: npt.ArrayLike = IDENTITY,
+        **filters: Unpack[Filters],
+    ) -> Overlap | None:
+        """Return who overlaps a shape most, None where nobody does."""
+        return places.deepest(places.find_overlaps(self._world, shape, position, rotation, **filters))
+
+    def points_inside(self, points: npt.ArrayLike, **filters: Unpack[Filters]) -> Insides:
+        """Return which of ``points`` (n, 3), m, are inside of which colliders."""
+        return places.points_inside(self._world, points, **filters)
+
+    def point_inside(self, point: npt.ArrayLike, **filters: Unpack[Filters]) -> Integers:
+        """Return the colliders that one point is inside of."""
+        return places.points_inside(self._world, point, **filters).collider
