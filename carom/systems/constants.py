@@ -323,3 +323,11 @@ ON_SURFACE = 1e-9
 
 # m. Farthest from the origin that a query may look: products of two such lengths are still numbers.
 FARTHEST_QUERY = 1e100
+
+# m. A shape that is cast has come to what it meets when their gap is this. Larger: it stops short by as much, and by
+# more where it comes at a slant. Smaller than the rounding of positions: steps in vain.
+CAST_GAP = 1e-11
+
+# m. A cast that begins nearer than this to a convex collider is told by their gap and normal alone. Smaller: cores
+# are so near that their distance has no direction.
+CAST_BEGUN = 1e-6

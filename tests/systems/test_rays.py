@@ -12,7 +12,7 @@ from solids import SOLIDS, first_within
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.ecs.spatial.vector import normalise
-from carom.systems.queries.rays import RayHits
+from carom.systems.queries.rays import Hits
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.height_field import HeightField, land
 from carom.systems.shapes.mesh import Mesh
@@ -36,7 +36,7 @@ def rays_at(seed: int, count: int, far: float = 3.0) -> tuple[Floats, Floats]:
     return origin, normalise(generator.uniform(-0.6, 0.6, (count, 3)) - origin)
 
 
-def finite(hits: RayHits) -> bool:
+def finite(hits: Hits) -> bool:
     """Tell whether nothing in hits is a NaN, and only the distance of no hit is infinite."""
     numbers = hits.point, hits.normal, np.where(hits.hit, hits.distance, 0.0)
     return all(bool(np.isfinite(column).all()) for column in numbers)

@@ -1,4 +1,4 @@
-"""Which colliders have boxes that meet those of a query."""
+"""Which colliders have boxes that those of queries meet or, as they move straight on, pass through."""
 
 from __future__ import annotations
 
@@ -7,30 +7,38 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels.eights import FIRST_BLOCK, LOWEST, MOST_WAITING, NOTHING
 from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.lanes import address, larger, load, which
+from carom.systems.kernels.lanes import address, larger, load, smaller, which
+from carom.systems.kernels.ray_meshes import one_over
 
 BARELY = 1e-300  # so that boxes that touch count
 
 
 @woven
-def meeting(boxes, row, lx, ly, lz, hx, hy, hz):
-    """Return which of the eight boxes from ``row`` on meet the one from l to h, as bits."""
-    above = larger(larger(load(boxes, row) - hx, load(boxes, row + 1) - hy), load(boxes, row + 2) - hz)
-    below = larger(larger(lx - load(boxes, row + 3), ly - load(boxes, row + 4)), lz - load(boxes, row + 5))
-    return which(BARELY - larger(above, below))
+def on_way(boxes, row, x, y, z, hx, hy, hz, ix, iy, iz, limit):
+    """Return which of the eight boxes from ``row`` on a box of half extents h passes through, as bits.
+
+    Its middle begins at x and i is one over its direction: as a point it passes through boxes larger by h.
+    """
+    lx, ux = (load(boxes, row) - hx - x) * ix, (load(boxes, row + 3) + hx - x) * ix
+    ly, uy = (load(boxes, row + 1) - hy - y) * iy, (load(boxes, row + 4) + hy - y) * iy
+    lz, uz = (load(boxes, row + 2) - hz - z) * iz, (load(boxes, row + 5) + hz - z) * iz
+    enter = larger(larger(smaller(lx, ux), smaller(ly, uy)), smaller(lz, uz))
+    leave = smaller(smaller(larger(lx, ux), larger(ly, uy)), larger(lz, uz))
+    return which(BARELY - larger(larger(enter - leave, -leave), enter - limit))
 
 
 @kernel("pairs")
-def find_near(lower, upper, takes, endless, members, tree, pairs):
-    """Write (query, row) of each collider that a query's box meets; return how many, or -1 where they do not fit in.
+def find_near(center, half, direction, reach, takes, endless, members, tree, pairs):
+    """Write (query, row) where a query's box passes through a collider's; return how many, -1 if they do not fit in.
 
-    Colliders are those of `cast`.
+    Colliders are those of `cast`. A direction of 0 leaves a box where it is.
     """
     boxes, leaves, inside, blocks = address(tree.boxes), address(tree.leaves), tree.inside, tree.blocks
     stack = np.empty(MOST_WAITING, np.int64)
     count = 0
-    for q in range(len(lower)):
-        lx, ly, lz, hx, hy, hz = lower[q, 0], lower[q, 1], lower[q, 2], upper[q, 0], upper[q, 1], upper[q, 2]
+    for q in range(len(center)):
+        x, y, z, hx, hy, hz = center[q, 0], center[q, 1], center[q, 2], half[q, 0], half[q, 1], half[q, 2]
+        ix, iy, iz = one_over(direction[q, 0]), one_over(direction[q, 1]), one_over(direction[q, 2])
         if count + len(endless) > len(pairs):
             return -1
         for i in endless:
@@ -42,7 +50,7 @@ def find_near(lower, upper, takes, endless, members, tree, pairs):
             waiting -= 1
             at = stack[waiting]
             if at >= 0:
-                bits = meeting(boxes, 6 * at, lx, ly, lz, hx, hy, hz)
+                bits = on_way(boxes, 6 * at, x, y, z, hx, hy, hz, ix, iy, iz, reach[q])
                 while bits > 0:
                     held = inside[at, LOWEST[bits]]
                     bits &= bits - 1
@@ -51,7 +59,8 @@ def find_near(lower, upper, takes, endless, members, tree, pairs):
                         waiting += 1
                 continue
             block = FIRST_BLOCK - at
-            bits = meeting(leaves, 6 * block, lx, ly, lz, hx, hy, hz) & ((1 << blocks[block, 1]) - 1)
+            bits = on_way(leaves, 6 * block, x, y, z, hx, hy, hz, ix, iy, iz, reach[q])
+            bits &= (1 << blocks[block, 1]) - 1
             while bits > 0:
                 i = members[blocks[block, 0] + LOWEST[bits]]
                 bits &= bits - 1

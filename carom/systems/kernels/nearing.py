@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APART_LEAST, BRACKET, CURVED_FROM
+from carom.systems.constants import APART_LEAST, CURVED_FROM
 from carom.systems.kernels.cores import most_overlap
 from carom.systems.kernels.distance import APART, FAR, MEETING
 from carom.systems.kernels.kernel import inlined
@@ -16,11 +16,11 @@ MOST_STEPS = 64
 
 
 @inlined
-def near(core, place, vertices, nx, ny, nz, reach, corner, name, weight, seen):
+def near(core, place, vertices, nx, ny, nz, reach, bracket, corner, name, weight, seen):
     """Return (state, distance, unit direction from first to second, point of the first) of two cores.
 
     ``state`` is that of `distance_apart`, and so is the algorithm; here the corners come from `most_overlap`, the first
-    along n, and round cores have no end of them: the distance is believed once it is known to BRACKET.
+    along n, and round cores have no end of them: the distance is believed once it is known to ``bracket``, m.
     """
     x, y, z, px, py, pz = most_overlap(core, place, vertices, nx, ny, nz)
     corner[0], corner[1], corner[2] = x, y, z
@@ -40,7 +40,7 @@ def near(core, place, vertices, nx, ny, nz, reach, corner, name, weight, seen):
             return FAR, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         if here > apart:  # of thin simplexes later ones may be worse
             apart, nx, ny, nz, qx, qy, qz = here, mx, my, mz, px, py, pz
-        if length - apart <= BRACKET:
+        if length - apart <= bracket:
             break
         if curved and length - here <= CURVED_FROM:
             curved = False

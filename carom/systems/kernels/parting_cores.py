@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APART_LEAST
+from carom.systems.constants import APART_LEAST, BRACKET
 from carom.systems.kernels.cores import (
     CONE,
     CORE,
@@ -45,7 +45,9 @@ def part(core, place, vertices, overlap, x, y, z, reach, corner, face, plane, ri
         depth, x, y, z, px, py, pz = expand(core, place, vertices, x, y, z, corner, face, plane, rim)
         if depth >= -APART_LEAST:
             return -depth, x, y, z, px, py, pz
-    state, gap, nx, ny, nz, px, py, pz = near(core, place, vertices, x, y, z, reach, corner, name, weight, seen)
+    state, gap, nx, ny, nz, px, py, pz = near(
+        core, place, vertices, x, y, z, reach, BRACKET, corner, name, weight, seen
+    )
     if state == FAR:
         return 1e300, x, y, z, px, py, pz
     if state == APART:

@@ -83,7 +83,7 @@ def compile_measuring() -> None:
     merge_contacts(count, *found[:-1], *found[:-1], *found.room(2 * count))
     room = np.empty((2 * len(pairs), 2), np.int64)
     simulation.space.cast_ray((0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
-    simulation.space.find_overlaps(shapes[0], (0.0, 0.0, 0.0))
+    simulation.space.cast_shape(shapes[0], (0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
     renew_pairs(pairs, pairs, np.zeros(world.capacity, np.bool_), room)  # of bodies that leave their fat bounds
 
 

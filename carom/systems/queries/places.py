@@ -118,7 +118,7 @@ def find_overlaps(
     position, rotation = given.settle(position, rotation)
     scene = world[Scene].of_now(world)
     takes = seen(world, scene.rows, scene.body, filters)
-    found = _within(world, scene, Placed(form, position, rotation), np.zeros(len(position)), takes)
+    found = within(world, scene, Placed(form, position, rotation), np.zeros(len(position)), takes)
     entity, collider = scene.entities(world, found.row)
     return Overlaps(found.query, entity, collider, -found.gap, found.middle, found.normal)
 
@@ -162,20 +162,20 @@ def _level(count: int) -> Floats:
 
 def _closest(world: World, placed: Placed, reach: Floats, filters: Filters) -> Closest:
     scene = world[Scene].of_now(world)
-    found = _within(world, scene, placed, reach, seen(world, scene.rows, scene.body, filters))
+    found = within(world, scene, placed, reach, seen(world, scene.rows, scene.body, filters))
     half = (0.5 * found.gap)[:, None] * found.normal
     entity, collider = scene.entities(world, found.row)
     point, own = found.middle - half, found.middle + half
     return Closest(found.query, entity, collider, found.gap, point, own, found.normal)
 
 
-def _within(world: World, scene: Scene, placed: Placed, reach: Floats, takes: Booleans) -> Measured:
+def within(world: World, scene: Scene, placed: Placed, reach: Floats, takes: Booleans) -> Measured:
     """Return all that is within reach of a shape in its places, in order of queries, gaps and rows."""
-    lower, upper = placed.box()
-    pairs = near(scene, lower - reach[:, None], upper + reach[:, None], takes)
+    center, half = placed.box()
+    pairs = near(scene, center, half + reach[:, None], np.zeros_like(center), np.zeros(len(center)), takes)
     query, row = pairs.T
     apart = np.linalg.norm(placed.position[query] - scene.position[row], axis=1)
-    wide = np.linalg.norm(upper - lower, axis=1)[query]
+    wide = 2.0 * np.linalg.norm(half, axis=1)[query]
     flat = scene.shape[row] == Plane.number
     held = np.linalg.norm(np.where(np.isfinite(scene.upper), scene.upper - scene.lower, 0.0), axis=1)[row]
     most = apart + wide + np.where(flat, np.abs(scene.size[row, 3]), held)  # no pair is farther apart
@@ -192,12 +192,17 @@ def _within(world: World, scene: Scene, placed: Placed, reach: Floats, takes: Bo
 def _deep_in_meshes(scene: Scene, placed: Placed, takes: Booleans) -> Integers:
     """Return the pairs (query, row) of meshes and those in them, of which no triangle may be within reach."""
     meshes = np.zeros(len(scene.shape), np.bool_)
-    meshes[scene.rows] = np.isin(scene.shape[scene.rows], (Mesh.number, HeightField.number))
+    meshes[scene.rows] = are_meshes(scene, scene.rows)
     if not meshes.any():
         return np.empty((0, 2), np.int64)
     tip = placed.shape.support(np.array([[1.0, 0.0, 0.0]]))[0]
     inside = _inside(scene, placed.position + quaternion.rotate(placed.rotation, tip), takes & meshes[: len(takes)])
     return np.stack(inside, axis=1)
+
+
+def are_meshes(scene: Scene, rows: Integers) -> Booleans:
+    """Return which colliders (rows) are made of triangles, or met as if they were."""
+    return np.isin(scene.shape[rows], (Mesh.number, HeightField.number))
 
 
 def _inside(scene: Scene, points: Floats, takes: Booleans) -> tuple[Integers, Integers]:

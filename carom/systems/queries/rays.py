@@ -19,7 +19,7 @@ NOBODY = -1  # the entity and the face of a ray that meets nothing
 ROOM = 4  # hits a ray has room for at first
 
 
-class RayHits(NamedTuple):
+class Hits(NamedTuple):
     """What rays meet first, one row per ray: where one meets nothing, `entity` is -1 and `distance` infinite."""
 
     entity: Integers  # the body, or the collider's own where it stands
@@ -35,7 +35,7 @@ class RayHits(NamedTuple):
         return np.asarray(self.entity >= 0)
 
 
-class AllRayHits(NamedTuple):
+class AllHits(NamedTuple):
     """All that rays meet, in order of rays and distance: every collider once, where the ray enters it."""
 
     ray: Integers
@@ -47,8 +47,8 @@ class AllRayHits(NamedTuple):
     face: Integers
 
 
-class RayHit(NamedTuple):
-    """What one ray meets; see `RayHits`."""
+class Hit(NamedTuple):
+    """What one ray meets; see `Hits`."""
 
     entity: Entity
     collider: Entity
@@ -64,7 +64,7 @@ def cast_rays(
     directions: npt.ArrayLike,
     reach: npt.ArrayLike = inf,
     **filters: Unpack[Filters],
-) -> RayHits:
+) -> Hits:
     """Return what rays from ``origins`` (n, 3), m, along ``directions`` (n, 3), of any length but 0, meet first.
 
     They look as far as ``reach`` (n,), m; either of the three may be one for all. Raises QueryError.
@@ -75,7 +75,7 @@ def cast_rays(
     columns = entity, collider, point, normal, distance, face
     for column, values in zip(columns, hits[1:], strict=True):
         column[hits.ray] = values
-    return RayHits(*columns)
+    return Hits(*columns)
 
 
 def cast_rays_any(
@@ -98,19 +98,19 @@ def cast_rays_all(
     directions: npt.ArrayLike,
     reach: npt.ArrayLike = inf,
     **filters: Unpack[Filters],
-) -> AllRayHits:
+) -> AllHits:
     """Return every collider that rays meet, in the terms of `cast_rays`, in order of rays, distance and collider."""
     _, hits = _cast("cast_rays_all", ALL, world, origins, directions, reach, filters)
     order = np.lexsort((hits.collider, hits.distance, hits.ray))
-    return AllRayHits._make(column[order] for column in hits)
+    return AllHits._make(column[order] for column in hits)
 
 
-def single(hits: RayHits) -> RayHit | None:
+def single(hits: Hits) -> Hit | None:
     """Return the first ray's hit by itself, None where there is none."""
     if not hits.hit[0]:
         return None
     entity, collider, point, normal, distance, face = (column[0] for column in hits)
-    return RayHit(Entity(int(entity)), Entity(int(collider)), point, normal, float(distance), int(face))
+    return Hit(Entity(int(entity)), Entity(int(collider)), point, normal, float(distance), int(face))
 
 
 def _cast(
@@ -121,7 +121,7 @@ def _cast(
     directions: npt.ArrayLike,
     reach: npt.ArrayLike,
     filters: Filters,
-) -> tuple[int, AllRayHits]:
+) -> tuple[int, AllHits]:
     """Return how many rays there are, and their hits as the kernel comes upon them."""
     given = Arguments(query)
     origin, direction = given.vectors("origins", origins), given.directions("directions", directions)
@@ -133,7 +133,7 @@ def _cast(
     normal = np.empty((len(ray), 3))
     face_hits(origin, direction, ray, row, distance, *scene.colliders, face, normal)
     point = origin[ray] + distance[:, None] * direction[ray]
-    return len(origin), AllRayHits(ray, *scene.entities(world, row), point, normal, distance, face)
+    return len(origin), AllHits(ray, *scene.entities(world, row), point, normal, distance, face)
 
 
 def meet(

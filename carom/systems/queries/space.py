@@ -11,10 +11,10 @@ import numpy.typing as npt
 from carom.ecs import World
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.spatial.quaternion import IDENTITY
-from carom.systems.queries import places, rays
+from carom.systems.queries import places, rays, shape_casts
 from carom.systems.queries.filters import Filters
 from carom.systems.queries.places import Closest, Insides, Nearest, Overlap, Overlaps
-from carom.systems.queries.rays import AllRayHits, RayHit, RayHits
+from carom.systems.queries.rays import AllHits, Hit, Hits
 from carom.systems.shapes.shape import Shape
 
 
@@ -33,13 +33,13 @@ class Space:
         directions: npt.ArrayLike,
         reach: npt.ArrayLike = inf,
         **filters: Unpack[Filters],
-    ) -> RayHits:
+    ) -> Hits:
         """Return what rays from ``origins`` (n, 3), m, along ``directions`` (n, 3) meet first, within ``reach``, m."""
         return rays.cast_rays(self._world, origins, directions, reach, **filters)
 
     def cast_ray(
         self, origin: npt.ArrayLike, direction: npt.ArrayLike, reach: float = inf, **filters: Unpack[Filters]
-    ) -> RayHit | None:
+    ) -> Hit | None:
         """Return what one ray meets first, None where it meets nothing."""
         return rays.single(rays.cast_rays(self._world, origin, direction, reach, **filters))
 
@@ -65,15 +65,39 @@ class Space:
         directions: npt.ArrayLike,
         reach: npt.ArrayLike = inf,
         **filters: Unpack[Filters],
-    ) -> AllRayHits:
+    ) -> AllHits:
         """Return every collider that rays meet, in order of rays and distance."""
         return rays.cast_rays_all(self._world, origins, directions, reach, **filters)
 
     def cast_ray_all(
         self, origin: npt.ArrayLike, direction: npt.ArrayLike, reach: float = inf, **filters: Unpack[Filters]
-    ) -> AllRayHits:
+    ) -> AllHits:
         """Return every collider that one ray meets, in order of distance."""
         return rays.cast_rays_all(self._world, origin, direction, reach, **filters)
+
+    def cast_shapes(
+        self,
+        shape: Shape | Mapping[str, Any],
+        positions: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        reach: npt.ArrayLike = inf,
+        rotations: npt.ArrayLike = IDENTITY,
+        **filters: Unpack[Filters],
+    ) -> Hits:
+        """Return what a shape at ``positions`` (n, 3), m, meets first as it moves along ``directions`` (n, 3)."""
+        return shape_casts.cast_shapes(self._world, shape, positions, directions, reach, rotations, **filters)
+
+    def cast_shape(
+        self,
+        shape: Shape | Mapping[str, Any],
+        position: npt.ArrayLike,
+        direction: npt.ArrayLike,
+        reach: float = inf,
+        rotation: npt.ArrayLike = IDENTITY,
+        **filters: Unpack[Filters],
+    ) -> Hit | None:
+        """Return what a shape meets first as it moves straight on, None where it meets nothing."""
+        return rays.single(shape_casts.cast_shapes(self._world, shape, position, direction, reach, rotation, **filters))
 
     def closest_points(self, points: npt.ArrayLike, reach: npt.ArrayLike = inf, **filters: Unpack[Filters]) -> Closest:
         """Return the nearest place of each collider no farther than ``reach``, m, from ``points`` (n, 3), m."""

@@ -31,11 +31,10 @@ class Placed(NamedTuple):
     rotation: Floats  # (n, 4)
 
     def box(self) -> tuple[Floats, Floats]:
-        """Return the lower and upper corners (n, 3), m, of the bounds in each place."""
+        """Return the middle and the half extents (n, 3), m, of the bounds in each place."""
         bounds = self.shape.bounds()
         half = (np.abs(quaternion.matrix(self.rotation)) * np.asarray(bounds.half)).sum(axis=-1) + bounds.radius
-        center = self.position + quaternion.rotate(self.rotation, np.asarray(bounds.center))
-        return center - half, center + half
+        return self.position + quaternion.rotate(self.rotation, np.asarray(bounds.center)), half
 
 
 class Measured(NamedTuple):
@@ -52,12 +51,12 @@ class Measured(NamedTuple):
         return Measured._make(column[which] for column in self)
 
 
-def near(scene: Scene, lower: Floats, upper: Floats, takes: Booleans) -> Integers:
-    """Return pairs (n, 2) of a query and a collider (row) whose bounds meet, or that have none."""
-    room = ROOM * len(lower)
+def near(scene: Scene, center: Floats, half: Floats, direction: Floats, reach: Floats, takes: Booleans) -> Integers:
+    """Return pairs (n, 2) of a query and the colliders (rows) whose boxes its own meets as it moves straight on."""
+    room = ROOM * len(center)
     while True:
         pairs: Integers = np.empty((room, 2), np.int64)
-        count = find_near(lower, upper, takes, scene.endless, scene.members, scene.tree, pairs)
+        count = find_near(center, half, direction, reach, takes, scene.endless, scene.members, scene.tree, pairs)
         if count >= 0:
             return pairs[:count]
         room *= 2
