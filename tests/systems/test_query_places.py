@@ -14,6 +14,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.assembly import shape_of
 from carom.systems.queries.arguments import QueryError
 from carom.systems.shapes import Shape
+from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.simulation import Simulation
 
@@ -109,6 +110,9 @@ def test_points_around_and_in_a_mesh() -> None:
     assert found.query.tolist() == list(range(200))
     assert np.abs(found.distance - distance).max() < 1e-12
     assert np.abs(found.point - place).max() < 1e-12
+    remote = Simulation()  # its origin is elsewhere
+    remote.add(collider={"shape": Mesh(Geometry(ground.vertices + 500.0, ground.faces))})
+    assert np.abs(remote.space.closest_points(points + 500.0).distance - distance).max() < 1e-12
     solid = Simulation()
     solid.add(collider={"shape": Mesh(block())})
     for reach in (0.0, 0.1, np.inf):

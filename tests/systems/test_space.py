@@ -2,14 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
-from carom.ecs import DeclarationError, EntityError, state_hash
+from carom.ecs import (
+    AccessError,
+    DeclarationError,
+    EntityError,
+    RigidBody,
+    Transform,
+    World,
+    state_hash,
+    system,
+)
 from carom.ecs.spatial import quaternion
 from carom.systems.queries.arguments import QueryError
+from carom.systems.queries.space import ASKED, Space
+from carom.systems.shapes import BY_NUMBER, SHAPES, Shape
+from carom.systems.shapes.shape import Bounds, MassProperties, Surface, parameter
 from carom.systems.simulation import Simulation
 
 BALL: dict[str, Any] = {"sphere": {"radius": 0.5}}
@@ -166,3 +179,72 @@ def test_every_fault_is_told_at_once(arguments: tuple[Any, ...], told: list[str]
     with pytest.raises(QueryError) as fault:
         simulation.space.cast_rays(*arguments)
     assert str(fault.value).splitlines() == told
+
+
+def test_a_system_asks_in_checked_mode() -> None:
+    """It declares what asking reads; whoever forgets is told by name."""
+    heights: list[float] = []
+
+    def feel(world: World, dt: float) -> None:
+        """Feel how far the ground is below."""
+        for row in world.row_numbers(RigidBody):
+            hit = Space(world).cast_ray(world[Transform].position[row], DOWN, without=world.entity(row))
+            assert hit is not None
+            heights.append(hit.distance)
+            Space(world).closest_points(world[Transform].position[row])
+            Space(world).cast_shapes(BALL, world[Transform].position[row], DOWN, without=world.entity(row))
+
+    simulation = Simulation(checked=True)
+    simulation.add(collider={"plane": {}})
+    simulation.add(collider=BALL, body={}, transform={"position": (0.0, 2.0, 0.0)})
+    simulation.schedule = simulation.schedule.insert(system(reads=(RigidBody, *ASKED))(feel), after="begin_step")
+    simulation.step(2)
+    assert heights[0] == 2.0 > heights[1]
+    forgetful = Simulation(checked=True)
+    forgetful.add(collider=BALL, body={})
+    forgetful.schedule = forgetful.schedule.insert(system(reads=(RigidBody, Transform))(feel), after="begin_step")
+    with pytest.raises(AccessError, match=r"^system 'feel' touches Scene but declares only"):
+        forgetful.step()
+
+
+def test_shapes_of_extensions_are_met_as_they_are_drawn() -> None:
+    """A ring of an extension's own: its triangles are met, its hole is not."""
+
+    @dataclass(frozen=True)
+    class Ring(Shape):
+        """A ring."""
+
+        key: ClassVar[str] = "ring_of_this_test"
+        radius: float = parameter(unit="m", doc="radius of its middle", above=0.0)
+
+        def mass_properties(self) -> MassProperties:
+            return MassProperties(1.0, (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 1.0))
+
+        def bounds(self) -> Bounds:
+            return Bounds((0.0, 0.0, 0.0), (1.5 * self.radius, 0.5 * self.radius, 1.5 * self.radius), 0.0)
+
+        def support(self, directions: Any) -> Any:
+            return np.asarray(directions)
+
+        def fcl_geometry(self, margin: float = 0.0) -> Any:
+            return None
+
+        def surface(self) -> Surface:
+            from trimesh.creation import torus
+
+            ring = torus(self.radius, 0.25 * self.radius)
+            return Surface(np.array(ring.vertices)[:, [0, 2, 1]], np.array(ring.faces)[:, ::-1], True)
+
+    try:
+        simulation = Simulation()
+        for x, radius in ((0.0, 1.0), (9.0, 2.0), (20.0, 2.0)):
+            simulation.add(name=f"at {x}", collider={"shape": Ring(radius)}, transform={"position": (x, 0.0, 0.0)})
+        places = (0.0, 1.0, 9.0, 10.0, 11.0, 20.0, 22.0)
+        assert [met(simulation, x) for x in places] == [None, "at 0.0", None, None, "at 9.0", None, "at 20.0"]
+        hit = simulation.space.cast_shape(BALL, (0.0, 50.0, 0.0), DOWN)
+        assert hit is None
+        hit = simulation.space.cast_shape({"sphere": {"radius": 1.0}}, (0.0, 50.0, 0.0), DOWN)
+        assert hit is not None
+        assert hit.distance == pytest.approx(50.0 - np.sqrt(1.25**2 - 1.0), abs=0.02)  # the ring has corners
+    finally:
+        del SHAPES["ring_of_this_test"], BY_NUMBER[Ring.number]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from copy import copy
 from typing import ClassVar, Generic, Self, TypeVar
 
 import numpy as np
@@ -39,8 +40,8 @@ class Packed(Resource, ABC, Generic[One, Every]):
 
     def forked(self) -> Self:
         """Return one that knows as much and learns by itself."""
-        other = type(self)()
-        other._made, other._known, other._packed = dict(self._made), self._known.copy(), self._packed
+        other = copy(self)
+        other._made, other._known = dict(self._made), self._known.copy()
         return other
 
     def and_further(self, further: dict[int, Geometry]) -> Every:

@@ -21,7 +21,6 @@ from carom.systems.queries.scene import Scene
 from carom.systems.queries.stage import Measured, Placed, measure, near
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.mesh import Mesh
-from carom.systems.shapes.plane import Plane
 from carom.systems.shapes.point import Point
 from carom.systems.shapes.shape import Shape
 
@@ -174,11 +173,9 @@ def within(world: World, scene: Scene, placed: Placed, reach: Floats, takes: Boo
     center, half = placed.box()
     pairs = near(scene, center, half + reach[:, None], np.zeros_like(center), np.zeros(len(center)), takes)
     query, row = pairs.T
-    apart = np.linalg.norm(placed.position[query] - scene.position[row], axis=1)
+    apart = np.linalg.norm(center[query] - scene.middle[row], axis=1)
     wide = 2.0 * np.linalg.norm(half, axis=1)[query]
-    flat = scene.shape[row] == Plane.number
-    held = np.linalg.norm(np.where(np.isfinite(scene.upper), scene.upper - scene.lower, 0.0), axis=1)[row]
-    most = apart + wide + np.where(flat, np.abs(scene.size[row, 3]), held)  # no pair is farther apart
+    most = apart + wide + scene.width[row]  # no pair is farther apart
     found = measure(world, scene, placed, pairs, np.minimum(reach[query], most))
     missed = _deep_in_meshes(scene, placed, takes)
     missed = missed[~np.isin(missed @ (1, len(reach)), found.query + len(reach) * found.row)]

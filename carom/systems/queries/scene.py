@@ -19,6 +19,7 @@ from carom.systems.queries.eights import over_boxes, over_meshes
 from carom.systems.shapes.geometry import Geometries, Geometry
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.mesh import Mesh
+from carom.systems.shapes.plane import Plane
 
 PLACED_BY = ("shape", "size", "geometry", "position", "rotation", "bound_center", "bound_half", "bound_radius")
 
@@ -36,15 +37,17 @@ class Scene(Resource):
 
     def of_now(self, world: World) -> Scene:
         """Return the scene, with every collider where its entity is now and carried ones where their carriers are."""
-        rows, transform, collider = world.row_numbers(Collider, Transform), world[Transform], world[Collider]
-        position, rotation = transform.position.copy(), transform.rotation.copy()
-        carry(world, world.row_numbers(Parent, Transform), position, rotation)
-        body = bodies_of(world)
-        known = [rows, body, position[rows], rotation[rows], *(getattr(collider, name)[rows] for name in PLACED_BY)]
+        rows, numbers = world.rows(Collider, Transform), world.row_numbers(Collider, Transform)
+        position, rotation, collider = world[Transform].position, world[Transform].rotation, world[Collider]
+        if len(children := world.row_numbers(Parent, Transform)):
+            position, rotation = position.copy(), rotation.copy()
+            carry(world, children, position, rotation)
+        columns = position, rotation, *(getattr(collider, name) for name in PLACED_BY)
+        known = [numbers, bodies_of(world), *(column[rows] for column in columns)]
         if len(known) != len(self._known) or not all(map(np.array_equal, known, self._known)):
-            self._known = known
-            self.body = body
-            self._place(world, rows, position, rotation)
+            self._known = [column.copy() for column in known]
+            self.body = self._known[1]
+            self._place(world, numbers, position, rotation)
         return self
 
     def _place(self, world: World, rows: Integers, position: Floats, rotation: Floats) -> None:
@@ -62,6 +65,11 @@ class Scene(Resource):
         ends = np.isfinite(self.lower[rows]).all(axis=1) & np.isfinite(self.upper[rows]).all(axis=1)
         ends &= collider.shape[rows] != HeightField.number  # they are solid down to the end
         ending, self.endless = rows[ends], rows[~ends]
+        flat = collider.shape == Plane.number
+        low, high = (np.where(flat[:, None], self.position, corner) for corner in (self.lower, self.upper))
+        self.middle = 0.5 * (low + high)
+        across = 2.0 * (np.linalg.norm(collider.bound_half, axis=1) + collider.bound_radius)
+        self.width = np.where(flat, np.abs(collider.size[:, 3]), across)
         self.tree, order = over_boxes(self.lower[ending], self.upper[ending])
         self.members = ending[order]
         self._take_drawn(world, rows)

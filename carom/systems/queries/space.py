@@ -8,14 +8,23 @@ from typing import Any, Unpack
 
 import numpy.typing as npt
 
-from carom.ecs import World
+from carom.ecs import Collider, Parent, Transform, World
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.spatial.quaternion import IDENTITY
+from carom.systems.detection.hulls import PackedHulls
+from carom.systems.detection.meshes import PackedMeshes
+from carom.systems.layers import Layers
 from carom.systems.queries import places, rays, shape_casts
 from carom.systems.queries.filters import Filters
 from carom.systems.queries.places import Closest, Insides, Nearest, Overlap, Overlaps
 from carom.systems.queries.rays import AllHits, Hit, Hits
+from carom.systems.queries.scene import Scene
+from carom.systems.settings import Settings
+from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import Shape
+
+#: What a system declares to read that asks.
+ASKED = (Transform, Parent, Collider, Layers, Settings, Geometries, PackedHulls, PackedMeshes, Scene)
 
 
 class Space:

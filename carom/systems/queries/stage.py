@@ -64,6 +64,8 @@ def near(scene: Scene, center: Floats, half: Floats, direction: Floats, reach: F
 
 def measure(world: World, scene: Scene, placed: Placed, pairs: Integers, reaches: Floats) -> Measured:
     """Return the pairs (query, row) that are no farther apart than their ``reaches`` (n,), m, and how they are."""
+    if not len(pairs):
+        return Measured(pairs[:, 0], pairs[:, 1], np.zeros(0), np.zeros((0, 3)), np.zeros((0, 3)))
     rows, target = np.unique(pairs[:, 1], return_inverse=True)
     asked, query = np.unique(pairs[:, 0], return_inverse=True)
     stage = _staged(world, scene, rows, Placed(placed.shape, placed.position[asked], placed.rotation[asked]))
