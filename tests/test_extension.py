@@ -188,7 +188,7 @@ def test_check_tells_what_is_wrong_with_its_words(site: Path, tmp_path: Path) ->
         f"{world}:2:31: entities.0.health.guardian: unknown entity; received 'aa'; accepted: a; did you mean 'a'?\n"
         f"{world}:3:11: expect.0.never: a has no such column; received 'health.point'; accepted: position, rotation, "
         "friction, restitution, density, rolling_friction, spinning_friction, friction_combine, restitution_combine, "
-        "color, points, toughness, guardian, armor; did you mean 'points'?\n"
+        "number, color, points, toughness, guardian, armor; did you mean 'points'?\n"
     )
 
 

@@ -53,6 +53,10 @@ class Materials(Resource):
     def __init__(self) -> None:
         self.named: dict[str, Words] = {}
 
+    def name(self, number: int) -> str:
+        """Return the name of the material of that number, as in `Material` and `Hit`; empty for -1."""
+        return "" if number < 0 else list(self.named)[number]
+
 
 def add_entity(world: World, *, name: str | None = None, **words: Any) -> Entity:
     """Add one entity described in the words of a world file, all numbers SI.
@@ -168,12 +172,13 @@ def shape_of(words: Words) -> Shape:
 
 def material_of(world: World, material: str | Words | None) -> Material:
     """Return the Material bundle of a name or of words; quantities may be ``{value, combine}``."""
+    values: dict[str, Any] = {}
     if isinstance(material, str):
         named = world[Materials].named
         if material not in named:
             raise DeclarationError(f"unknown material {material!r}; the materials are {', '.join(named) or 'none'}")
+        values["number"] = list(named).index(material)
         material = named[material]
-    values: dict[str, Any] = {}
     for key, value in (material or {}).items():
         if key in COMBINE_QUANTITIES and isinstance(value, Mapping):
             values[key] = value["value"]

@@ -5,8 +5,12 @@ from __future__ import annotations
 from carom.ecs import World, system
 from carom.ecs.component import Resource
 from carom.ecs.relations.enter import Enter, Exit
+from carom.ecs.relations.hit import Hit
 from carom.ecs.relations.impact import Impact
+from carom.ecs.relations.touching import ContactBegin, ContactEnd
 from carom.systems.settings import Settings
+
+EVENTS = (Impact, Hit, Enter, Exit, ContactBegin, ContactEnd)
 
 
 class Progress(Resource):
@@ -19,14 +23,13 @@ class Progress(Resource):
     balls_resting: int = 0
 
 
-@system(reads=(Settings,), writes=(Progress, Impact, Enter, Exit))
+@system(reads=(Settings,), writes=(Progress, *EVENTS))
 def begin_step(world: World, dt: float) -> None:
     """Forget the events of the step before and set the clock."""
     progress = world[Progress]
     progress.substep = 0
-    world.resize(Impact, 0)
-    world.resize(Enter, 0)
-    world.resize(Exit, 0)
+    for kind in EVENTS:
+        world.resize(kind, 0)
 
 
 @system(reads=(Settings,), writes=(Progress,))

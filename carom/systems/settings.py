@@ -27,6 +27,7 @@ class Settings(Resource):
     dimensions: int = 3  # 2: every body keeps to its plane z = const and turns about z only
     collision: Collision = "auto"  # fcl: no kernel stands in for FCL, but on meshes
     response: Response = "full"  # reflect: impacts only, no resting contacts
+    hit_speed: float = 0.2  # m/s, closing speed from which an impact is a hit
     seed: int = 0
     threads: int = 1  # that share the work of a step; the bits do not depend on it
 
@@ -35,6 +36,8 @@ class Settings(Resource):
         faults = []
         if not (np.isfinite(self.dt) and self.dt > 0.0):
             faults.append(f"dt must be finite and above 0 s, received {self.dt:g}")
+        if not (np.isfinite(self.hit_speed) and self.hit_speed > 0.0):
+            faults.append(f"hit_speed must be finite and above 0 m/s, received {self.hit_speed:g}")
         if self.substeps < 1:
             faults.append(f"substeps must be at least 1, received {self.substeps}")
         if not 1 <= self.threads <= MOST_THREADS:

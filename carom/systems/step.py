@@ -19,6 +19,7 @@ from carom.systems.progress import begin_step, begin_substep
 from carom.systems.response import drift, hand_impulses_over, hold, look_ahead, relax, settle, sort_out_contacts
 from carom.systems.sensors import sense
 from carom.systems.settings import Settings
+from carom.systems.touching import tell_contacts, tell_hits
 
 
 def substeps(world: World) -> int:
@@ -60,6 +61,8 @@ STEP = Schedule(
     Phase(
         "finish",
         hand_impulses_over,  # of resting contacts, into their table
+        tell_contacts,  # who touches whom, who begins and ends to
+        tell_hits,  # the impacts that are heard
         clear_inputs,
         carry_children,  # entities carried by others follow them
         check_finite,

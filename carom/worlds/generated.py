@@ -27,8 +27,8 @@ from carom.worlds.units import parse_unit
 from carom.worlds.values import Flag, In, Text, Whole, Words, either, word_of
 
 SPECIAL = {"rotation": RotationWord, "color": ColorWord}
-SETTING_UNITS = {"dt": "s", "gravity": "m/s2"}
-SETTING_BOUNDS: dict[str, dict[str, float]] = {"dt": {"above": 0.0}}
+SETTING_UNITS = {"dt": "s", "gravity": "m/s2", "hit_speed": "m/s"}
+SETTING_BOUNDS: dict[str, dict[str, float]] = {"dt": {"above": 0.0}, "hit_speed": {"above": 0.0}}
 SETTING_WHOLE: dict[str, tuple[int, int | None]] = {
     "substeps": (1, None),
     "dimensions": (2, 3),
@@ -173,7 +173,7 @@ def setting_fields(*, in_step: bool) -> Fields:
 def material_model() -> type[Words]:
     """Return the model of a material: its columns, where those that combine may say how."""
     rule = word_of(*(rule.name.lower() for rule in Combine if rule is not Combine.DEFAULT))
-    names = [name for name in Material.columns if not name.endswith("_combine")]
+    names = [name for name in Material.columns if name != "number" and not name.endswith("_combine")]
     fields = column_fields(Material, *names)
     for name in COMBINE_QUANTITIES:
         plain, field = fields[name]

@@ -211,7 +211,7 @@ expect:
         (
             "{at: 1 s, floor.linear: {is: [0, 0, 0], within: 1}}",
             ("floor.linear: floor has no such column; received 'linear'; accepted: position, rotation, friction, restitution, "
-            "density, rolling_friction, spinning_friction, friction_combine, restitution_combine, color"),
+            "density, rolling_friction, spinning_friction, friction_combine, restitution_combine, number, color"),
         ),
         ("{never: bal.position.y < 0}", "never: unknown entity; received 'bal'; accepted: ball, floor; did you mean 'ball'?"),
         (

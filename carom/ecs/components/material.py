@@ -31,4 +31,7 @@ class Material(Component):
     spinning_friction: Floats = column(unit="1", doc="torque against spinning over normal force times radius")
     friction_combine: Integers = column(unit="1", doc="rule for friction of a pair", dtype="int64")
     restitution_combine: Integers = column(unit="1", doc="rule for restitution of a pair", dtype="int64")
+    number: Integers = column(
+        unit="1", doc="number among the named materials, -1 for one without a name", dtype="int64", default=-1
+    )
     color: Floats = column(4, unit="1", doc="colour, red green blue alpha in 0..1", default=(0.8, 0.8, 0.8, 1.0))

@@ -1,0 +1,81 @@
+"""Touching: which pairs of colliders begin to touch, still do, and end; and which struck each other audibly."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs import Material, World, system
+from carom.ecs.column import Floats, Integers
+from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.hit import Hit
+from carom.ecs.relations.impact import Impact
+from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
+from carom.systems.kernels.touching import renew_touching
+from carom.systems.settings import Settings
+
+
+@system(reads=(Contact, Impact, Settings), writes=(Touching, ContactBegin, ContactEnd))
+def tell_contacts(world: World, dt: float) -> None:
+    """Tell which pairs begin and end to touch."""
+    contact, touching = world[Contact], world[Touching]
+    struck_a, struck_b, struck_at = struck(world)
+    count, room = touching.count, contact.count + len(struck_a)
+    a, b, since = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room)
+    begins, ends = np.empty(room, np.bool_), np.empty(count, np.bool_)
+    found, new = renew_touching(
+        contact.count, contact.a, contact.b, contact.row_a, contact.row_b, contact.impulse, contact.depth,
+        struck_a, struck_b, struck_at, world.frame * world[Settings].dt,
+        count, touching.a, touching.b, touching.since, world.handles(), world.slots.row_shift,
+        a, b, since, begins, ends,
+    )  # fmt: skip
+    if found - new < count:
+        which = np.nonzero(ends)[0]
+        started = np.full(len(which), (world.frame - 1) * world[Settings].dt)
+        tell(world, ContactEnd, started, touching.a[which], touching.b[which])
+    if new:
+        which = np.nonzero(begins[:found])[0]
+        tell(world, ContactBegin, since[which], a[which], b[which])
+    world.resize(Touching, found)
+    touching = world[Touching]
+    touching.a[:found], touching.b[:found], touching.since[:found] = a[:found], b[:found], since[:found]
+
+
+def struck(world: World) -> tuple[Integers, Integers, Floats]:
+    """Return the pairs (rows) of living entities that were struck in the step, in order of rows, and when first (s)."""
+    impact = world[Impact]
+    a, b, time = impact.a[: impact.count], impact.b[: impact.count], impact.time[: impact.count]
+    if impact.count:
+        living = world.slots.live(a) & world.slots.live(b)
+        one, other = world.slots.rows(a[living]), world.slots.rows(b[living])
+        keys = np.minimum(one, other) * world.capacity + np.maximum(one, other)
+        keys, first = np.unique(keys, return_index=True)  # impacts are in order of time
+        a, b, time = keys // world.capacity, keys % world.capacity, time[living][first]
+    return a, b, time
+
+
+def tell(world: World, kind: type[ContactBegin] | type[ContactEnd], time: Floats, a: Integers, b: Integers) -> None:
+    """Write a table of events in order of time, then handles."""
+    order = np.lexsort((b, a, time))
+    world.resize(kind, len(order))
+    table = world[kind]
+    for column, values in ((table.time, time), (table.a, a), (table.b, b)):
+        column[: len(order)] = values[order]
+
+
+@system(reads=(Impact, Material, Settings), writes=(Hit,))
+def tell_hits(world: World, dt: float) -> None:
+    """Tell which impacts were fast enough to be heard, and of which materials."""
+    impact = world[Impact]
+    if not impact.count:
+        return
+    loud = np.nonzero(impact.speed[: impact.count] >= world[Settings].hit_speed)[0]
+    loud = loud[np.lexsort((impact.b[loud], impact.a[loud], impact.time[loud]))]
+    world.resize(Hit, len(loud))
+    hit = world[Hit]
+    for name in ("time", "a", "b", "point", "normal", "speed", "impulse"):
+        getattr(hit, name)[: len(loud)] = getattr(impact, name)[loud]
+    for party, material in ((hit.a, hit.material_a), (hit.b, hit.material_b)):
+        living = world.slots.live(party[: len(loud)])
+        numbers = world[Material].number[world.slots.rows(party[: len(loud)][living])]
+        material[: len(loud)] = -1
+        material[: len(loud)][living] = numbers
