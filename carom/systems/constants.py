@@ -312,6 +312,9 @@ SENSED = 1e-5
 # s, m. How near the time of a crossing is found, or the gap there. Larger: times are less exact; smaller: rounding.
 CROSSED, CROSSING_GAP = 1e-12, 1e-13
 
+# Newton steps from 0 to an angle of at most a quarter turn, each of which cubes the error; the fifth leaves rounding.
+ANGLE_STEPS = 5
+
 # Times within a substep at which a pair is measured in the search for a trip into a sensor and back; 6 are usual.
 # Fewer: more trips past its edges are overlooked; more: what glides along a mesh that is a sensor takes longer.
 MOST_PROBES = 64

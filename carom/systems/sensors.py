@@ -10,6 +10,7 @@ from carom.ecs.commands import Commands
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.enter import Enter, Exit, Inside
 from carom.ecs.relations.impact import Impact
+from carom.systems.constants import SENSED
 from carom.systems.courses import Courses
 from carom.systems.crossings import Search, carry_out, is_out, may_trip
 from carom.systems.detection.answered import Answered
@@ -61,19 +62,27 @@ def sense(world: World, dt: float) -> None:
 
 
 def searches(world: World, sensing: Sensing, inside: Booleans, span: float) -> list[tuple[int, Search]]:
-    """Return what was found of each pair, by its number, that may have crossed a border in the substep."""
-    count = len(inside)
-    if not count:
+    """Return what was found of each pair, by its number, that may have crossed a border in the substep.
+
+    Only those are measured that are so near a border that they may come to it.
+    """
+    if not len(inside):
         return []
-    courses, all_of_them = Courses(world, sensing, span), np.arange(count)
-    before = courses.gaps(all_of_them, np.zeros(count)) if sensing.gaps is None else sensing.gaps
-    sensing.gaps = after = courses.gaps(all_of_them, np.full(count, span))
-    bend = np.where((courses.knot > 0.0).any(axis=(1, 2)), np.inf, courses.bend)
-    crosses = may_trip(before, after, inside, courses.speed, bend, span)
-    crosses |= is_out(before, inside) | is_out(after, inside)
+    courses = Courses(world, sensing, span)
+    before = courses.gaps(np.arange(len(inside)), np.zeros(len(inside))) if sensing.gaps is None else sensing.gaps
+    after = before - np.copysign(courses.speed * span, before)
+    near = np.nonzero((np.abs(before) < courses.speed * span + SENSED) | is_out(before, inside))[0]
+    if len(near) and sensing.gaps is not None:
+        before[near] = courses.gaps(near, np.zeros(len(near)))
+    if len(near):
+        after[near] = courses.gaps(near, np.full(len(near), span))
+    sensing.gaps = after
+    bend = np.where((courses.knot > 0.0).any(axis=1), np.inf, courses.bend)
+    crosses = may_trip(before[near], after[near], inside[near], courses.speed[near], bend[near], span)
+    crosses |= is_out(before[near], inside[near]) | is_out(after[near], inside[near])
     found: list[tuple[int, Search]] = []
-    for pair in np.nonzero(crosses)[0].tolist():
-        knots = sorted({knot for knot in courses.knot[pair].ravel().tolist() if knot > 0.0})
+    for pair in near[crosses].tolist():
+        knots = sorted({knot for knot in courses.knot[pair].tolist() if knot > 0.0})
         found.append((pair, Search(float(courses.speed[pair]), float(courses.bend[pair]), knots, bool(inside[pair]))))
     asking = [(pair, search.run(float(before[pair]), float(after[pair]), span)) for pair, search in found]
     carry_out(asking, courses.gaps)

@@ -23,9 +23,11 @@ from carom.ecs import (
     state_hash,
     take_snapshot,
 )
+from carom.ecs.component import Relation
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Inside
 from carom.ecs.relations.impact import Impact
+from carom.ecs.relations.touching import Touching
 from carom.ecs.snapshot import held_columns
 from carom.ecs.snapshot_faults import SAVED
 from carom.systems.detection.fcl_objects import FclObjects
@@ -262,11 +264,11 @@ def test_the_hash_changes_with_every_state_column() -> None:
     simulation = bouncing_and_resting()
     simulation.step(60)
     columns = [(kind, name) for kind, _, names in held_columns(simulation.world) for name in names]
-    assert {kind for kind, _ in columns} >= {Transform, Motion, Material, Contact, Inside}
+    assert {kind for kind, _ in columns} >= {Transform, Motion, Material, Contact, Inside, Touching}
     before = state_hash(simulation.world)
     for kind, name in columns:
         array = simulation.world.table(kind).arrays[name]
-        row = 0 if kind in (Contact, Inside) else int(simulation.world.row_numbers(kind)[0])
+        row = 0 if issubclass(kind, Relation) else int(simulation.world.row_numbers(kind)[0])
         raw = array[row : row + 1].view(np.uint8)
         raw.flat[0] ^= 1
         assert state_hash(simulation.world) != before, f"{kind.__name__}.{name}"

@@ -14,7 +14,7 @@ class Sensing(Resource):
     """Pairs of a sensor and who may meet it within the step, in order of handles; a cache of the step.
 
     ``pairs`` (n, 2) are handles. Poses (n, 2) are of both shapes in the frames of their bodies, of a static one in the
-    world. ``gaps`` (n,) are those at the end of the last substep, None where pairs are new.
+    world. ``gaps`` (n,) are those at the end of the last substep, or nearer to 0; None where pairs are new.
     """
 
     def __init__(self) -> None:

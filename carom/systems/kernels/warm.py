@@ -88,7 +88,7 @@ def compile_measuring() -> None:
 
 
 def compile_frame() -> None:
-    """Step a world in which balls rest and roll, one body is on keyframes, and every law of force acts."""
+    """Step a world in which balls rest and roll in a sensor, one body is on keyframes, and every law of force acts."""
     look_for_vectors(there=False)
 
     from carom.systems.simulation import Simulation
@@ -98,6 +98,7 @@ def compile_frame() -> None:
     for x, speed in ((0.0, 0.0), (5.0, 1.0)):
         place, motion = {"position": (x, 0.5, 0.0)}, {"linear": (speed, 0.0, 0.0)}
         simulation.add(collider={"sphere": {"radius": 0.5}}, body={}, transform=place, motion=motion)
+    simulation.add(collider={"sphere": {"radius": 1.0}, "sensor": True})
     way = ({"at": 0.0}, {"at": 1.0, "position": (1.0, 0.0, 0.0)})
     simulation.add(body={"type": "kinematic"}, keyframes=way)
     simulation.force("linear_drag", coefficient=1.0)
