@@ -10,7 +10,7 @@ from carom.systems.constants import SMALL_ANGLE
 from carom.systems.kernels.bodies import advance_body
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lanes import WIDTH, address, choose, load, root, some, spread, store, whole
-from carom.systems.kernels.spatial import product, series, turn
+from carom.systems.kernels.spatial import product, quarter, series, turn, turned_by
 
 # Rows of the scratch, a lane each body: the time to go, and what moves in it; then what stays.
 TIME, CENTER, LINEAR, ANGULAR, TURNED, ROTATION = 0, 1, 4, 7, 10, 13
@@ -115,39 +115,6 @@ def spun_in_lanes(qx, qy, qz, qw, wx, wy, wz, t):
 
 
 @woven
-def turned_in_lanes(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t):
-    """Return what `freely_turned` does for bodies whose three moments are not one and none of them 0."""
-    lx, ly, lz = turn(-qx, -qy, -qz, qw, wx, wy, wz)
-    mx, my, mz = ix * lx, iy * ly, iz * lz
-    gx, gy, gz = turn(qx, qy, qz, qw, mx, my, mz)  # angular momentum in the world, which stays
-    jx, jy, jz = 0.25 / ix, 0.25 / iy, 0.5 / iz
-    for second in range(2):
-        if not second:
-            qx, qy, qz, qw, my, mz = turned_about(qx, qy, qz, qw, my, mz, jx * mx * t)
-        qy, qz, qx, qw, mz, mx = turned_about(qy, qz, qx, qw, mz, mx, jy * my * t)
-        if not second:
-            qz, qx, qy, qw, mx, my = turned_about(qz, qx, qy, qw, mx, my, jz * mz * t)
-        else:
-            qx, qy, qz, qw, my, mz = turned_about(qx, qy, qz, qw, my, mz, jx * mx * t)
-    inverse = 1.0 / root(qx * qx + qy * qy + qz * qz + qw * qw)
-    qx, qy, qz, qw = qx * inverse, qy * inverse, qz * inverse, qw * inverse
-    mx, my, mz = turn(-qx, -qy, -qz, qw, gx, gy, gz)
-    wx, wy, wz = turn(qx, qy, qz, qw, mx / ix, my / iy, mz / iz)
-    return qx, qy, qz, qw, wx, wy, wz
-
-
-@woven
-def turned_about(qx, qy, qz, qw, my, mz, half):
-    """Return q, and angular momentum as the body sees it, after a turn about its first axis by twice ``half``."""
-    s, c = sine_cosine_in_lanes(half)
-    sine, cosine = 2.0 * s * c, 1.0 - 2.0 * s * s
-    return (
-        qw * s + qx * c, qy * c + qz * s, qz * c - qy * s, qw * c - qx * s,
-        my * cosine + mz * sine, mz * cosine - my * sine,
-    )  # fmt: skip
-
-
-@woven
 def sine_cosine_in_lanes(angle):
     """Return what `sine_cosine` does."""
     turns = whole(angle / QUARTER_TURN + 0.5)
@@ -157,3 +124,40 @@ def sine_cosine_in_lanes(angle):
     odd, second = quadrant - 2.0 * whole(quadrant / 2.0), quadrant - 1.5
     sine, cosine = choose(odd, c, s), choose(odd, -s, c)
     return choose(second, -sine, sine), choose(second, -cosine, cosine)
+
+
+turned_twice = turned_by(sine_cosine_in_lanes)
+
+
+@woven
+def turned_in_lanes(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t):
+    """Return what `freely_turned` does for bodies whose three moments are not one and none of them 0."""
+    lx, ly, lz = turn(-qx, -qy, -qz, qw, wx, wy, wz)
+    mx, my, mz = ix * lx, iy * ly, iz * lz
+    gx, gy, gz = turn(qx, qy, qz, qw, mx, my, mz)  # angular momentum in the world, which stays
+    not_y, not_x = (ix - iy) * (iz - iy), (iy - ix) * (iz - ix)  # which of them is not the middle one
+    i, o, middle = middle_last(not_y, not_x, ix, iy, iz)
+    mx, my, mz = middle_last(not_y, not_x, mx, my, mz)
+    qx, qy, qz, qw = spun_in_lanes(qx, qy, qz, qw, gx / middle, gy / middle, gz / middle, t)
+    qx, qy, qz = middle_last(not_y, not_x, qx, qy, qz)
+    qx, qy, qz, qw = turned_twice(qx, qy, qz, qw, mx, my, mz, quarter(t, i, middle), quarter(t, o, middle))
+    qx, qy, qz = (
+        choose(not_y, choose(not_x, qx, qz), qy),
+        choose(not_y, choose(not_x, qy, qx), qz),
+        choose(not_y, choose(not_x, qz, qy), qx),
+    )
+    inverse = 1.0 / root(qx * qx + qy * qy + qz * qz + qw * qw)
+    qx, qy, qz, qw = qx * inverse, qy * inverse, qz * inverse, qw * inverse
+    mx, my, mz = turn(-qx, -qy, -qz, qw, gx, gy, gz)
+    wx, wy, wz = turn(qx, qy, qz, qw, mx / ix, my / iy, mz / iz)
+    return qx, qy, qz, qw, wx, wy, wz
+
+
+@woven
+def middle_last(not_y, not_x, x, y, z):
+    """Return what is of three axes in a circle, so that what is of the middle one comes last."""
+    return (
+        choose(not_y, choose(not_x, x, y), z),
+        choose(not_y, choose(not_x, y, z), x),
+        choose(not_y, choose(not_x, z, x), y),
+    )
