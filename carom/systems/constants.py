@@ -331,6 +331,10 @@ FARTHEST_QUERY = 1e100
 # more where it comes at a slant. Smaller than the rounding of positions: steps in vain.
 CAST_GAP = 1e-11
 
+# m. How far before the end of a cast its last step begins where the two are too near to be measured. Larger: round
+# shapes stop short by its square over their radius. Smaller: their distance has too few digits there.
+CAST_BACK = 1e-5
+
 # m. A cast that begins nearer than this to a convex collider is told by their gap and normal alone. Smaller: cores
 # are so near that their distance has no direction.
 CAST_BEGUN = 1e-6

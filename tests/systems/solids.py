@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.ecs.spatial import quaternion
+from carom.systems.shapes import Shape
 from carom.systems.shapes.geometry import hull_of
 
 CORNERS = np.array(
@@ -78,3 +80,10 @@ def first_within(outside: Callable[[Floats], Floats], origin: Floats, direction:
         inside = outside(origin + middle[:, None] * direction) < 0.0
         low, high = np.where(inside, low, middle), np.where(inside, middle, high)
     return np.where(meets, high, np.inf)
+
+
+def reaching(shape: Shape, position: Any, rotation: Any, normal: Floats) -> Floats:
+    """Return how far a shape in one or many places reaches along unit vectors (n, 3)."""
+    local = quaternion.rotate(quaternion.conjugate(np.broadcast_to(rotation, (len(normal), 4))), normal)
+    reached: Floats = (local * shape.support(local)).sum(axis=1) + (normal * position).sum(axis=1)
+    return reached

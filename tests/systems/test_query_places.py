@@ -7,26 +7,17 @@ from typing import Any
 import numpy as np
 import pytest
 from meshes import block, nearest, sheet
-from solids import SOLIDS
+from solids import SOLIDS, reaching
 
-from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.systems.assembly import shape_of
 from carom.systems.queries.arguments import QueryError
-from carom.systems.shapes import Shape
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.simulation import Simulation
 
 EXACT = 1e-9  # m
 CONVEX = [name for name in SOLIDS if name != "plane"]
-
-
-def reaching(shape: Shape, position: Any, rotation: Any, normal: Floats) -> Floats:
-    """Return how far a shape in one or many places reaches along unit vectors (n, 3)."""
-    local = quaternion.rotate(quaternion.conjugate(np.broadcast_to(rotation, (len(normal), 4))), normal)
-    reached: Floats = (local * shape.support(local)).sum(axis=1) + (normal * position).sum(axis=1)
-    return reached
 
 
 @pytest.mark.parametrize("name", CONVEX)

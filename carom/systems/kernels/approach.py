@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import CAST_GAP
+from carom.systems.constants import CAST_BACK, CAST_GAP
 from carom.systems.kernels.cores import (
     AROUND,
     CORE,
@@ -50,13 +50,14 @@ def gap_of_point(core, x, y, z):
 def approach(core, place, vertices, ux, uy, uz, limit, mirrored, corner, name, weight, seen):
     """Return (state, way, unit normal, point) of the second core, which moves along u, and the first, in whose frame.
 
-    The normal is out of the first, the point on it. Points have their gap to round cores in closed form, for which
-    ``mirrored`` is room for two cores.
+    The normal is out of the first, the point on it. Where the cores have come so near that their distance has no
+    direction, the last step is taken from CAST_BACK before, and the longer of both ways counts. Points have their gap
+    to round cores in closed form, for which ``mirrored`` is room for two cores.
     """
     ox, oy, oz = place[POSITION], place[POSITION + 1], place[POSITION + 2]
     length = sqrt(ox * ox + oy * oy + oz * oz)
     nx, ny, nz = (ox / length, oy / length, oz / length) if length > 0.0 else (-ux, -uy, -uz)
-    px, py, pz, way, state = 0.0, 0.0, 0.0, 0.0, BEGUN
+    px, py, pz, way, reached, state, closing, last = 0.0, 0.0, 0.0, 0.0, 0.0, BEGUN, 1.0, False
     around = core[AROUND] + core[CORE + AROUND]
     of_point = core[CORE + KIND] == POINT and CYLINDER <= core[KIND] <= ELLIPSOID
     for d in range(CORE):
@@ -75,7 +76,10 @@ def approach(core, place, vertices, ux, uy, uz, limit, mirrored, corner, name, w
             state = MISSED
             break
         if found == MEETING:
-            break
+            if state == BEGUN or last:
+                break
+            reached, way, last = way, max(way - CAST_BACK / closing, 0.0), True
+            continue
         nx, ny, nz = mx, my, mz
         px, py, pz = qx + core[AROUND] * nx, qy + core[AROUND] * ny, qz + core[AROUND] * nz
         gap -= around
@@ -84,8 +88,8 @@ def approach(core, place, vertices, ux, uy, uz, limit, mirrored, corner, name, w
             state = MISSED
             break
         state = TOUCHED
-        way = max(way, way + gap / closing)
-        if gap <= CAST_GAP:
+        way = max(way, way + gap / closing, reached)
+        if gap <= CAST_GAP or last:
             break
     place[POSITION], place[POSITION + 1], place[POSITION + 2] = ox, oy, oz
     return state, way, nx, ny, nz, px, py, pz
