@@ -53,6 +53,9 @@ class Settings(Resource):
                 faults.append(f"{name} must be one of {', '.join(get_args(choices))}, received {getattr(self, name)!r}")
         if faults:
             raise DeclarationError("; ".join(faults))
+        floats = {"dt": float(self.dt), "hit_speed": float(self.hit_speed), "gravity": tuple(map(float, self.gravity))}
+        for name, value in floats.items():  # a kernel that is first called with whole numbers would cut all others off
+            object.__setattr__(self, name, value)
 
 
 class Random(Resource):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -102,3 +104,17 @@ def test_a_stack_of_three_boxes_stays_put(collision: str) -> None:
         transform = simulation.world[Transform]
         assert np.abs(transform.position[:4] - begun).max() < 1e-3
         assert np.abs(transform.rotation[:4, :3]).max() < math.radians(0.1) / 2.0
+
+
+def test_whole_numbers_do_not_make_kernels_of_whole_numbers() -> None:
+    """The first world of a process falls by (0, -10, 0): the next one by 9.81 m/s2 all the same."""
+    code = """
+from carom.systems.simulation import Simulation
+for gravity in ((0, -10, 0), (0.0, -9.81, 0.0)):
+    simulation = Simulation(dt=1, substeps=1, gravity=gravity)
+    ball = simulation.add(body={"mass": 1.0})
+    simulation.step()
+    print(simulation[ball].motion.linear[1])
+"""
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.split() == ["-10.0", "-9.81"]
