@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import inf
-from typing import Any, NamedTuple, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 import numpy.typing as npt
 
-from carom.ecs import Entity, World
+from carom.ecs import World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.spatial import quaternion
 from carom.systems.assembly import shape_of
 from carom.systems.kernels.rays import ALL
+from carom.systems.queries.answers import Closest, Insides, Overlaps
 from carom.systems.queries.arguments import Arguments, QueryError
 from carom.systems.queries.filters import Filters, seen
 from carom.systems.queries.rays import meet
@@ -25,58 +26,6 @@ from carom.systems.shapes.point import Point
 from carom.systems.shapes.shape import Shape
 
 ASKANCE = (0.48, 0.6, 0.64)  # a direction that few faces lie along
-
-
-class Closest(NamedTuple):
-    """The nearest place of each collider within reach, in order of queries and distance."""
-
-    query: Integers  # which of the points, or of the places of a shape
-    entity: Integers
-    collider: Integers
-    distance: Floats  # m; below 0 inside: how far out is
-    point: Floats  # (n, 3), m, on the collider
-    own: Floats  # (n, 3), m, on the shape that asks, or the point itself
-    normal: Floats  # (n, 3), unit, out of the collider
-
-
-class Nearest(NamedTuple):
-    """The nearest of all, to one point or shape; see `Closest`."""
-
-    entity: Entity
-    collider: Entity
-    distance: float
-    point: Floats
-    own: Floats
-    normal: Floats
-
-
-class Overlaps(NamedTuple):
-    """Who overlaps a shape where it is, in order of queries and, the deepest first, of depth."""
-
-    query: Integers
-    entity: Integers
-    collider: Integers
-    depth: Floats  # m
-    point: Floats  # (n, 3), m, midway between the surfaces
-    normal: Floats  # (n, 3), unit, out of the collider
-
-
-class Overlap(NamedTuple):
-    """The deepest of all overlaps of one shape; see `Overlaps`."""
-
-    entity: Entity
-    collider: Entity
-    depth: float
-    point: Floats
-    normal: Floats
-
-
-class Insides(NamedTuple):
-    """Which points are inside of which colliders, in order of points and colliders."""
-
-    point: Integers
-    entity: Integers
-    collider: Integers
 
 
 def closest_points(
@@ -129,22 +78,6 @@ def points_inside(world: World, points: npt.ArrayLike, **filters: Unpack[Filters
     scene = world[Scene].of_now(world)
     point, row = _inside(scene, position, seen(world, scene.rows, scene.body, filters))
     return Insides(point, *scene.entities(world, row))
-
-
-def nearest(found: Closest) -> Nearest | None:
-    """Return the first of all by itself, None where there is none."""
-    if not len(found.query):
-        return None
-    _, entity, collider, distance, point, own, normal = (column[0] for column in found)
-    return Nearest(Entity(int(entity)), Entity(int(collider)), float(distance), point, own, normal)
-
-
-def deepest(found: Overlaps) -> Overlap | None:
-    """Return the first of all by itself, None where there is none."""
-    if not len(found.query):
-        return None
-    _, entity, collider, depth, point, normal = (column[0] for column in found)
-    return Overlap(Entity(int(entity)), Entity(int(collider)), float(depth), point, normal)
 
 
 def movable(query: str, shape: Shape | Mapping[str, Any]) -> Shape:

@@ -15,8 +15,8 @@ from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.layers import Layers
 from carom.systems.queries import places, rays, shape_casts
+from carom.systems.queries.answers import Closest, Insides, Nearest, Overlap, Overlaps, deepest, nearest
 from carom.systems.queries.filters import Filters
-from carom.systems.queries.places import Closest, Insides, Nearest, Overlap, Overlaps
 from carom.systems.queries.rays import AllHits, Hit, Hits
 from carom.systems.queries.scene import Scene
 from carom.systems.settings import Settings
@@ -114,7 +114,7 @@ class Space:
 
     def closest_point(self, point: npt.ArrayLike, reach: float = inf, **filters: Unpack[Filters]) -> Nearest | None:
         """Return the place nearest to one point, None where there is none within ``reach``, m."""
-        return places.nearest(places.closest_points(self._world, point, reach, **filters))
+        return nearest(places.closest_points(self._world, point, reach, **filters))
 
     def closest_to_shapes(
         self,
@@ -136,7 +136,7 @@ class Space:
         **filters: Unpack[Filters],
     ) -> Nearest | None:
         """Return the place nearest to a shape, None where there is none within ``reach``, m."""
-        return places.nearest(places.closest_to_shapes(self._world, shape, position, rotation, reach, **filters))
+        return nearest(places.closest_to_shapes(self._world, shape, position, rotation, reach, **filters))
 
     def find_overlaps(
         self,
@@ -156,7 +156,7 @@ class Space:
         **filters: Unpack[Filters],
     ) -> Overlap | None:
         """Return who overlaps a shape most, None where nobody does."""
-        return places.deepest(places.find_overlaps(self._world, shape, position, rotation, **filters))
+        return deepest(places.find_overlaps(self._world, shape, position, rotation, **filters))
 
     def points_inside(self, points: npt.ArrayLike, **filters: Unpack[Filters]) -> Insides:
         """Return which of ``points`` (n, 3), m, are inside of which colliders."""
