@@ -1,4 +1,4 @@
-"""Goldens of chaotic library worlds: what the same file leads to, to the last bit, and how it looks."""
+"""Goldens of library worlds: what the same file leads to, to the last bit, and how it looks."""
 
 from __future__ import annotations
 
@@ -10,7 +10,18 @@ from carom.tools.filming import shot_of
 from carom.worlds import load_world
 
 
-@pytest.mark.parametrize(("world", "frames"), [("billiards", 240), ("mirror_room", 120), ("cannon", 240), ("jump", 78)])
+@pytest.mark.parametrize(
+    ("world", "frames"),
+    [
+        ("billiards", 240),
+        ("bullet_holes", 23),
+        ("cannon", 240),
+        ("dominoes", 1200),
+        ("jump", 78),
+        ("mirror_room", 120),
+        ("pong", 60),
+    ],
+)
 def test_a_world_leads_where_it_led_before(world: str, frames: int, carom_snapshot: Any) -> None:
     """State and picture after some frames are those of the golden; an update needs a line in the changelog."""
     loaded = load_world(world)

@@ -48,7 +48,13 @@ def test_expectations_hold(name: str, collision: str) -> None:
         ("bounce", r"restitution: (0\.5)", 1.0, 0.1),
         ("bounce", r"restitution: (0\.75)", 1.0, 0.1),
         ("bounce", r"restitution: (1), color: blue", 1.0, -0.1),
+        ("bullet_holes", WEIGHT, 1.01, 0.0),
+        ("bullet_holes", r"mass: (4) g", 1.05, 0.0),
+        ("bullet_holes", r"material: {restitution: (0), friction: 0}", 1.0, 0.1),
+        ("dominoes", WEIGHT, 1.01, 0.0),
+        ("dominoes", WEIGHT, 0.99, 0.0),
         ("mirror_room", r"restitution: (1)", 1.0, -0.1),
+        ("pong", r"restitution: (1)", 1.0, -0.1),
         ("cannon", WEIGHT, 1.01, 0.0),
         *[("cannon", rf"name: {group}_{mass}, prefab: shell, body: {{mass: ({mass})}}", 1.05, 0.0)
           for group in ("bare", "drag", "wind") for mass in (1, 2, 4)],
