@@ -26,7 +26,7 @@ from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.threads import Threads, parts_for, share_out
 
-Yielding = tuple[float, float, float]
+Yielding = tuple[float, float]
 
 
 class Resting(Resource):
@@ -132,7 +132,7 @@ class Resting(Resource):
 
     def relax(self, world: World, h: float) -> None:
         """Take the speed by which overlap left out of the velocities, and sum up the impulses."""
-        rows, motion, hard = world.row_numbers(RigidBody), world[Motion], (0.0, 1.0, 0.0)
+        rows, motion, hard = world.row_numbers(RigidBody), world[Motion], (0.0, 1.0)
         pack_velocities(rows, motion.linear, motion.angular, self.bodies)
         self._solve(world, RELAX_SWEEPS, h, hard, hard)
         unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
@@ -166,10 +166,10 @@ class Resting(Resource):
 def yielding(h: float) -> tuple[Yielding, Yielding]:
     """Return how contacts of two moving bodies, and of one, yield in a substep of h seconds.
 
-    Each is (rate at which overlap leaves, in 1/s, part of the mass, part of the impulse given up): Catto, Soft
+    Each is (rate at which overlap leaves, in 1/s, part of the mass and of the impulse that stays): Catto, Soft
     Constraints, GDC 2011. The frequency is limited by the substep's own.
     """
     circle = 2.0 * pi * min(CONTACT_FREQUENCY, 0.25 / h)
     one = 2.0 * CONTACT_DAMPING + h * circle
     two = h * circle * one
-    return (circle / one, two / (1.0 + two), 1.0 / (1.0 + two)), (RIGID_RATE / h, 1.0, 0.0)
+    return (circle / one, two / (1.0 + two)), (RIGID_RATE / h, 1.0)

@@ -13,42 +13,42 @@ from carom.systems.kernels.packing import CENTER
 
 
 @woven
-def fill_radii(g, r, first, kind, sign, radius, extent, lanes):
-    """Write the radii of both balls into the lanes of a group; -1 where not all of its manifolds are of two balls."""
-    balls = True
+def find_balls(g, r, first, kind, sign, radius, extent, lanes):
+    """Mark a group whose manifolds are all of two balls: they meet on the line between their centres."""
     for lane in range(WIDTH):
         c = first[g, lane]
-        balls &= c < 0 or kind[c] == BALL
+        if c >= 0 and kind[c] != BALL:
+            return
     for lane in range(WIDTH):
         c = first[g, lane]
-        of_a, of_b = 0.0, 0.0
-        if c >= 0:
-            of_a, of_b = (radius[c], extent[c, 0]) if sign[c] > 0.0 else (extent[c, 0], radius[c])
-        lanes[r + of.RADIUS_A, lane], lanes[r + of.RADIUS_B, lane] = of_a if balls else -1.0, of_b
+        if c < 0:
+            continue
+        of_a, of_b = (radius[c], extent[c, 0]) if sign[c] > 0.0 else (extent[c, 0], radius[c])
+        lanes[r + of.BALL, lane] = 2.0
+        lanes[r + of.MIDDLE_A + 2, lane], lanes[r + of.MIDDLE_B + 2, lane] = of_a, -of_b
+        for k in range(2):
+            lanes[r + of.MIDDLE_A + k, lane] = lanes[r + of.MIDDLE_B + k, lane] = 0.0
 
 
 @woven
 def are_balls(r, lanes):
-    """Tell whether all manifolds of a group are of two balls, as `fill_radii` found."""
-    return lanes[r + of.RADIUS_A, 0] >= 0.0
+    """Tell whether all manifolds of a group are of two balls, as `find_balls` found."""
+    return lanes[r + of.BALL, 0] > 1.0
 
 
 @woven
 def measure_balls_in_lanes(g, r, index_a, index_b, lanes, bodies):
     """Measure the contacts of a group where the balls are; as `measure_ball` does, one by one."""
     a, b = gather(bodies, index_a, g, CENTER), gather(bodies, index_b, g, CENTER)
-    of_a, of_b = load(lanes, r + of.RADIUS_A), load(lanes, r + of.RADIUS_B)
+    reach = load(lanes, r + of.MIDDLE_A + 2) - load(lanes, r + of.MIDDLE_B + 2)
     there, zero = load(lanes, r + of.SHARE), spread(0.0)
     way = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
     distance = root(dot(way, way))
     inverse = choose(there, 1.0 / larger(distance, spread(TINY)), zero)
     x, z = way[0] * inverse, way[2] * inverse
     y = choose(distance, way[1] * inverse, choose(there, spread(-1.0), zero))  # concentric: any direction parts them
-    q = r + MANIFOLD_ROWS
     keep(lanes, r + of.NORMAL, x, y, z)
-    keep(lanes, q + of.OFFSET_A, of_a * x, of_a * y, of_a * z)
-    keep(lanes, q + of.OFFSET_B, -of_b * x, -of_b * y, -of_b * z)
-    store(lanes, q + of.DEPTH, choose(there, of_a + of_b - distance, spread(ABSENT)))
+    store(lanes, r + MANIFOLD_ROWS + of.DEPTH, choose(there, reach - distance, spread(ABSENT)))
 
 
 @woven
@@ -62,16 +62,15 @@ def write_normals(g, r, first, lanes, normal):
 
 
 @woven
-def write_points(g, r, first, index_a, center, lanes, depth, point, offset_a, offset_b):
-    """Write the points of a group into the contact table."""
-    q = r + MANIFOLD_ROWS
+def write_touches(g, r, first, index_a, center, lanes, depth, point, offset_a, offset_b):
+    """Write where the balls of a group touch into the contact table."""
     for lane in range(WIDTH):
         c = first[g, lane]
         if c < 0:
             continue
-        i = index_a[g, lane]
-        depth[c] = lanes[q + of.DEPTH, lane]
+        i, depth[c] = index_a[g, lane], lanes[r + MANIFOLD_ROWS + of.DEPTH, lane]
         for k in range(3):
-            n, to_a = lanes[r + of.NORMAL + k, lane], lanes[q + of.OFFSET_A + k, lane]
-            offset_a[c, k], offset_b[c, k] = to_a, lanes[q + of.OFFSET_B + k, lane]
-            point[c, k] = center[i, k] + (to_a - 0.5 * depth[c] * n)
+            n = lanes[r + of.NORMAL + k, lane]
+            offset_a[c, k] = lanes[r + of.MIDDLE_A + 2, lane] * n
+            offset_b[c, k] = lanes[r + of.MIDDLE_B + 2, lane] * n
+            point[c, k] = center[i, k] + (offset_a[c, k] - 0.5 * depth[c] * n)

@@ -8,8 +8,9 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls_in_lanes import are_balls
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel
-from carom.systems.kernels.lane_vectors import crossed, dot, three
+from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, some, spread, store
+from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
 
 
@@ -28,15 +29,12 @@ def find_closing(begin, end, h, index_a, index_b, first, points, row, lanes, bod
             continue
         a, b = gather(packed, of_a, g, VELOCITY), gather(packed, of_b, g, VELOCITY)
         felt_a, felt_b = gather(packed, of_a, g, MASS_AND_FELT)[3:6], gather(packed, of_b, g, MASS_AND_FELT)[3:6]
-        n = three(rows, r + of.NORMAL)
-        way = dot(n, (a[0] - b[0], a[1] - b[1], a[2] - b[2])) * h
-        way = way + (larger(none, dot(n, felt_a)) + larger(none, -dot(n, felt_b))) * (0.5 * h * h)
-        closes = none
+        n, parting, closes = three(rows, r + of.NORMAL), parting_of(r, rows, a, b), none
+        pressed = (larger(none, dot(n, felt_a)) + larger(none, -dot(n, felt_b))) * (0.5 * h * h)
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            lever_a, lever_b = crossed(three(rows, q + of.OFFSET_A), n), crossed(three(rows, q + of.OFFSET_B), n)
-            turning = (dot(lever_a, a[4:7]) - dot(lever_b, b[4:7])) * h
-            closes = choose(way + turning + load(rows, q + of.DEPTH) + ROOT_GAP, one, closes)
+            gap = parting_at(q, rows, parting) * h - load(rows, q + of.DEPTH)
+            closes = choose(pressed - gap + ROOT_GAP, one, closes)
         store(rows, r + of.CLOSES, closes)
         for lane in range(WIDTH):
             if first[g, lane] >= 0:

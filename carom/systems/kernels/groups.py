@@ -12,24 +12,24 @@ from carom.systems.kernels.lanes import WIDTH, address, spread, store
 from carom.systems.kernels.spatial import plane_axes
 
 # Rows of eight numbers that a group has, a lane each manifold. First what is filled in when contacts are found: the
-# normal, two tangents, friction, restitution, resistance to rolling and spinning (m), 1 where it is of a ball on an
-# exact arc, one by its points, and the impulses: friction along the tangents, spinning, rolling, and friction summed
-# over the step; then the velocity of b's surface against a's; the radii of two balls on arcs; 1 where it rests, and
-# where it did before.
-NORMAL, TANGENT, FRICTION, RESTITUTION, ROLLING, SPINNING, BALL, SHARE = 0, 3, 9, 10, 11, 12, 13, 14
-RUB, SPUN, ROLLED, RUBBED, SURFACE, RADIUS_A, RADIUS_B, RESTS, TOGETHER, FILLED = 15, 17, 18, 21, 24, 27, 28, 29, 30, 31
-# Then what follows from where the bodies are: inverse masses along the axes, the middle of the points from both bodies,
-# how a unit impulse there along the tangents, and a twist about the normal, turn either body; the inverse of the
-# inverse mass along the tangents (a symmetric 2 x 2), the inertia about the normal, and about any axis across it; at
-# last 1 where a point may close within the substep.
-MASS_A, MASS_B, MIDDLE_A, MIDDLE_B, TURN_T_A, TURN_U_A, TURN_T_B, TURN_U_B = 31, 34, 37, 40, 43, 46, 49, 52
-TURN_N_A, TURN_N_B, GIVE, SPIN, ROLL, CLOSES, MANIFOLD_ROWS = 55, 58, 61, 64, 65, 66, 67
+# frame, which is two tangents and the normal, each the cross product of the other two; friction, restitution,
+# resistance to rolling and spinning (m), 1 where it is of a ball on an exact arc (2 where the group is of two balls
+# each), one by its points, and the impulses: friction along the tangents, spinning, rolling, and friction summed over
+# the step; then the velocity of b's surface against a's; 1 where it rests, and where it did before; the middle of the
+# points from both bodies, in the frame.
+TANGENT, NORMAL, FRICTION, RESTITUTION, ROLLING, SPINNING, BALL, SHARE = 0, 6, 9, 10, 11, 12, 13, 14
+RUB, SPUN, ROLLED, RUBBED, SURFACE, RESTS, TOGETHER, MIDDLE_A, MIDDLE_B, FILLED = 15, 17, 18, 21, 24, 27, 28, 29, 32, 35
+# Then what follows from where the bodies are: inverse masses along the axes; how unit twists about the axes of the
+# frame turn either body; the inverse of the inverse mass along the tangents (a symmetric 2 x 2), the inertia about the
+# normal, and about any axis across it; at last 1 where a point may close within the substep.
+MASS_A, MASS_B, TURN_A, TURN_B, GIVE, SPIN, ROLL, CLOSES, MANIFOLD_ROWS = 35, 38, 41, 50, 59, 62, 63, 64, 65
 
-# Rows of each point, after those of the manifold: where it is from both bodies, depth, normal impulse and its sum over
-# the step; then its levers (r x n), how a unit impulse turns either body, the mass along the normal, and how far it is
-# from the middle.
-OFFSET_A, OFFSET_B, DEPTH, WARM, SUM, POINT_FILLED = 0, 3, 6, 7, 8, 9
-LEVER_A, LEVER_B, TURN_A, TURN_B, MASS, AWAY, POINT_ROWS = 9, 12, 15, 18, 21, 22, 23
+# Rows of each point, after those of the manifold: where it is from the middle along the tangents (along the normal it
+# has no lever), depth, normal impulse and its sum over the step; then the mass along the normal, and how far it is from
+# the middle.
+AT, DEPTH, WARM, SUM, POINT_FILLED = 0, 2, 3, 4, 5
+MASS, AWAY, POINT_ROWS = 5, 6, 7
+# After those of all points a row for each two of them: how fast a unit impulse at either parts the bodies at the other.
 
 ABSENT = -1e300  # m, the depth of a point that a lane does not have
 BUCKETS = 256  # of manifolds that are shuffled
@@ -89,7 +89,7 @@ def group_manifolds(
             group, lane, last = group + 1, 0, stands[m] * levels + level[m]
             level_ends[begun - 1] = group + 1
             row[group], points[group] = rows, start[m + 1] - start[m]
-            rows += MANIFOLD_ROWS + POINT_ROWS * points[group]
+            rows += couplings(0, points[group]) + pair(points[group], 0)
             for k in range(WIDTH):
                 index_a[group, k], index_b[group, k], first[group, k], size[group, k] = nobody, nobody, -1, 0
         if not stands[m]:
@@ -101,6 +101,18 @@ def group_manifolds(
         lane += 1
     ends[1] = group + 1
     return group + 1, rows, begun
+
+
+@woven
+def couplings(r, points):
+    """Return the first row after those of the points of a group."""
+    return r + MANIFOLD_ROWS + POINT_ROWS * points
+
+
+@woven
+def pair(p, o):
+    """Return which row after `couplings` is of points p and o, of which p comes later."""
+    return p * (p - 1) // 2 + o
 
 
 @inlined
@@ -153,10 +165,9 @@ def fill_groups(
         for k in range(3):
             lanes[r + SURFACE + k, lane] = surface[c, k]
         fx, fy, fz, wx, wy, wz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        write_points(r, lane, c, start[m + 1] - c, offset_a, offset_b, depth, lanes)
         for p in range(start[m + 1] - c):
-            q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            write_point(q, lane, c + p, offset_a, offset_b, depth, lanes)
-            lanes[q + WARM, lane] = warm_normal[c + p]
+            lanes[r + MANIFOLD_ROWS + POINT_ROWS * p + WARM, lane] = warm_normal[c + p]
             fx, fy, fz = fx + warm_friction[c + p, 0], fy + warm_friction[c + p, 1], fz + warm_friction[c + p, 2]
             wx, wy, wz = wx + warm_rolling[c + p, 0], wy + warm_rolling[c + p, 1], wz + warm_rolling[c + p, 2]
         for k in range(2):
@@ -174,16 +185,29 @@ def fill_groups(
 def write_normal(r, lane, nx, ny, nz, lanes):
     """Write a normal and its tangents into the lane of a manifold."""
     tx, ty, tz, ux, uy, uz = plane_axes(nx, ny, nz)
-    for k, value in enumerate((nx, ny, nz, tx, ty, tz, ux, uy, uz)):
-        lanes[r + NORMAL + k, lane] = value
+    for k, value in enumerate((tx, ty, tz, ux, uy, uz, nx, ny, nz)):
+        lanes[r + TANGENT + k, lane] = value
 
 
 @woven
-def write_point(q, lane, c, offset_a, offset_b, depth, lanes):
-    """Write where contact c is, and how deep, into the lane of its manifold."""
+def write_points(r, lane, c, count, offset_a, offset_b, depth, lanes):
+    """Write where the points of a manifold are, from contact c on, and how deep, into its lane."""
+    share = lanes[r + SHARE, lane]
     for k in range(3):
-        lanes[q + OFFSET_A + k, lane], lanes[q + OFFSET_B + k, lane] = offset_a[c, k], offset_b[c, k]
-    lanes[q + DEPTH, lane] = depth[c]
+        axis = r + TANGENT + 3 * k
+        x, y, z = lanes[axis, lane], lanes[axis + 1, lane], lanes[axis + 2, lane]
+        of_a, of_b = 0.0, 0.0
+        for i in range(c, c + count):
+            of_a += x * offset_a[i, 0] + y * offset_a[i, 1] + z * offset_a[i, 2]
+            of_b += x * offset_b[i, 0] + y * offset_b[i, 1] + z * offset_b[i, 2]
+        of_a, of_b = share * of_a, share * of_b
+        lanes[r + MIDDLE_A + k, lane], lanes[r + MIDDLE_B + k, lane] = of_a, of_b
+        for p in range(count):
+            q, i = r + MANIFOLD_ROWS + POINT_ROWS * p, c + p
+            if k < 2:
+                lanes[q + AT + k, lane] = x * offset_b[i, 0] + y * offset_b[i, 1] + z * offset_b[i, 2] - of_b
+            else:
+                lanes[q + DEPTH, lane] = depth[i]
 
 
 @kernel("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")

@@ -5,7 +5,6 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lanes import load, store
-from carom.systems.kernels.spatial import cross
 
 TINY = 1e-300  # keeps lanes that have nothing to divide free of NaN
 
@@ -38,9 +37,3 @@ def about(inertia, x, y, z):
         inertia[1] * x + inertia[3] * y + inertia[4] * z,
         inertia[2] * x + inertia[4] * y + inertia[5] * z,
     )
-
-
-@woven
-def crossed(a, b):
-    """Return a x b."""
-    return cross(a[0], a[1], a[2], b[0], b[1], b[2])

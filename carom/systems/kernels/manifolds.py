@@ -5,10 +5,11 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import IMMOVABLE, MANIFOLD_POINTS, SAME_NORMAL, SINGULAR
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, couplings, pair
 from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.lane_vectors import TINY, about, crossed, dot, keep, three
+from carom.systems.kernels.lane_vectors import TINY, about, dot, keep, three
 from carom.systems.kernels.lanes import choose, gather, larger, load, root, spread, store
+from carom.systems.kernels.levers import coupled, frame_of
 from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT
 
 
@@ -38,53 +39,80 @@ def inverse_or_none(rests, x):
 @woven
 def prepare(g, r, points, rests, index_a, index_b, lanes, bodies):
     """Write what follows for a group from where its bodies are; masses are 0 where a manifold does not rest."""
-    n, t, u = three(lanes, r + of.NORMAL), three(lanes, r + of.TANGENT), three(lanes, r + of.TANGENT + 3)
-    share, zero = load(lanes, r + of.SHARE), spread(0.0)
-    for p in range(points):
-        store(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.MASS, zero)
-    ktt, ktu, kuu, spin, roll, movable = zero, zero, zero, zero, zero, zero
-    for side in range(2):
-        index = index_a if side == 0 else index_b
-        masses = gather(bodies, index, g, MASS_AND_FELT)
-        inertia = gather(bodies, index, g, INVERSE)
-        keep(lanes, r + of.MASS_A + 3 * side, masses[0], masses[1], masses[2])
-        along = masses[0] * n[0] * n[0] + masses[1] * n[1] * n[1] + masses[2] * n[2] * n[2]
-        x, y, z = zero, zero, zero
-        for p in range(points):
-            q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            ox, oy, oz = three(lanes, q + of.OFFSET_A + 3 * side)
-            x, y, z = x + ox, y + oy, z + oz
-            lever = three(lanes, q + of.LEVER_A + 3 * side)
-            wx, wy, wz = about(inertia, lever[0], lever[1], lever[2])
-            keep(lanes, q + of.TURN_A + 3 * side, wx, wy, wz)
-            store(lanes, q + of.MASS, load(lanes, q + of.MASS) + (along + dot(lever, (wx, wy, wz))))
-        middle = (x * share, y * share, z * share)
-        keep(lanes, r + of.MIDDLE_A + 3 * side, middle[0], middle[1], middle[2])
-        lever_t, lever_u = crossed(middle, t), crossed(middle, u)
-        turn_t = about(inertia, lever_t[0], lever_t[1], lever_t[2])
-        turn_u = about(inertia, lever_u[0], lever_u[1], lever_u[2])
-        turn_n = about(inertia, n[0], n[1], n[2])
-        keep(lanes, r + of.TURN_T_A + 6 * side, turn_t[0], turn_t[1], turn_t[2])
-        keep(lanes, r + of.TURN_U_A + 6 * side, turn_u[0], turn_u[1], turn_u[2])
-        keep(lanes, r + of.TURN_N_A + 3 * side, turn_n[0], turn_n[1], turn_n[2])
-        ktt = ktt + (dot(masses, (t[0] * t[0], t[1] * t[1], t[2] * t[2])) + dot(lever_t, turn_t))
-        kuu = kuu + (dot(masses, (u[0] * u[0], u[1] * u[1], u[2] * u[2])) + dot(lever_u, turn_u))
-        ktu = ktu + (dot(masses, (t[0] * u[0], t[1] * u[1], t[2] * u[2])) + dot(lever_u, turn_t))
-        spin, roll, movable = spin + dot(n, turn_n), roll + inertia[6], movable + masses[6]
-    middle = three(lanes, r + of.MIDDLE_B)
+    zero = spread(0.0)
+    masses_a, inertia_a, movable_a, roll_a = prepare_body(g, r, 0, index_a, lanes, bodies)
+    masses_b, inertia_b, movable_b, roll_b = prepare_body(g, r, 1, index_b, lanes, bodies)
+    movable = movable_a + movable_b
+    (s_a, q_a, z_a), (s_b, q_b, z_b) = three(lanes, r + of.MIDDLE_A), three(lanes, r + of.MIDDLE_B)
+    # An impulse along the normal at the middle has the lever q t - s u.
+    tt, tu, uu = inertia_a[0] + inertia_b[0], inertia_a[1] + inertia_b[1], inertia_a[2] + inertia_b[2]
+    a_t, a_u = q_a * inertia_a[0] - s_a * inertia_a[1], q_a * inertia_a[1] - s_a * inertia_a[2]
+    b_t, b_u = q_b * inertia_b[0] - s_b * inertia_b[1], q_b * inertia_b[1] - s_b * inertia_b[2]
+    along = (masses_a[5] + (q_a * a_t - s_a * a_u)) + (masses_b[5] + (q_b * b_t - s_b * b_u))
+    by_t, by_u = a_t + b_t, a_u + b_u
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
-        yields = load(lanes, q + of.MASS)
+        for o in range(p):
+            to = r + MANIFOLD_ROWS + POINT_ROWS * o
+            store(lanes, couplings(r, points) + pair(p, o), coupled(lanes, q, to, along, by_t, by_u, (tt, tu, uu)))
+        yields = coupled(lanes, q, q, along, by_t, by_u, (tt, tu, uu))
         held = choose(yields - IMMOVABLE * movable, rests, zero)  # no impulse where locks all but forbid to part
         store(lanes, q + of.MASS, inverse_or_none(held, yields))
-        x, y, z = three(lanes, q + of.OFFSET_B)
-        away = crossed((x - middle[0], y - middle[1], z - middle[2]), n)
-        store(lanes, q + of.AWAY, root(dot(away, away)))
+        x, y = load(lanes, q + of.AT), load(lanes, q + of.AT + 1)
+        store(lanes, q + of.AWAY, root(x * x + y * y))
+    give_a, give_b = give_way(s_a, q_a, z_a, masses_a, inertia_a), give_way(s_b, q_b, z_b, masses_b, inertia_b)
+    ktt, ktu, kuu = give_a[0] + give_b[0], give_a[1] + give_b[1], give_a[2] + give_b[2]
     # Where one direction is locked, the other is as good as any.
     trace = ktt + kuu
     locked = SINGULAR * trace * trace - (ktt * kuu - ktu * ktu)
     ktt, ktu, kuu = choose(locked, trace, ktt), choose(locked, zero, ktu), choose(locked, trace, kuu)
     inverse = inverse_or_none(rests, ktt * kuu - ktu * ktu)
     keep(lanes, r + of.GIVE, kuu * inverse, -ktu * inverse, ktt * inverse)
-    store(lanes, r + of.SPIN, inverse_or_none(rests, spin))
-    store(lanes, r + of.ROLL, inverse_or_none(rests, roll))
+    store(lanes, r + of.SPIN, inverse_or_none(rests, inertia_a[5] + inertia_b[5]))
+    store(lanes, r + of.ROLL, inverse_or_none(rests, roll_a + roll_b))
+
+
+@woven
+def prepare_body(g, r, side, index, lanes, bodies):
+    """Write what follows from one body of each manifold, which are a (side 0) or b (side 1).
+
+    Return inverse mass and inertia in the frame, each (tt, tu, uu, tn, un, nn), inverse mass and inertia without locks.
+    """
+    masses, inertia = gather(bodies, index, g, MASS_AND_FELT), gather(bodies, index, g, INVERSE)
+    t, u, n = frame_of(r, lanes)
+    by_t, by_u, by_n = about(inertia, *t), about(inertia, *u), about(inertia, *n)
+    turns = r + of.TURN_A + 9 * side
+    keep(lanes, r + of.MASS_A + 3 * side, masses[0], masses[1], masses[2])
+    keep(lanes, turns, by_t[0], by_t[1], by_t[2])
+    keep(lanes, turns + 3, by_u[0], by_u[1], by_u[2])
+    keep(lanes, turns + 6, by_n[0], by_n[1], by_n[2])
+    along_t, along_u, along_n = scaled(masses, t), scaled(masses, u), scaled(masses, n)
+    return (
+        in_frame(t, u, n, along_t, along_u, along_n), in_frame(t, u, n, by_t, by_u, by_n), masses[6], inertia[6]
+    )  # fmt: skip
+
+
+@woven
+def scaled(masses, x):
+    """Return a vector scaled along the axes."""
+    return masses[0] * x[0], masses[1] * x[1], masses[2] * x[2]
+
+
+@woven
+def in_frame(t, u, n, by_t, by_u, by_n):
+    """Return a symmetric tensor in the frame: (tt, tu, uu, tn, un, nn)."""
+    return dot(t, by_t), dot(u, by_t), dot(u, by_u), dot(n, by_t), dot(n, by_u), dot(n, by_n)
+
+
+@woven
+def give_way(s, q, z, masses, inertia):
+    """Return how one body gives way to an impulse at the middle, along the tangents: (tt, tu, uu).
+
+    The levers there are z u - q n and s n - z t.
+    """
+    tt, tu, uu, tn, un, nn = inertia
+    return (
+        masses[0] + (z * (z * uu - q * un) + q * (q * nn - z * un)),
+        masses[1] + (z * (s * un - z * tu) + q * (z * tn - s * nn)),
+        masses[2] + (s * (s * nn - z * tn) + z * (z * tt - s * tn)),
+    )

@@ -6,8 +6,8 @@ from __future__ import annotations
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel
-from carom.systems.kernels.lane_vectors import crossed, dot, three
 from carom.systems.kernels.lanes import WIDTH, address, gather, load, store
+from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import WAY
 from carom.systems.kernels.spatial import turn
 
@@ -47,15 +47,12 @@ def sink_contacts(begin, end, index_a, index_b, first, size, points, row, kind, 
     rows, moved, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
     for g in range(begin, end):
         r = row[g]
-        n = three(rows, r + of.NORMAL)
-        a, b = gather(moved, index_a, g, WAY), gather(moved, index_b, g, WAY)
-        apart = dot(n, (a[0] - b[0], a[1] - b[1], a[2] - b[2]))
+        parting = parting_of(r, rows, gather(moved, index_a, g, WAY), gather(moved, index_b, g, WAY))
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            lever_a, lever_b = crossed(three(rows, q + of.OFFSET_A), n), crossed(three(rows, q + of.OFFSET_B), n)
-            deep = load(rows, q + of.DEPTH) + (apart + (dot(lever_a, a[4:7]) - dot(lever_b, b[4:7])))
-            store(rows, q + of.DEPTH, deep)
-            for lane in range(WIDTH):
-                c = first[g, lane]
-                if p < size[g, lane] and kind[c] < 0:
-                    depth[c + p] = lanes[q + of.DEPTH, lane]
+            store(rows, q + of.DEPTH, load(rows, q + of.DEPTH) - parting_at(q, rows, parting))
+        for lane in range(WIDTH):
+            c = first[g, lane]
+            if c >= 0 and kind[c] < 0:
+                for p in range(size[g, lane]):
+                    depth[c + p] = lanes[r + MANIFOLD_ROWS + POINT_ROWS * p + of.DEPTH, lane]

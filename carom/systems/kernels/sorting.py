@@ -8,19 +8,20 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import gap_of_ball, pose_of_other
 from carom.systems.kernels.balls_in_lanes import (
     are_balls,
-    fill_radii,
+    find_balls,
     measure_balls_in_lanes,
     write_normals,
-    write_points,
+    write_touches,
 )
-from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, write_point
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, write_points
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.kinematic import follow_turning
-from carom.systems.kernels.lane_vectors import crossed, dot, keep, three
+from carom.systems.kernels.lane_vectors import dot, keep, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, root, smaller, some, spread, store
+from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.manifolds import prepare
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
-from carom.systems.kernels.resting import IDLE, RESTING, ROLLING, RUBBING, TWISTING
+from carom.systems.kernels.rubbing import IDLE, RESTING, ROLLING, RUBBING, TWISTING
 
 
 @kernel("fresh", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b", "resting", "touching")
@@ -43,14 +44,14 @@ def sort_groups(
         changed = fresh[g]
         fresh[g] = False
         if changed:
-            fill_radii(g, r, first, kind, sign, radius, extent, lanes)
+            find_balls(g, r, first, kind, sign, radius, extent, lanes)
         measured = g < ends[0] and are_balls(r, lanes)
         if measured:
             measure_balls_in_lanes(g, r, of_a, of_b, rows, packed)
             if bends or last:
                 write_normals(g, r, first, lanes, normal)
             if last:
-                write_points(g, r, first, index_a, center, lanes, depth, point, offset_a, offset_b)
+                write_touches(g, r, first, index_a, center, lanes, depth, point, offset_a, offset_b)
         moved_on = measured
         for lane in range(WIDTH):
             c = first[g, lane]
@@ -71,13 +72,13 @@ def sort_groups(
                 time = h if bends and moves else 0.5 * h
                 for k in range(c, c + size[g, lane]):
                     moves |= follow_turning(k, body_a[c], body_b[c], time, bodies, normal, center, offset_a, offset_b)
-            for k in range(size[g, lane] if moves else 0):
-                write_point(r + MANIFOLD_ROWS + POINT_ROWS * k, lane, c + k, offset_a, offset_b, depth, lanes)
             moved_on |= moves
         if moved_on:
             find_tangents(r, rows)
-        if changed or moved_on:
-            find_levers(r, points[g], rows)
+            for lane in range(0 if measured else WIDTH):
+                c = first[g, lane]
+                if c >= 0:
+                    write_points(r, lane, c, size[g, lane], offset_a, offset_b, depth, lanes)
         rests = find_resting(g, r, points[g], h, of_a, of_b, rows, packed) * resting_stage
         before = load(rows, r + of.RESTS)
         store(rows, r + of.RESTS, rests)
@@ -156,17 +157,6 @@ def find_tangents(r, lanes):
 
 
 @woven
-def find_levers(r, points, lanes):
-    """Find the levers r x n of all points about both bodies."""
-    n = three(lanes, r + of.NORMAL)
-    for p in range(points):
-        q = r + MANIFOLD_ROWS + POINT_ROWS * p
-        lever_a, lever_b = crossed(three(lanes, q + of.OFFSET_A), n), crossed(three(lanes, q + of.OFFSET_B), n)
-        keep(lanes, q + of.LEVER_A, lever_a[0], lever_a[1], lever_a[2])
-        keep(lanes, q + of.LEVER_B, lever_b[0], lever_b[1], lever_b[2])
-
-
-@woven
 def find_resting(g, r, points, h, index_a, index_b, lanes, bodies):
     """Return 1 for each manifold that rests, else 0.
 
@@ -185,10 +175,10 @@ def find_resting(g, r, points, h, index_a, index_b, lanes, bodies):
     slow = choose(restitution, pressing, all_forces)
     limit = slow * (REST_SPEED_FACTOR * h) + APPROACH
     near, striking, held = spread(-1.0), spread(-1.0), zero
+    parting = parting_of(r, lanes, a, b)
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
-        lever_a, lever_b = three(lanes, q + of.LEVER_A), three(lanes, q + of.LEVER_B)
-        closing = dot(n, (a[0] - b[0], a[1] - b[1], a[2] - b[2])) + (dot(lever_a, a[4:7]) - dot(lever_b, b[4:7]))
+        closing = -parting_at(q, lanes, parting)
         gap = -load(lanes, q + of.DEPTH)
         after = gap - closing * h - pressing * (0.5 * h * h)
         # What forces kept together before or is inside one another, and does not bounce, rests however fast it closes.

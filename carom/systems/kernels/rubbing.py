@@ -1,0 +1,95 @@
+"""Rubbing: friction, spinning and rolling of manifolds, at the middles of their points."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.constants import ROLL_SWEEPS, ROLLING_SOLVED
+from carom.systems.kernels import groups as of
+from carom.systems.kernels.impulses import rolled, rubbed, spun
+from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lane_vectors import TINY, dot, keep, three
+from carom.systems.kernels.lanes import choose, larger, load, root, smaller, some, spread, store
+from carom.systems.kernels.levers import frame_of
+
+# What the manifolds of a group ask for, each more than before.
+IDLE, RESTING, RUBBING, TWISTING, ROLLING = 0, 1, 2, 3, 4
+
+
+@woven
+def rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies):
+    """Solve friction of a group at the middles of its manifolds; return the velocities of both bodies.
+
+    ``total`` is the sum of the impulses of each, ``twisting`` that of each times its distance from the middle.
+    Friction that slides twists the less: both share one cone (Goyal, Ruina and Papadopoulos, Wear 143, 307, 1991, as an
+    ellipsoid).
+    """
+    n = three(lanes, r + of.NORMAL)
+    friction = load(lanes, r + of.FRICTION)
+    most = friction * total
+    most_twist, most_spin = friction * twisting, load(lanes, r + of.SPINNING) * total
+    per_twist = choose(most_twist, most / larger(most_twist, spread(TINY)), spread(0.0))
+    give, give_both, give_across = three(lanes, r + of.GIVE)
+    along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
+    for _ in range(ROLL_SWEEPS if asks == ROLLING else 1):
+        t, u, spin = slip(r, lanes, a, b)
+        new_along = along - (give * t + give_both * u)
+        new_across = across - (give_both * t + give_across * u)
+        before, hold = load(lanes, r + of.SPUN), load(lanes, r + of.SPIN)
+        wanted = before - hold * spin
+        part = wanted * per_twist
+        size = root(new_along * new_along + new_across * new_across + part * part)
+        share = choose(size - most, most / larger(size, spread(TINY)), spread(1.0))
+        new_along, new_across = new_along * share, new_across * share
+        t, u = new_along - along, new_across - across
+        a, b = rubbed(r, lanes, a, b, t, u)
+        along, across = new_along, new_across
+        if asks < TWISTING:
+            break
+        s = (b[4] - a[4], b[5] - a[5], b[6] - a[6])
+        spin = dot(n, s)
+        up_to = most_spin + choose(size - most, smaller(most_twist, larger(wanted, -wanted) * share), most_twist)
+        after = smaller(larger(before - hold * spin, -up_to), up_to)
+        store(lanes, r + of.SPUN, after)
+        j = after - before
+        a, b = spun(r, lanes, a, b, j)
+        if asks < ROLLING:
+            break
+        # What slides does not roll.
+        most_roll = choose(size - most, spread(0.0), load(lanes, r + of.ROLLING) * total)
+        x, y, z = three(lanes, r + of.ROLLED)
+        up, stiff = dot(n, (x, y, z)), load(lanes, r + of.ROLL)
+        wx = x - up * n[0] - stiff * (s[0] - spin * n[0])
+        wy = y - up * n[1] - stiff * (s[1] - spin * n[1])
+        wz = z - up * n[2] - stiff * (s[2] - spin * n[2])
+        size = root(wx * wx + wy * wy + wz * wz)
+        share = choose(size - most_roll, most_roll / larger(size, spread(TINY)), spread(1.0))
+        wx, wy, wz = wx * share, wy * share, wz * share
+        keep(lanes, r + of.ROLLED, wx, wy, wz)
+        x, y, z = wx - x, wy - y, wz - z
+        a, b = rolled(g, index_a, index_b, bodies, a, b, x, y, z)
+        open_rub = t * t + u * u - ROLLING_SOLVED * most * most
+        open_roll = x * x + y * y + z * z - ROLLING_SOLVED * most_roll * most_roll
+        if not some(larger(open_rub, open_roll)):
+            break
+    store(lanes, r + of.RUB, along)
+    store(lanes, r + of.RUB + 1, across)
+    return a, b
+
+
+@woven
+def slip(r, lanes, a, b):
+    """Return the velocity of b's surface against a's at the middle, along the tangents, and its spin about the normal.
+
+    What w x r has along t and u is w.(r x t) and w.(r x u), with r x t = z u - q n and r x u = s n - z t.
+    """
+    t, u, n = frame_of(r, lanes)
+    sx, sy, sz = three(lanes, r + of.SURFACE)
+    linear = (sx + (b[0] - a[0]), sy + (b[1] - a[1]), sz + (b[2] - a[2]))
+    a_t, a_u, a_n = dot(t, a[4:7]), dot(u, a[4:7]), dot(n, a[4:7])
+    b_t, b_u, b_n = dot(t, b[4:7]), dot(u, b[4:7]), dot(n, b[4:7])
+    (s_a, q_a, z_a), (s_b, q_b, z_b) = three(lanes, r + of.MIDDLE_A), three(lanes, r + of.MIDDLE_B)
+    return (
+        dot(t, linear) + (z_b * b_u - q_b * b_n) - (z_a * a_u - q_a * a_n),
+        dot(u, linear) + (s_b * b_n - z_b * b_t) - (s_a * a_n - z_a * a_t),
+        b_n - a_n,
+    )
