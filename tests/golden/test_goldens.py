@@ -20,6 +20,7 @@ from carom.worlds import load_world
         ("jump", 78),
         ("mirror_room", 120),
         ("pong", 60),
+        ("trap", 420),
     ],
 )
 def test_a_world_leads_where_it_led_before(world: str, frames: int, carom_snapshot: Any) -> None:

@@ -66,6 +66,7 @@ def test_expectations_hold(name: str, collision: str) -> None:
         ("jump", r"gravity: \[0, (-20), 0\]", 1.01, 0.0),
         ("jump", r"material: {restitution: (0), friction: 1}\n", 1.0, 0.1),
         ("jump", r"stone: {restitution: (0)", 1.0, 0.1),
+        ("trap", WEIGHT, 1.01, 0.0),
         ("orbit", r"mass: (100)\b", 1.05, 0.0),
         ("orbit", r"mass: (1)\b", 1.05, 0.0),
         ("orbit", r"constant: ([\d.]+)", 1.01, 0.0),
