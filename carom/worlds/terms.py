@@ -13,6 +13,7 @@ from carom.ecs.column import Floats
 from carom.ecs.errors import did_you_mean
 from carom.systems.energy import kinetic_energies
 from carom.systems.own_components import is_own
+from carom.systems.queries.space import Space
 from carom.worlds.errors import WordError
 from carom.worlds.names import matching
 
@@ -52,8 +53,21 @@ def _energy(world: World, rows: list[int]) -> Floats:
     return kinetic_energies(world, np.array(rows, np.int64))
 
 
+def _distance(world: World, rows: list[int]) -> float:
+    first, second = world[Transform].position[rows]
+    return float(np.linalg.norm(second - first))
+
+
+def _sees(world: World, rows: list[int]) -> float:
+    """Return 1 where nothing stands on the straight line between two origins but the two themselves, else 0."""
+    first, second = world[Transform].position[rows]
+    reach = _distance(world, rows)
+    pair = world.entities(np.array(rows))
+    return float(not reach or not Space(world).cast_rays_any(first, second - first, reach, without=pair)[0])
+
+
 CALLS = {"speed": ("m/s", _speed), "spin": ("rad/s", _spin), "kinetic_energy": ("J", _energy)}
-DISTANCE = "distance"
+PAIRS: dict[str, tuple[str, Callable[[World, list[int]], float]]] = {"distance": ("m", _distance), "sees": ("1", _sees)}
 
 
 def read_term(text: str, world: World) -> Term:
@@ -63,27 +77,23 @@ def read_term(text: str, world: World) -> Term:
     if call is not None:
         return _call(text, call[1], re.findall(NAME_PATTERN, call[2]), world)
     if column is None:
-        accepted = f"<entity>.<column>, {', '.join(f'{name}(entity)' for name in CALLS)} or {DISTANCE}(entity, entity)"
+        calls = [f"{name}(entity)" for name in CALLS] + [f"{name}(entity, entity)" for name in PAIRS]
+        accepted = f"<entity>.<column>, {', '.join(calls[:-1])} or {calls[-1]}"
         raise WordError("is no value of the world", received=repr(text), accepted=accepted)
     names = matching(column[1], world.names())
     return _column(text, names, column[2].split("."), world)
 
 
 def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
-    wanted = dict.fromkeys(CALLS, 1) | {DISTANCE: 2}
+    wanted = dict.fromkeys(CALLS, 1) | dict.fromkeys(PAIRS, 2)
     if wanted.get(function) != len(patterns):
         accepted = ", ".join(f"{name}({', '.join(['entity'] * count)})" for name, count in wanted.items())
         hint = did_you_mean(function, wanted) if function not in wanted else ""
         raise WordError("unknown function", received=repr(text), accepted=accepted, hint=hint)
     groups = [matching(pattern, world.names()) for pattern in patterns]
-    if function == DISTANCE:
-        pair = [world.find(group[0]) for group in groups]
-
-        def distance(world: World) -> Floats:
-            first, second = world[Transform].position[_rows(world, pair)]
-            return np.array([[np.linalg.norm(second - first)]])
-
-        return Term(text, "m", 1, (text,), distance)
+    if function in PAIRS:
+        (unit, between), pair = PAIRS[function], [world.find(group[0]) for group in groups]
+        return Term(text, unit, 1, (text,), lambda world: np.array([[between(world, _rows(world, pair))]]))
     unit, measure = CALLS[function]
     entities = [world.find(name) for name in groups[0]]
     for entity in entities:

@@ -15,9 +15,11 @@ from carom.worlds import load_world
     [
         ("billiards", 240),
         ("bullet_holes", 23),
+        ("camera_follow", 60),
         ("cannon", 240),
         ("dominoes", 1200),
         ("jump", 78),
+        ("line_of_sight", 600),
         ("mirror_room", 120),
         ("pong", 60),
         ("trap", 420),

@@ -11,7 +11,7 @@ import pytest
 import trimesh
 
 from carom.tools.cli import main
-from carom.worlds import WorldError, load_text, load_world
+from carom.worlds import WorldError, library, load_text, load_world
 
 LENGTH = "a number in m, or one with a unit: m, mm, cm, km, um, in, ft, mi"
 MASS = "a number in kg, or one with a unit: kg, g, mg, t, lb, oz"
@@ -244,7 +244,7 @@ expect:
         (
             "{always: __import__('os')}",
             ("always: unknown function; received \"__import__('os')\"; accepted: speed(entity), spin(entity), "
-            "kinetic_energy(entity), distance(entity, entity)"),
+            "kinetic_energy(entity), distance(entity, entity), sees(entity, entity)"),
         ),
         (
             "{always: ball.position.y + 1 > 0}",
@@ -451,8 +451,7 @@ def test_files_that_are_not_there(tmp_path: Path) -> None:
     assert refusal("nowhere.yaml") == f"nowhere.yaml: does not exist; accepted: {accepted}"
     assert refusal(tmp_path) == f"{tmp_path}: is a folder; accepted: {accepted}"
     assert refusal("mirror_rom") == (
-        "mirror_rom: no world of this name; accepted: billiards, bounce, cannon, falling_ball, head_on, jump, "
-        "mirror_room, orbit; did you mean 'mirror_room'?"
+        f"mirror_rom: no world of this name; accepted: {', '.join(library.names())}; did you mean 'mirror_room'?"
     )
     (tmp_path / "latin.yaml").write_bytes(b"carom: 1\nname: caf\xe9\n")
     assert refusal(tmp_path / "latin.yaml") == f"{tmp_path}/latin.yaml: is not text in UTF-8: byte 18 is 0xe9"

@@ -62,6 +62,8 @@ def outcomes(expectation: str, world: str = WORLD) -> list[Outcome]:
         "{at: 0.25 s, ball.linear.y: {is: -2.4525, within: 1 um/s}}",
         "{at: 1 s, ball.transform.position.y: {is: 1.27625, within: 1e-6}, speed(ball): {is: 0, within: 1e-6}}",
         "{at: 1 s, ball.position.y: {is: 1.3, within: 5 %}}",
+        "{at: 0.25 s, 'sees(stone, ball)': {is: 1, within: 0}, 'sees(floor, ball)': {is: 1, within: 0}}",
+        "always: sees(ball, stone) == 1",
         "{when: {impact: [ball, floor]}, time: {is: 0.5, within: 1e-6}, point: {is: [0, 0, 0], within: 1 um}}",
         "{when: {impact: [floor, ball], nth: 1}, speed: {is: 4.905, within: 1e-6}, impulse: {is: 19.62, within: 1e-5}}",
         "{when: {enter: [gate, ball]}, time: {is: 0.371308, within: 1e-6}, ball.position.y: {is: 0.6, within: 0.1}}",
@@ -185,3 +187,14 @@ def test_conditions_follow_the_rules_of_logic() -> None:
                 verdict = read_condition(text, world).evaluate(world)
                 assert bool(verdict.holds.all()) == expected
                 assert (verdict.margin[0] > 0) == expected
+
+
+def test_what_stands_between_two_hides_them() -> None:
+    """A wall does, from both sides; a sensor does not."""
+    wall = "  - {name: wall, collider: {box: {size: [0.1, 9, 9]}}, transform: {position: [1.5, 1, 0]}}\nexpect:"
+    walled = WORLD.replace("expect:", wall)
+    for law in ("never: sees(ball, stone) == 1", "always: sees(stone, ball) == 0", "always: sees(ball, wall) == 1"):
+        (outcome,) = outcomes(law, walled)
+        assert outcome.held, outcome
+    (outcome,) = outcomes("never: sees(ball, stone) == 1", walled.replace("9]}}", "9]}, sensor: true}"))
+    assert (outcome.held, outcome.frame, outcome.received) == (False, 0, "sees(ball, stone) = 1 1")
