@@ -14,6 +14,7 @@ from carom.worlds import load_world
     ("world", "frames"),
     [
         ("billiards", 240),
+        ("bowling", 1248),
         ("bullet_holes", 23),
         ("camera_follow", 60),
         ("cannon", 240),

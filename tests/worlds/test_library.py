@@ -9,6 +9,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from carom.ecs.relations.impact import Impact
+from carom.systems.simulation import Simulation
 from carom.worlds import LoadedWorld, library, load_text, load_world
 from carom.worlds.expectation import Outcome
 
@@ -48,6 +50,10 @@ def test_expectations_hold(name: str, collision: str) -> None:
         ("bounce", r"restitution: (0\.5)", 1.0, 0.1),
         ("bounce", r"restitution: (0\.75)", 1.0, 0.1),
         ("bounce", r"restitution: (1), color: blue", 1.0, -0.1),
+        ("bowling", WEIGHT, 1.01, 0.0),
+        ("bowling", r"radius: 0\.109}}, body: {mass: (7)}", 1.05, 0.0),
+        ("bowling", r"body: {mass: (1\.6)}", 1.05, 0.0),
+        ("bowling", r"pin: {friction: 0, restitution: (0\.6)", 1.0, 0.1),
         ("bullet_holes", WEIGHT, 1.01, 0.0),
         ("bullet_holes", r"mass: (4) g", 1.05, 0.0),
         ("bullet_holes", r"material: {restitution: (0), friction: 0}", 1.0, 0.1),
@@ -82,6 +88,26 @@ def test_a_quantity_that_is_off_is_noticed(name: str, pattern: str, factor: floa
     assert found is not None
     changed = text[: found.start(1)] + repr(float(found[1]) * factor + offset) + text[found.end(1) :]
     assert not all(outcome.held for outcome in run(load_text(changed, name), to_first_failure=True))
+
+
+def test_the_blow_of_the_bowling_ball_hands_its_momentum_on() -> None:
+    """In the blow's step ball and pin together lose what the lane's friction takes: 0.04 of all that bears them."""
+    simulation = load_world("bowling").simulation
+    step = simulation.settings.dt
+    while not simulation.world.count(Impact):
+        before = momentum(simulation, "ball", "pin_1")
+        simulation.step()
+    after = momentum(simulation, "ball", "pin_1")
+    borne = after[1] - before[1] + (7.0 + 1.6) * 9.81 * step
+    taken = math.hypot(*(after - before)[[0, 2]])
+    assert 0.98 * 0.04 * borne < taken <= 0.04 * borne * (1.0 + 1e-9)
+    assert taken < 0.003 * before[0]
+
+
+def momentum(simulation: Simulation, *names: str) -> np.ndarray:
+    """Return the sum of mass times velocity, kg m/s."""
+    entities = [simulation[name] for name in names]
+    return np.sum([entity.rigid_body.mass * entity.motion.linear for entity in entities], axis=0)
 
 
 def stated(name: str, event: str) -> tuple[float, list[float]]:
