@@ -28,9 +28,10 @@ class Record(Dataframe):
 
     def __init_subclass__(cls, *, key: str = "", **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.columns = {name: value for name, value in vars(cls).items() if isinstance(value, Column)}
-        for name in cls.columns:
+        own = {name: value for name, value in vars(cls).items() if isinstance(value, Column)}
+        for name in own:
             delattr(cls, name)
+        cls.columns = cls.columns | own
         cls.key = key or re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", cls.__name__).lower()
         if cls.__module__ == __name__:
             return

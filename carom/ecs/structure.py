@@ -32,6 +32,8 @@ class Structure:
         self.slots = Slots(max(capacity, 1))
         self.tables: dict[type[Record], Table] = {}
         self.structure = 0  # grows whenever entities or components come or go
+        self.restored = 0  # grows with every snapshot restored
+        self.edited: set[type[Record]] = set()  # what code outside the step has opened since it was last cleared
         self.frame = 0
         self.running: System | None = None
         self.entity_names = Names()
@@ -143,6 +145,7 @@ class Structure:
         self.entity_names.stale = True
         self.frame = frame
         self.structure += 1
+        self.restored += 1
 
     def _refuse_inside(self, verb: str) -> None:
         if self.running is not None:

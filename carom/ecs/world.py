@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import chain
-from typing import Any, TypeVar, overload
+from typing import Any, TypeVar, cast, overload
 
 import numpy as np
 
@@ -91,6 +91,8 @@ class World(Structure):
     def edit(self, kind: type[R]) -> Iterator[R]:
         """Lend the writable table of ``kind`` to code outside the step; inside, systems see what they declare."""
         self[kind]  # makes the table, or raises for what is not here or not declared
+        if self.running is None:
+            self.edited.add(cast(type[Record], kind))
         try:
             yield self._live[kind] if self._current is self._views else self._current[kind]
         finally:

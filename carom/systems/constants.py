@@ -105,6 +105,28 @@ SOLVED = 1e-13
 # m. A gap or overlap up to here counts as touching. Larger: bodies are held that are about to part.
 SLOP = 1e-4
 
+# Part of a body's smallest half extent by which it may move within a step before it is looked after on its way. Larger:
+# thin bodies pass through thin walls. Smaller: slow bodies cost as much as fast ones.
+FAST = 0.5
+
+# Part of a body's smallest half extent up to which a contact found on the way is trusted to say when the gap closes.
+# Larger: it is followed past edges that are not there. Smaller: more looks.
+TRUST = 0.25
+
+# Part of that at which a body on its way is near enough for its contact to be found. Smaller: more steps to come there.
+MEET = 0.25
+
+# Steps towards a meeting, and detections in the middle of a substep for those who are fast. Fewer: bodies that tumble
+# past others are given up before they meet.
+MOST_LOOKS = 64
+
+# m/s. A body no point of which is faster may fall asleep, with its island. Larger: what rolls out slowly stops short.
+# Smaller: tall piles, of which a cube trembles by a tenth of this, stay awake longer.
+SLEEP_SPEED = 0.01
+
+# s. For how long. Shorter: what turns round, as a pendulum does at its end, is caught there.
+SLEEP_TIME = 0.5
+
 # rad. Closest to zero a squared angle may come before the quaternion exponential uses its limit.
 SMALL_ANGLE = 1e-12
 

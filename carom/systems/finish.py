@@ -16,6 +16,7 @@ from carom.ecs import (
     system,
 )
 from carom.ecs.column import Integers
+from carom.systems.awake import Awake
 from carom.systems.kernels.flight import first_not_finite
 from carom.systems.kernels.forces import clear_external
 
@@ -27,7 +28,7 @@ def clear_inputs(world: World, dt: float) -> None:
     clear_external(world.row_numbers(ExternalForce), external.force, external.torque)
 
 
-@system(reads=(RigidBody, Transform, Motion))
+@system(reads=(RigidBody, Transform, Motion, Awake))
 def check_finite(world: World, dt: float) -> None:
     """Stop at the first NaN or infinity, naming its entity and column."""
     find_not_finite(world)
@@ -39,7 +40,7 @@ def find_not_finite(world: World, system: str | None = None) -> None:
     Right after a ``system``, the sums of forces are looked at first: there a NaN is one system from where it began.
     """
     transform, motion = world[Transform], world[Motion]
-    rows = world.row_numbers(RigidBody)
+    rows = world[Awake].now(world)
     if system is not None:
         _name_not_finite(world, rows, ((Force, ("force", "torque", "drag", "drag_flow")),), system)
     if first_not_finite(rows, transform.position, transform.rotation, motion.linear, motion.angular) >= 0:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from carom.ecs import ExternalForce, Force, Motion, RigidBody, Transform, World, system
 from carom.ecs.components.flight import Flight
+from carom.systems.awake import Awake
 from carom.systems.kernels.flight import EULER, SEMI_IMPLICIT, VERLET, accelerate, kick_bodies, predict_middle
 from carom.systems.kernels.forces import clear_sums
 from carom.systems.settings import Settings
@@ -11,13 +12,13 @@ from carom.systems.settings import Settings
 SCHEMES = {"euler": EULER, "semi_implicit": SEMI_IMPLICIT, "verlet": VERLET}
 
 
-@system(reads=(RigidBody, Settings), writes=(Transform, Motion, Flight))
+@system(reads=(RigidBody, Settings, Awake), writes=(Transform, Motion, Flight))
 def predict(world: World, dt: float) -> None:
     """Move bodies to the middle of the substep, where verlet evaluates forces; others evaluate at its start."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     half = 0.5 * dt if world[Settings].integrator == "verlet" else 0.0
     predict_middle(
-        world.row_numbers(RigidBody), half, body.center_of_mass, body.freedom,
+        world[Awake].now(world), half, body.center_of_mass, body.freedom,
         motion.linear_acceleration, motion.angular_acceleration,
         transform.position, transform.rotation, motion.linear, motion.angular,
         flight.center, flight.start_center, flight.start_position, flight.start_rotation,
@@ -40,13 +41,13 @@ def clear_forces(world: World, dt: float) -> None:
     )
 
 
-@system(reads=(RigidBody, Force, ExternalForce), writes=(Transform, Motion, Flight))
+@system(reads=(RigidBody, Force, ExternalForce, Awake), writes=(Transform, Motion, Flight))
 def sum_forces(world: World, dt: float) -> None:
     """Divide forces and torques by mass and inertia; bodies return to the start of the substep."""
     transform, motion, flight = world[Transform], world[Motion], world[Flight]
     body, force, external = world[RigidBody], world[Force], world[ExternalForce]
     accelerate(
-        world.row_numbers(RigidBody), body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom,
+        world[Awake].now(world), body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom,
         force.force, force.torque, external.force, external.torque,
         flight.start_position, flight.start_rotation, flight.start_linear, flight.start_angular,
         transform.position, transform.rotation, motion.linear, motion.angular,
@@ -54,12 +55,12 @@ def sum_forces(world: World, dt: float) -> None:
     )  # fmt: skip
 
 
-@system(reads=(RigidBody, Force, Settings), writes=(Motion, Flight))
+@system(reads=(RigidBody, Force, Settings, Awake), writes=(Motion, Flight))
 def kick(world: World, dt: float) -> None:
     """Set each body's arc by the integrator; bodies in contact are stepped semi-implicitly."""
     motion, flight, force, body = world[Motion], world[Flight], world[Force], world[RigidBody]
     kick_bodies(
-        world.row_numbers(RigidBody), dt, SCHEMES[world[Settings].integrator], body.inverse_mass, body.freedom,
+        world[Awake].now(world), dt, SCHEMES[world[Settings].integrator], body.inverse_mass, body.freedom,
         force.drag, force.drag_flow, force.angular_drag, flight.felt, flight.touching,
         motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
         flight.decay, flight.angular_decay, flight.flow, motion.linear_acceleration, motion.angular_acceleration,

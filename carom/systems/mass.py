@@ -17,7 +17,13 @@ from carom.systems.freedom import freedom_of
 from carom.systems.shapes.shape import NO_AXES, MassProperties
 from carom.systems.shapes.solid import principal
 
-PASSED_ON = ("gravity_scale", "linear_damping", "angular_damping")  # words that are columns as they stand
+PASSED_ON = (
+    "gravity_scale",
+    "linear_damping",
+    "angular_damping",
+    "continuous",
+    "sleeps",
+)  # words that are columns as they stand
 NOTHING = MassProperties(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), NO_AXES)
 
 

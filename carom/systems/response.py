@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from math import inf
+
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
+from carom.ecs.relations.sleeping_contact import SleepingContact
+from carom.systems.awake import Awake, stirs
+from carom.systems.constants import MOST_LOOKS
+from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.contacts import detect_again
@@ -29,25 +35,28 @@ from carom.systems.threads import Threads, share_out
 
 
 @system(
-    reads=(RigidBody, Motion, Collider, Material, Parent, Settings, Geometries, Progress),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress),
     writes=(
-        Transform, Flight, Contact, ColliderPose, Answered, BroadPhase, FclObjects, PackedHulls, PackedMeshes,
-        Resting, Sensing,
+        Transform, Motion, Flight, Contact, SleepingContact, ColliderPose, Answered, BroadPhase, FclObjects,
+        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast,
     ),
 )  # fmt: skip
 def look_ahead(world: World, dt: float) -> None:
-    """Detect anew, once for all bodies, where one may leave what detection foresaw before the step ends."""
+    """Detect anew, once for all bodies, where one may leave what detection foresaw before the step ends.
+
+    So too where commands have brought or taken entities since: rows may be of others now.
+    """
     flight, motion, progress = world[Flight], world[Motion], world[Progress]
     left = progress.left + dt
-    if progress.substep > 1 and may_leave_reach(
-        world.row_numbers(RigidBody), left, flight.center, flight.detected_center, flight.reach,
+    if world[Resting].structure != world.structure or (progress.substep > 1 and may_leave_reach(
+        world[Awake].now(world), left, flight.center, flight.detected_center, flight.reach,
         motion.linear, flight.felt,
-    ):  # fmt: skip
+    )):  # fmt: skip
         world[Resting].hand_over(world[Contact])
         detect_again(world, left)
 
 
-@system(reads=(RigidBody, Transform, Motion, Settings, Threads), writes=(Contact, Flight, Progress, Resting))
+@system(reads=(RigidBody, Transform, Motion, Settings, Threads, Awake), writes=(Contact, Flight, Progress, Resting))
 def sort_out_contacts(world: World, dt: float) -> None:
     """Say which contacts rest in this substep; their bodies count as touching."""
     progress, resting = world[Progress], world[Resting]
@@ -55,16 +64,14 @@ def sort_out_contacts(world: World, dt: float) -> None:
     if not resting.groups:
         return
     flight, motion, body = world[Flight], world[Motion], world[RigidBody]
-    if len(resting.bodies) != world.capacity + 1:  # commands have made the world larger since detection
-        resting.group(world[Contact], body.inverse_mass)
     pack_bodies(
-        world.row_numbers(RigidBody), flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
+        world[Awake].now(world), flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
         body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation, resting.bodies,
     )  # fmt: skip
     progress.resting, progress.balls_resting = resting.sort(world, dt)
 
 
-@system(reads=(RigidBody, Settings, Progress, Threads), writes=(Motion, Contact, Flight, Resting))
+@system(reads=(RigidBody, Settings, Progress, Threads, Awake), writes=(Motion, Contact, Flight, Resting))
 def hold(world: World, dt: float) -> None:
     """Solve the resting contacts: they do not close, stick or slide within the cone, and resist rolling."""
     progress, motion = world[Progress], world[Motion]
@@ -80,14 +87,14 @@ def hold(world: World, dt: float) -> None:
         )  # fmt: skip
 
 
-@system(reads=(RigidBody, Progress, Settings, Threads), writes=(Motion, Resting))
+@system(reads=(RigidBody, Progress, Settings, Threads, Awake), writes=(Motion, Resting))
 def relax(world: World, dt: float) -> None:
     """Take the speed by which overlap left out of the velocities again."""
     if world[Progress].resting:
         world[Resting].relax(world, dt)
 
 
-@system(writes=(Contact, Resting))
+@system(reads=(Awake,), writes=(Contact, Resting), when=stirs)
 def hand_impulses_over(world: World, dt: float) -> None:
     """Write what the resting stage has found into the contact table."""
     world[Resting].hand_over(world[Contact])
@@ -96,33 +103,36 @@ def hand_impulses_over(world: World, dt: float) -> None:
 @system(
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads),
     writes=(
-        Transform, Motion, Flight, Contact, Impact, ColliderPose, Answered, BroadPhase, FclObjects, PackedHulls,
-        PackedMeshes, Resting, Sensing,
+        Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, BroadPhase, FclObjects,
+        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast,
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""
     contact = world[Contact]
     contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
-    at, events = 0.0, 0
+    at, events, looks = 0.0, 0, 0
     while True:
-        at, reason, events = _fly(world, at, dt, events)
+        look = at + world[Fast].next_look(world, dt - at) if looks < MOST_LOOKS else inf
+        at, reason, events = _fly(world, at, dt, events, look)
+        looks += 1
         if reason == DONE:
             return
         _finish(world, ended=False)
         world[Resting].hand_over(contact)
         detect_again(world, world[Progress].left + dt - at)
-        rows, flight = world.rows(RigidBody), world[Flight]
+        world[Fast].let_go(contact)
+        rows, flight = world[Awake].now(world), world[Flight]
         flight.start_center[rows], flight.turned[rows] = flight.center[rows], 0.0  # depths are those of now
 
 
-def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, int]:
+def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[float, int, int]:
     """Fly to the end of the substep or to what stops the flight; append the impacts on the way to their table."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     contact, progress, settings = world[Contact], world[Progress], world[Settings]
     manifolds, bend = world[Resting], 0.5 if settings.integrator == "verlet" else 0.0
     now, reason, events, cut, count, pair, log = fly(
-        world.row_numbers(RigidBody), at, h, bend, progress.clock,
+        world[Awake].now(world), at, h, bend, progress.clock,
         flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,
         flight.time, flight.acceleration, flight.angular_acceleration,
         flight.felt, flight.detected_center, flight.reach,
@@ -132,9 +142,9 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
         contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, manifolds.closing(world, at, h),
-        events,
+        until, world[Fast].turns, events,
     )  # fmt: skip
-    rows = world.row_numbers(RigidBody)
+    rows = world[Awake].now(world)
     share_out(
         world, -(-len(rows) // WIDTH),
         lambda begin, end: advance_bodies(
@@ -155,12 +165,12 @@ def _fly(world: World, at: float, h: float, events: int) -> tuple[float, int, in
     return now, reason, events
 
 
-@system(reads=(RigidBody, Settings, Threads), writes=(Transform, Motion, Flight, Contact, Resting))
+@system(reads=(RigidBody, Settings, Threads, Awake), writes=(Transform, Motion, Flight, Contact, Resting))
 def settle(world: World, dt: float) -> None:
     """End the substep: drag's second half, origins placed, and how deep contacts have come to be."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     keep_course(
-        world.row_numbers(RigidBody), dt, body.inverse_mass, body.center_of_mass,
+        world[Awake].now(world), dt, body.inverse_mass, body.center_of_mass,
         flight.start_position, flight.start_rotation, motion.linear, motion.angular, flight.center, transform.rotation,
     )  # fmt: skip
     _finish(world, ended=True)
@@ -170,7 +180,7 @@ def settle(world: World, dt: float) -> None:
 def _finish(world: World, *, ended: bool) -> None:
     flight, motion, transform, body = world[Flight], world[Motion], world[Transform], world[RigidBody]
     finish_drift(
-        world.row_numbers(RigidBody), ended, body.center_of_mass, body.freedom,
+        world[Awake].now(world), ended, body.center_of_mass, body.freedom,
         flight.start_position, flight.start_rotation, flight.decay, flight.angular_decay, flight.flow,
         transform.rotation, flight.center, motion.linear, motion.angular, transform.position,
     )  # fmt: skip

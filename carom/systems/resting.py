@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from carom.ecs import Motion, RigidBody, Transform, World
+from carom.ecs import Motion, Transform, World
 from carom.ecs.column import Booleans, Floats
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
+from carom.systems.awake import Awake
 from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, RELAX_SWEEPS, RIGID_RATE
 from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
@@ -34,6 +35,7 @@ class Resting(Resource):
 
     def __init__(self) -> None:
         self.count = self.groups = self.levels = 0
+        self.structure = -1  # that of the world when contacts were detected
         self.start = np.zeros(1, np.int64)
         self.bodies, self.lanes = aligned(1, BODY_WIDTH), aligned(0, WIDTH)
         self._reserve(0)
@@ -92,7 +94,7 @@ class Resting(Resource):
 
     def press(self, world: World, h: float) -> None:
         """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
-        rows, motion = world.row_numbers(RigidBody), world[Motion]
+        rows, motion = world[Awake].now(world), world[Motion]
         pack_velocities(rows, motion.linear, motion.angular, self.bodies)
         self._together(
             world, start_warm, self.levels, self.level_ends,
@@ -106,7 +108,7 @@ class Resting(Resource):
         closing = np.ones(len(self.start), np.bool_)
         if at == 0.0 and self.groups:
             motion = world[Motion]
-            pack_velocities(world.row_numbers(RigidBody), motion.linear, motion.angular, self.bodies)
+            pack_velocities(world[Awake].now(world), motion.linear, motion.angular, self.bodies)
             share_out(
                 world, self.groups,
                 lambda begin, end: find_closing(
@@ -121,7 +123,7 @@ class Resting(Resource):
         if not self.groups:
             return
         flight, contact = world[Flight], world[Contact]
-        pack_ways(world.row_numbers(RigidBody), flight.start_center, flight.center, flight.turned, self.bodies)
+        pack_ways(world[Awake].now(world), flight.start_center, flight.center, flight.turned, self.bodies)
         share_out(
             world, self.groups,
             lambda begin, end: sink_contacts(
@@ -132,7 +134,7 @@ class Resting(Resource):
 
     def relax(self, world: World, h: float) -> None:
         """Take the speed by which overlap left out of the velocities, and sum up the impulses."""
-        rows, motion, hard = world.row_numbers(RigidBody), world[Motion], (0.0, 1.0)
+        rows, motion, hard = world[Awake].now(world), world[Motion], (0.0, 1.0)
         pack_velocities(rows, motion.linear, motion.angular, self.bodies)
         self._solve(world, RELAX_SWEEPS, h, hard, hard)
         unpack_velocities(rows, self.bodies, motion.linear, motion.angular)

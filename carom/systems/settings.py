@@ -28,6 +28,7 @@ class Settings(Resource):
     collision: Collision = "auto"  # fcl: no kernel stands in for FCL, but on meshes
     response: Response = "full"  # reflect: impacts only, no resting contacts
     hit_speed: float = 0.2  # m/s, closing speed from which an impact is a hit
+    sleeping: bool = True  # bodies that have come to rest are left alone until something touches or changes them
     seed: int = 0
     threads: int = 1  # that share the work of a step; the bits do not depend on it
 

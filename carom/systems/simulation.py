@@ -26,8 +26,10 @@ from carom.ecs.components.motion import Motion
 from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
 from carom.systems.assembly import Materials, add_entities, add_entity
+from carom.systems.awake import Awake
 from carom.systems.clock import Clock
 from carom.systems.compound import StatedBodies
+from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.fcl_objects import FclObjects
@@ -47,7 +49,7 @@ from carom.systems.queries.space import Space
 from carom.systems.resting import Resting
 from carom.systems.settings import Random, Settings
 from carom.systems.shapes.geometry import Geometries
-from carom.systems.step import STEP
+from carom.systems.step import STEP, has_strangers
 from carom.systems.threads import Threads
 
 CHECK_VARIABLE = "CAROM_CHECK"
@@ -71,7 +73,8 @@ class Simulation:
         self.space = Space(self.world)
         self._earlier = EarlierPoses()
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
-        caches = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes(), Resting(), Sensing(), Threads(), Scene())
+        packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
+        caches = (*packed, Resting(), Sensing(), Threads(), Scene(), Awake(), Fast())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 
@@ -111,6 +114,10 @@ class Simulation:
         self.schedule = self.schedule.insert(made, after="apply_quadratic_drag")
         return made
 
+    def wake(self, *entities: int | str) -> None:
+        """Wake bodies (handles or names) that sleep, with their islands, before the next step."""
+        self.world[Awake].asked += [self.world.find(one) if isinstance(one, str) else int(one) for one in entities]
+
     # Running.
     @property
     def frame(self) -> int:
@@ -137,6 +144,7 @@ class Simulation:
                 observer.observe(self)
 
     def _take_step(self, after: Callable[[System], None] | None) -> None:
+        self.world[Awake].strangers = has_strangers(self.schedule)
         self.world.frame += 1
         self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=after)
 

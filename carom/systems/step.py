@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from carom.ecs import Phase, Schedule, World
+from carom.systems.awake import stirs
 from carom.systems.detection.bounds import place_colliders
 from carom.systems.detection.contacts import find_contacts
 from carom.systems.finish import check_finite, clear_inputs
@@ -19,6 +22,7 @@ from carom.systems.progress import begin_step, begin_substep
 from carom.systems.response import drift, hand_impulses_over, hold, look_ahead, relax, settle, sort_out_contacts
 from carom.systems.sensors import sense
 from carom.systems.settings import Settings
+from carom.systems.sleeping import fall_asleep, wake_disturbed
 from carom.systems.touching import tell_contacts, tell_hits
 
 
@@ -29,11 +33,16 @@ def substeps(world: World) -> int:
 
 STEP = Schedule(
     Phase(
-        "detect",
+        "begin",
         begin_step,
+        wake_disturbed,  # who was changed from outside; where nobody is awake, the step ends here
+    ),
+    Phase(
+        "detect",
         follow_keyframes,  # velocities of bodies on keyframes, for the whole step
         place_colliders,  # poses and bounds of all colliders, widened by what they may travel
         find_contacts,  # the contact table, and who may meet a sensor
+        when=stirs,
     ),
     Phase(
         "substep",
@@ -57,14 +66,23 @@ STEP = Schedule(
         settle,  # origins placed, and how deep contacts have come to be
         relax,  # velocities without what pushed overlap out
         repeat=substeps,
+        when=stirs,
     ),
     Phase(
         "finish",
         hand_impulses_over,  # of resting contacts, into their table
         tell_contacts,  # who touches whom, who begins and ends to
         tell_hits,  # the impacts that are heard
+        fall_asleep,  # islands that have been still for a while
         clear_inputs,
         carry_children,  # entities carried by others follow them
         check_finite,
     ),
 )
+
+
+@lru_cache(16)
+def has_strangers(schedule: Schedule) -> bool:
+    """Tell whether there are systems in a schedule that are not those of the frame."""
+    own = {system for _, system in STEP}
+    return any(system not in own for _, system in schedule)

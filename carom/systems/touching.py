@@ -4,28 +4,34 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Material, World, system
+from carom.ecs import ColliderPose, Material, Motion, World, system
 from carom.ecs.column import Floats, Integers
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.hit import Hit
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
+from carom.systems.awake import Awake, stirs
 from carom.systems.kernels.touching import renew_touching
 from carom.systems.settings import Settings
 
 
-@system(reads=(Contact, Impact, Settings), writes=(Touching, ContactBegin, ContactEnd))
+@system(
+    reads=(Contact, Impact, ColliderPose, Motion, Settings, Awake),
+    writes=(Touching, ContactBegin, ContactEnd),
+    when=stirs,
+)
 def tell_contacts(world: World, dt: float) -> None:
     """Tell which pairs begin and end to touch."""
     contact, touching = world[Contact], world[Touching]
     struck_a, struck_b, struck_at = struck(world)
-    count, room = touching.count, contact.count + len(struck_a)
+    count, room = touching.count, touching.count + contact.count + len(struck_a)
     a, b, since = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room)
     begins, ends = np.empty(room, np.bool_), np.empty(count, np.bool_)
     found, new = renew_touching(
         contact.count, contact.a, contact.b, contact.row_a, contact.row_b, contact.impulse, contact.depth,
         struck_a, struck_b, struck_at, world.frame * world[Settings].dt,
         count, touching.a, touching.b, touching.since, world.handles(), world.slots.row_shift,
+        world[ColliderPose].body_row, world[Motion].asleep,
         a, b, since, begins, ends,
     )  # fmt: skip
     if found - new < count:
@@ -62,7 +68,7 @@ def tell(world: World, kind: type[ContactBegin] | type[ContactEnd], time: Floats
         column[: len(order)] = values[order]
 
 
-@system(reads=(Impact, Material, Settings), writes=(Hit,))
+@system(reads=(Impact, Material, Settings, Awake), writes=(Hit,), when=stirs)
 def tell_hits(world: World, dt: float) -> None:
     """Tell which impacts were fast enough to be heard, and of which materials."""
     impact = world[Impact]

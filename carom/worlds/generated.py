@@ -34,7 +34,7 @@ SETTING_WHOLE: dict[str, tuple[int, int | None]] = {
     "dimensions": (2, 3),
     "threads": (1, MOST_THREADS),
 }
-STEP_WORDS = ("dt", "substeps", "integrator", "threads")
+STEP_WORDS = ("dt", "substeps", "integrator", "threads", "sleeping")
 COLUMN_BOUNDS: dict[str, dict[str, float]] = {
     "mass": {"above": 0.0},
     "inertia": {"least": 0.0},

@@ -51,7 +51,8 @@ def test_keys_are_snake_case(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_an_unknown_column_is_refused() -> None:
     """A typing error in a bundle names the component and what it has."""
     message = (
-        "Motion has no column 'velocity'; its columns are linear, angular, linear_acceleration, angular_acceleration"
+        "Motion has no column 'velocity'; "
+        "its columns are linear, angular, linear_acceleration, angular_acceleration, still, asleep"
     )
     with error(DeclarationError, message):
         Motion(velocity=(1.0, 0.0, 0.0))

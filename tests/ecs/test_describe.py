@@ -68,7 +68,8 @@ def test_an_entity_in_words() -> None:
     told = """\
         boat, entity 0
           motion, default: linear (0, 0, 0) m/s, angular (0, 0, 0) rad/s,
-            linear_acceleration (0, 0, 0) m/s2, angular_acceleration (0, 0, 0) rad/s2
+            linear_acceleration (0, 0, 0) m/s2, angular_acceleration (0, 0, 0) rad/s2, still 0 s,
+            asleep false
           sail
             weave  ((1, 2), (3, 4))                                                    how it is woven
             reefs  (0, 1e-05, 2e-05, 3e-05, 4e-05, 5e-05, 6e-05, 7e-05, ... 4 more) m  height of each reef
@@ -189,7 +190,10 @@ def test_an_entity_in_a_notebook() -> None:
     """The same as in words, column by column."""
     world, _ = boat()
     world.attach(1, Motion(linear=(1.0, 0.0, 0.0)))
-    zeros = "angular (0, 0, 0) rad/s, linear_acceleration (0, 0, 0) m/s2, angular_acceleration (0, 0, 0) rad/s2"
+    zeros = (
+        "angular (0, 0, 0) rad/s, linear_acceleration (0, 0, 0) m/s2, angular_acceleration (0, 0, 0) rad/s2, "
+        "still 0 s, asleep false"
+    )
     assert cells(world[1]._repr_html_() or "") == (
         "entity 1",
         [

@@ -34,7 +34,7 @@ def test_an_entity_refuses_what_it_does_not_have() -> None:
     ball = world.spawn(Motion(), name="ball")
     with error(EntityError, "entity 'ball' has no transform, only motion, name"):
         _ = world[ball].transform
-    accepted = "linear, angular, linear_acceleration, angular_acceleration"
+    accepted = "linear, angular, linear_acceleration, angular_acceleration, still, asleep"
     with error(AttributeError, f"Motion has no column 'speed', only {accepted}"):
         _ = world[ball].motion.speed
     with error(AttributeError, f"Motion has no column 'speed', only {accepted}"):

@@ -16,7 +16,7 @@ BOX = {"box": {"size": (1.0, 1.0, 1.0)}}
 @pytest.fixture
 def pair() -> tuple[Simulation, int]:
     """Return a box that has stood on a floor of boxes for a second, and that box."""
-    simulation = Simulation()
+    simulation = Simulation(sleeping=False)
     simulation.add(collider={"box": {"size": (4.0, 1.0, 4.0)}})
     box = simulation.add(collider=BOX, body={}, transform={"position": (0.0, 1.0, 0.0)})
     simulation.step(60)
@@ -84,7 +84,7 @@ def test_another_size_is_measured_again(pair: tuple[Simulation, int], size: tupl
 
 def test_a_rolling_ball_is_measured_in_every_step() -> None:
     """The points of balls do not go with them."""
-    simulation = Simulation()
+    simulation = Simulation(sleeping=False)
     simulation.add(collider={"plane": {}})
     ball = simulation.add(
         collider={"sphere": {"radius": 0.5}},

@@ -11,7 +11,8 @@ import pytest
 import trimesh
 
 from carom.tools.cli import main
-from carom.worlds import WorldError, library, load_text, load_world
+from carom.worlds import WorldError, load_text, load_world
+from carom.worlds.library import names
 
 LENGTH = "a number in m, or one with a unit: m, mm, cm, km, um, in, ft, mi"
 MASS = "a number in kg, or one with a unit: kg, g, mg, t, lb, oz"
@@ -91,7 +92,7 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         (
             BALL + "body: {mas: 1}}\n",
             ("w.yaml:3:25: entities.0.body.mas: unknown key; received 'mas'; "
-            "accepted: type, mass, inertia, center_of_mass, gravity_scale, linear_damping, angular_damping, locked; did you mean 'mass'?"),
+            "accepted: type, mass, inertia, center_of_mass, gravity_scale, linear_damping, angular_damping, continuous, sleeps, locked; did you mean 'mass'?"),
         ),
         (
             BALL + "collider: {shpere: {radius: 1}}}\n",
@@ -451,7 +452,7 @@ def test_files_that_are_not_there(tmp_path: Path) -> None:
     assert refusal("nowhere.yaml") == f"nowhere.yaml: does not exist; accepted: {accepted}"
     assert refusal(tmp_path) == f"{tmp_path}: is a folder; accepted: {accepted}"
     assert refusal("mirror_rom") == (
-        f"mirror_rom: no world of this name; accepted: {', '.join(library.names())}; did you mean 'mirror_room'?"
+        f"mirror_rom: no world of this name; accepted: {', '.join(names())}; did you mean 'mirror_room'?"
     )
     (tmp_path / "latin.yaml").write_bytes(b"carom: 1\nname: caf\xe9\n")
     assert refusal(tmp_path / "latin.yaml") == f"{tmp_path}/latin.yaml: is not text in UTF-8: byte 18 is 0xe9"

@@ -2,7 +2,7 @@
 
 from enum import IntEnum
 
-from carom.ecs.column import Floats, Integers, column
+from carom.ecs.column import Booleans, Floats, Integers, column
 from carom.ecs.component import Component
 
 
@@ -31,3 +31,9 @@ class RigidBody(Component):
     gravity_scale: Floats = column(unit="1", doc="factor on the world's gravity", default=1.0)
     linear_damping: Floats = column(unit="1/s", doc="rate at which velocity decays")
     angular_damping: Floats = column(unit="1/s", doc="rate at which angular velocity decays")
+    continuous: Booleans = column(
+        unit="1",
+        doc="however fast, passes through no moving body either",
+        dtype="bool",
+    )
+    sleeps: Booleans = column(unit="1", doc="may fall asleep at rest", dtype="bool", default=True)

@@ -4,26 +4,34 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, RigidBody, World
-from carom.ecs.column import Integers
+from carom.ecs import Collider, ColliderPose, Motion, RigidBody, World
+from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Resource
+from carom.systems.awake import Awake
 from carom.systems.constants import FEW_ASTRAY, MOST_ASTRAY
 from carom.systems.detection.broad_index import Index
 from carom.systems.kernels.broad_cache import REBUILD, find_leavers, keep_overlapping
 from carom.systems.kernels.broad_pairs import renew_pairs
+from carom.systems.kernels.islands import find_lively
 
 
 def overlapping(world: World) -> Integers:
     """Return the pairs (n, 2) of collider rows whose bounds overlap, lower row first, sorted.
 
     One of a pair can be pushed, or is a sensor and one moves; each is on a layer that the other accepts, and they are
-    of two bodies and not both sensors.
+    of two bodies and not both sensors. Those of which nobody is awake are left out (`find_lively`).
     """
     pairs = world[BroadPhase].renewed(world)
-    collider, pose = world[Collider], world[ColliderPose]
+    collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
     found: Integers = np.empty_like(pairs)
+    lively: Booleans = np.ones(len(collider.shape), np.bool_)
+    if len(world[Awake].sleepers):
+        find_lively(
+            world.row_numbers(Collider), pose.body_row, collider.sensor, pose.moved, motion.asleep,
+            world[RigidBody].inverse_mass, motion.linear, motion.angular, lively,
+        )  # fmt: skip
     count = keep_overlapping(
-        pairs, collider.shape, collider.size, pose.position, pose.rotation, pose.lower, pose.upper, found
+        pairs, lively, collider.shape, collider.size, pose.position, pose.rotation, pose.lower, pose.upper, found
     )
     return found[:count]
 

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, Material, Motion, RigidBody, Transform, World, system
+from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.sleeping_contact import SleepingContact
+from carom.systems.awake import Awake
+from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import BroadPhase, overlapping
@@ -23,12 +26,14 @@ from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
+from carom.systems.sleeping import rouse
 
 
 @system(
-    reads=(Transform, Motion, RigidBody, Collider, Material, Settings, Geometries),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries),
     writes=(
-        ColliderPose, Contact, Answered, Flight, BroadPhase, FclObjects, PackedHulls, PackedMeshes, Resting, Sensing,
+        Transform, Motion, ColliderPose, Contact, SleepingContact, Answered, Flight, BroadPhase, FclObjects,
+        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast,
     ),
 )  # fmt: skip
 def find_contacts(world: World, dt: float) -> None:
@@ -37,22 +42,31 @@ def find_contacts(world: World, dt: float) -> None:
     world[Sensing].forget()
     contact.impulse[: contact.count] = 0.0
     contact.friction_impulse[: contact.count] = 0.0
-    detect(world)
+    detect(world, dt)
 
 
 def detect_again(world: World, left: float) -> None:
     """Detect anew in the middle of a step with ``left`` seconds to go, keeping what the step has summed so far."""
     reach_within(world, left)
-    detect(world)
+    detect(world, left)
 
 
-def detect(world: World) -> None:
-    """Replace the contact table by one for the current poses, carrying over what known contacts hold."""
+def detect(world: World, left: float) -> None:
+    """Replace the contact table by one for the current poses, carrying over what known contacts hold.
+
+    Who sleeps and is found by somebody who does not is woken, and looked for in turn.
+    """
     world[Answered].detections += 1
-    pairs = without_sensors(world, overlapping(world))
-    reaches = np.empty(len(pairs))
-    reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
-    store(world, without_seams(world, measure_what_moved(world, pairs, reaches)))
+    while True:
+        pairs = without_sensors(world, overlapping(world))
+        reaches = np.empty(len(pairs))
+        reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
+        found = measure_what_moved(world, pairs, reaches)
+        if not rouse(world, found):
+            break
+        reach_within(world, left)
+    world[Fast].find(world, pairs, found, left)
+    store(world, without_seams(world, world[Fast].trusted(found)))
 
 
 def store(world: World, found: Found) -> None:
@@ -85,3 +99,4 @@ def store(world: World, found: Found) -> None:
         contact.other_position, contact.other_rotation,
     )  # fmt: skip
     world[Resting].group(contact, world[RigidBody].inverse_mass)
+    world[Resting].structure = world.structure

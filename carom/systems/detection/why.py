@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, RigidBody, Transform, World
+from carom.ecs import Collider, ColliderPose, Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.answered import uncounted
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.narrow import measure_pairs
+from carom.systems.kernels.islands import moves
 from carom.systems.layers import Layers
 from carom.systems.settings import Settings
 from carom.systems.shapes.plane import Plane
@@ -28,7 +29,8 @@ DOUBLINGS = 60  # of the reach, in search of the nearest points of a pair that d
 def why_no_contact(of: World | Simulation, a: int | str, b: int | str) -> str:
     """Say why the next step finds no contact of two entities (handles or names), or that it finds one.
 
-    Layers, bounds and shapes are asked in this order at the present poses; the first that keeps them apart is told.
+    Layers, bounds and shapes are asked in this order at the present poses; the first that keeps them apart is told, and
+    whether they sleep.
     """
     world = of if isinstance(of, World) else of.world
     handles = [world.find(one) if isinstance(one, str) else int(one) for one in (a, b)]
@@ -42,7 +44,7 @@ def why_no_contact(of: World | Simulation, a: int | str, b: int | str) -> str:
         return f"{' and '.join(bare)} {'has' if len(bare) == 1 else 'have'} no collider"
     with _placed(world):
         pair = _Pair(world, rows, names)
-        return pair.refused() or pair.nowhere() or pair.of_sensor(pair.far_bounds() or pair.near())
+        return pair.refused() or pair.nowhere() or pair.asleep(pair.of_sensor(pair.far_bounds() or pair.near()))
 
 
 @contextmanager
@@ -108,6 +110,19 @@ class _Pair:
             if not flat and not np.isfinite((self.pose.lower[row], self.pose.upper[row])).all():
                 return f"{name} has no end of its bounds: its velocity is not finite, or too large"
         return ""
+
+    def asleep(self, told: str) -> str:
+        """Add that nobody looks for their contacts, where one sleeps and nobody moves."""
+        motion, names = self.world[Motion], []
+        for name, body in zip(self.names, self.bodies, strict=True):
+            if body >= 0 and motion.asleep[body]:
+                names.append(name)
+            elif body >= 0 and (self.world[RigidBody].inverse_mass[body] or moves(body, motion.linear, motion.angular)):
+                return told
+        if not names or self.world[Collider].sensor[self.rows].any():
+            return told
+        sleep = f"{' and '.join(names)} {'sleeps' if len(names) == 1 else 'sleep'}"
+        return f"{sleep}, so that nobody looks for contacts of the two; {told}"
 
     def of_sensor(self, told: str) -> str:
         """Add that one of them is a sensor."""

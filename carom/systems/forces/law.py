@@ -32,6 +32,7 @@ class Law:
     """One force of a world; parameters are fields declared by `parameter`, and ``key`` is its word in files."""
 
     key: ClassVar[str] = ""
+    steady: ClassVar[bool] = True  # the same as long as the body stays where it is, so that it may fall asleep
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
@@ -48,6 +49,11 @@ class Forces(Resource):
     def add(self, law: Law, entities: tuple[int, ...] | None = None) -> None:
         """Let a law act from now on."""
         self.entries.setdefault(type(law), []).append((law, entities))
+
+    @property
+    def count(self) -> int:
+        """How many laws there are."""
+        return sum(map(len, self.entries.values()))
 
     def acting(self, kind: type[L], world: World) -> Sequence[tuple[L, Integers]]:
         """Return each law of a kind with the rows of the living bodies it acts on."""

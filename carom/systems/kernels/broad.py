@@ -32,10 +32,10 @@ def foresee_reach(
         reach[i] = REACH_SLACK + REACH_FACTOR * (sqrt(speed) + max(pull, sqrt(push)) * dt) * dt
 
 
-@kernel("pose_position", "pose_rotation", "lower", "upper", "body_row")
+@kernel("pose_position", "pose_rotation", "lower", "upper", "body_row", "moved")
 def place_bounds(
     rows, dt, body, angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
-    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, body_row,
+    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, body_row, moved,
 ):  # fmt: skip
     """Place each collider in the world and bound all it can reach: |R| half extents + radius + reach + turning.
 
@@ -45,12 +45,17 @@ def place_bounds(
     for i in rows:
         qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
         x, y, z = turn(qx, qy, qz, qw, local_position[i, 0], local_position[i, 1], local_position[i, 2])
-        pose_position[i, 0], pose_position[i, 1], pose_position[i, 2] = (
-            position[i, 0] + x, position[i, 1] + y, position[i, 2] + z,
-        )  # fmt: skip
-        pose_rotation[i, 0], pose_rotation[i, 1], pose_rotation[i, 2], pose_rotation[i, 3] = product(
+        place = (position[i, 0] + x, position[i, 1] + y, position[i, 2] + z)
+        turned = product(
             qx, qy, qz, qw, local_rotation[i, 0], local_rotation[i, 1], local_rotation[i, 2], local_rotation[i, 3]
         )
+        moved[i] = False
+        for k, value in enumerate(place):
+            moved[i] |= pose_position[i, k] != value
+            pose_position[i, k] = value
+        for k, value in enumerate(turned):
+            moved[i] |= pose_rotation[i, k] != value
+            pose_rotation[i, k] = value
         hx, hy, hz = bound_half[i, 0], bound_half[i, 1], bound_half[i, 2]
         wide = bound_radius[i]
         cx, cy, cz = turn(qx, qy, qz, qw, bound_center[i, 0], bound_center[i, 1], bound_center[i, 2])

@@ -79,8 +79,8 @@ def find_leavers(
 
 
 @kernel("found")
-def keep_overlapping(pairs, shape, size, pose_position, pose_rotation, lower, upper, found):
-    """Write the pairs whose bounds overlap now, in their order, and return their count."""
+def keep_overlapping(pairs, lively, shape, size, pose_position, pose_rotation, lower, upper, found):
+    """Write the pairs whose bounds overlap now and of which one is lively, in their order, and return their count."""
     count, p, n = 0, 0, len(pairs)
     while p < n:
         i = pairs[p, 0]
@@ -94,12 +94,12 @@ def keep_overlapping(pairs, shape, size, pose_position, pose_rotation, lower, up
             if flat or shape[j] == HALF_SPACE:
                 plane, box = (i, j) if flat else (j, i)
                 meets = meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper)
-                count += 1 if meets else 0
+                count += 1 if meets and (lively[i] or lively[j]) else 0
                 continue
             # No branch: which of these bounds overlap is past foreseeing, and a wrong guess costs more than the test.
             meets = (
                 (lx <= upper[j, 0]) & (lower[j, 0] <= ux) & (ly <= upper[j, 1]) & (lower[j, 1] <= uy)
-                & (lz <= upper[j, 2]) & (lower[j, 2] <= uz)
+                & (lz <= upper[j, 2]) & (lower[j, 2] <= uz) & (lively[i] | lively[j])
             )  # fmt: skip
             count += 1 if meets else 0
     return count

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
@@ -30,7 +32,7 @@ def fly(
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
     count, beginning, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
-    surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, events,
+    surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, until, turns, events,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts.
 
@@ -41,6 +43,7 @@ def fly(
     its reach; the caller brings all bodies to the time reached, detects anew and calls again. What the substep has
     counted so far goes on: ``events``, and for each pair ``strikes`` and ``plastic``, else to detect in the middle
     would renew the patience with endless rows of impacts. ``cut`` counts impacts beyond the cap, which are let pass.
+    Nobody flies on beyond ``until``, nor after an impact by which a body turns more than its ``turns`` (rad).
     """
     pairs, ends = np.empty(count, np.int64), np.empty(count, np.int64)
     taken, near = 0, 0
@@ -84,9 +87,9 @@ def fly(
             seek_count += 1
     # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
     log, log_pair, log_count = np.empty((64, WIDTH)), np.empty(64, np.int64), 0
-    now, end, cut = start, h, 0
+    now, end, cut = start, min(h, until), 0
     within = time_within_all(rows, h - now, center, detected_center, reach, linear, acceleration)
-    if within < h - now:
+    if within < end - now:
         end = now + within
     way = np.zeros(len(inverse_mass) + 1)  # how far each body can fly; that of no body, at -1, is 0
     for i in rows:
@@ -201,6 +204,9 @@ def fly(
             within = time_within_reach(body, h - now, center, detected_center, reach, linear, acceleration)
             if within < h - now:
                 end = min(end, now + within)
+            spin = sqrt(angular[body, 0] ** 2 + angular[body, 1] ** 2 + angular[body, 2] ** 2)
+            if spin * (h - now) > turns[body]:
+                end = now
     return now, DONE if now >= h else OUT_OF_REACH, events, cut, log_count, log_pair, log
 
 

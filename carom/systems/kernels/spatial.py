@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+# mypy: disable-error-code="no-untyped-call"
 from carom.ecs.spatial import scalars, trigonometry
 from carom.systems.constants import SMALL_ANGLE
 from carom.systems.kernels.kernel import calling, inlined, woven

@@ -106,6 +106,28 @@ def compile_frame() -> None:
     simulation.force("mutual_gravitation")
     simulation.force("constant_push", force=(1.0, 0.0, 0.0))
     simulation.step(3)
+    compile_rest()
+
+
+def compile_rest() -> None:
+    """Let a ball fall asleep and wake, and another, which is not balanced, fly at one that stands."""
+    from carom.systems.simulation import Simulation
+    from carom.systems.why_awake import why_awake
+
+    simulation, ball = Simulation(checked=False), {"sphere": {"radius": 0.5}}
+    simulation.add(collider={"plane": {}})
+    sleeper = simulation.add(collider=ball, body={}, transform={"position": (0.0, 0.5, 0.0)})
+    simulation.step()
+    simulation[sleeper].motion.still = 1.0
+    simulation.step()
+    simulation.add(collider=ball, transform={"position": (9.0, 5.0, 0.0)})
+    place, flies = {"position": (7.0, 5.0, 0.0)}, {"linear": (100.0, 0.0, 0.0)}
+    unbalanced = {"mass": 1.0, "center_of_mass": (0.1, 0.0, 0.0)}
+    simulation.add(collider=ball, body=unbalanced, transform=place, motion=flies)
+    simulation.step()
+    simulation.wake(sleeper)
+    simulation.step()
+    why_awake(simulation, sleeper)
 
 
 #: Each takes about half of the time and has a process of its own.

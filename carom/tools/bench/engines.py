@@ -34,7 +34,9 @@ class Carom:
 
     def __init__(self, scene: Scene, threads: int) -> None:
         gravity = (0.0, 0.0, -GRAVITY)
-        self.simulation = simulation = Simulation(dt=DT, gravity=gravity, threads=threads, checked=False)
+        self.simulation = simulation = Simulation(
+            dt=DT, gravity=gravity, threads=threads, sleeping=False, checked=False
+        )
         for center, half in scene.walls:
             simulation.add(collider={"box": {"size": 2.0 * half}}, material=ROUGH, transform={"position": center})
         if scene.land is not None:

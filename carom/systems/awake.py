@@ -1,0 +1,77 @@
+"""Awake: which bodies the step moves, and whether there is anything to do at all."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs import Motion, RigidBody, World
+from carom.ecs.column import Integers
+from carom.ecs.component import Record, Resource
+from carom.ecs.components.path import Path
+from carom.systems.forces.law import Forces
+from carom.systems.settings import Settings
+
+
+class Awake(Resource):
+    """The rows of bodies that do not sleep, kinematic ones among them, and of those that do; a cache.
+
+    ``idle`` is a step in which nobody moves and nothing has changed since the one before. ``strangers`` tells of
+    systems in the schedule that are not carom's, which may change anything; ``asked`` are entities to be woken.
+    """
+
+    def __init__(self) -> None:
+        self.rows: Integers = np.zeros(0, np.int64)
+        self.sleepers: Integers = np.zeros(0, np.int64)
+        self.idle = self.strangers = False
+        self.asked: list[int] = []
+        self.settings: Settings | None = None
+        self.restored = self.structure = self.laws = self.found = -1
+
+    def find(self, world: World) -> None:
+        """Find who is awake and who sleeps."""
+        is_body = world.table(RigidBody).present[: world.used()]
+        asleep = world.table(Motion).arrays["asleep"][: world.used()]
+        self.rows, self.sleepers = np.nonzero(is_body & ~asleep)[0], np.nonzero(is_body & asleep)[0]
+        self.found = world.structure
+
+    def now(self, world: World) -> Integers:
+        """Return the rows of bodies that do not sleep, also before the first step and right after commands."""
+        if self.found != world.structure:
+            self.find(world)
+        return self.rows
+
+    def nobody_moves(self, world: World) -> bool:
+        """Tell whether all who are awake stand still for as long as nobody touches them."""
+        if self.strangers or len(world.row_numbers(Path)):
+            return False
+        motion, rows = world[Motion], self.rows
+        held = (world[RigidBody].inverse_mass[rows], motion.linear[rows], motion.angular[rows])
+        return not any(values.any() for values in held)
+
+    def look(self, world: World) -> Changes:
+        """Return what has changed since the last look."""
+        edited, world.edited = world.edited, set()
+        settings, laws = world[Settings], world[Forces].count
+        changes = Changes(
+            edited,
+            restored=self.restored != world.restored,
+            structure=self.structure != world.structure,
+            settings=self.settings is not settings or self.laws != laws,
+        )
+        self.settings, self.laws, self.restored, self.structure = settings, laws, world.restored, world.structure
+        return changes
+
+
+class Changes:
+    """What code outside the step has done: kinds opened for writing, a snapshot restored, who is there, settings."""
+
+    def __init__(self, edited: set[type[Record]], *, restored: bool, structure: bool, settings: bool) -> None:
+        self.edited, self.restored, self.structure, self.settings = edited, restored, structure, settings
+
+    def __bool__(self) -> bool:
+        return bool(self.edited) or self.restored or self.structure or self.settings
+
+
+def stirs(world: World) -> bool:
+    """Tell whether there is anything to do in this step."""
+    return not world[Awake].idle

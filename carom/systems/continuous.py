@@ -1,0 +1,101 @@
+"""Continuous: bodies that are fast for their size are looked after on their way, so that they pass through nobody."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs import Collider, ColliderPose, Motion, RigidBody, Transform, World
+from carom.ecs.column import Floats, Integers
+from carom.ecs.component import Resource
+from carom.ecs.components.flight import Flight
+from carom.ecs.relations.contact import Contact
+from carom.ecs.spatial import quaternion
+from carom.systems.detection.hulls import PackedHulls
+from carom.systems.detection.meshes import PackedMeshes
+from carom.systems.detection.narrow import Found
+from carom.systems.kernels.meeting import FASTEST, find_agreeing, find_fast, foresee_meetings
+from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
+
+
+class Fast(Resource):
+    """The pairs (n, 2) of collider rows that are looked after, a mesh first, and where they are on their bodies.
+
+    ``turns`` are by how much (rad) each body may turn in the rest of a substep in which it was struck before it is
+    looked after too; infinity for most.
+    """
+
+    def __init__(self) -> None:
+        self.pairs: Integers = np.empty((0, 2), np.int64)
+        self.turns: Floats = np.zeros(0)
+
+    def find(self, world: World, pairs: Integers, found: Found, span: float) -> None:
+        """Find who of ``pairs`` (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them."""
+        collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
+        center, fast, numbers = world[Flight].detected_center, np.empty_like(pairs), np.empty((len(pairs) + 1, FASTEST))
+        count = find_fast(
+            pairs, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
+            collider.bound_radius, pose.position, pose.body_row, center, body.inverse_mass, body.continuous,
+            motion.linear, motion.angular, fast, numbers,
+        )  # fmt: skip
+        self.pairs, self.numbers, self.turns = fast[:count], numbers[:count], np.full(len(motion.asleep), np.inf)
+        if not count:
+            return
+        given, reaches = self.pairs.copy(), self.numbers.copy()
+        swapped = np.isin(collider.shape[self.pairs[:, 1]], (MESH_SHAPE, FIELD_SHAPE))
+        self.pairs[swapped] = self.pairs[swapped, ::-1]
+        self.numbers[swapped, :2] = self.numbers[swapped, 1::-1]
+        bodies = pose.body_row[self.pairs]
+        carried, place, turn = (bodies >= 0)[..., None], pose.position[self.pairs], pose.rotation[self.pairs]
+        back = quaternion.conjugate(world[Transform].rotation[bodies])
+        self.position = np.where(carried, quaternion.rotate(back, place - center[bodies]), place)
+        self.rotation = np.where(carried, quaternion.multiply(back, turn), turn)
+        times, agrees = self._times(world, center, span, first_only=False), np.empty(count, np.bool_)
+        find_agreeing(
+            given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
+            pose.body_row, center, motion.linear, motion.angular, agrees,
+        )  # fmt: skip
+        trusted = np.broadcast_to(self.numbers[:, 3:], bodies.shape)[bodies >= 0] / self.numbers[:, :2][bodies >= 0]
+        np.minimum.at(self.turns, bodies[bodies >= 0], trusted)
+        self.pairs, self.numbers = self.pairs[~agrees], self.numbers[~agrees]
+        self.position, self.rotation = self.position[~agrees], self.rotation[~agrees]
+
+    def trusted(self, found: Found) -> Found:
+        """Return what is found, but of pairs that are looked after only what is near: the rest is found on the way."""
+        if not len(self.pairs):
+            return found
+        pair = self._pair_of(found.row_a, found.row_b)
+        far = (pair >= 0) & (-found.depth > self.numbers[pair, 3])
+        return found.take(~far) if far.any() else found
+
+    def let_go(self, contact: Contact) -> None:
+        """Let contacts of pairs that are looked after strike again, whose bodies may turn onto another point."""
+        if len(self.pairs):
+            count = contact.count
+            contact.resting[:count] &= self._pair_of(contact.row_a[:count], contact.row_b[:count]) < 0
+
+    def _pair_of(self, row_a: Integers, row_b: Integers) -> Integers:
+        """Return which of the pairs two rows (n,) are, the lower one first; -1 for none."""
+        scale = 1 + max(int(self.pairs.max()), int(row_b.max(initial=0)), int(row_a.max(initial=0)))
+        keys = self.pairs.min(axis=1) * scale + self.pairs.max(axis=1)
+        order = np.argsort(keys)
+        place = order[np.minimum(np.searchsorted(keys[order], held := row_a * scale + row_b), len(keys) - 1)]
+        return np.where(keys[place] == held, place, -1)
+
+    def next_look(self, world: World, span: float) -> float:
+        """Return in how many seconds somebody is to be detected anew as all move now; infinity beyond ``span``."""
+        if not len(self.pairs):
+            return np.inf
+        time = float(self._times(world, world[Flight].center, span, first_only=True).min())
+        return time if time < span else np.inf
+
+    def _times(self, world: World, center: Floats, span: float, *, first_only: bool) -> Floats:
+        """Return when (n,) each pair is to be looked at again."""
+        collider, motion, times = world[Collider], world[Motion], np.empty(len(self.pairs))
+        hulls, meshes = world[PackedHulls].holding(world), world[PackedMeshes].holding(world)
+        room: Floats = np.concatenate([hulls.vertices, np.zeros((3, 3))])
+        foresee_meetings(
+            self.pairs, self.numbers, span, first_only, collider.shape, collider.size, collider.geometry,
+            world[ColliderPose].body_row, center, world[Transform].rotation, motion.linear, motion.angular,
+            world[Flight].felt, self.position, self.rotation, hulls, meshes, room, times,
+        )  # fmt: skip
+        return times

@@ -1,0 +1,265 @@
+"""Meetings: when two bodies that move and turn fast come to touch, by conservative advancement.
+
+Planes that part two convex solids say for how long they cannot touch, however they turn: the gap over the greatest
+speed at which it may close (Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, section 2.3).
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import CAST_GAP, FAST, MEET, MOST_LOOKS, TRUST
+from carom.systems.kernels.contacts import is_centred, is_free_ball
+from carom.systems.kernels.cores import (
+    AROUND,
+    BEGIN,
+    CORE,
+    END,
+    FIRST,
+    HULL,
+    KIND,
+    PLACE,
+    SECOND,
+    write_core,
+    write_place,
+)
+from carom.systems.kernels.distance import FAR, MEETING
+from carom.systems.kernels.frames import turned, turned_back
+from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles
+from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE
+from carom.systems.kernels.nearing import MOST_STEPS, near
+from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
+from carom.systems.kernels.spatial import cross, product, spun, turn
+
+NEVER = 1e300
+FASTEST = 4  # numbers of a pair: reach of either about its body, smallest half extent, trust
+
+
+@woven
+def speed_of(i, span, linear, angular, reach):
+    """Return how far (m) any point within ``reach`` of the centre of body i comes within ``span``; of none, 0."""
+    if i < 0:
+        return 0.0
+    quick, spin = 0.0, 0.0
+    for k in range(3):
+        quick += linear[i, k] * linear[i, k]
+        spin += angular[i, k] * angular[i, k]
+    return (sqrt(quick) + sqrt(spin) * reach) * span
+
+
+@woven
+def is_exact(i, o, shape, body_row, position, center, inverse_mass):
+    """Tell whether collider i is a ball whose impacts with o are exact, so that it needs nobody to look ahead."""
+    if not is_free_ball(i, shape, body_row, position, center, inverse_mass):
+        return False
+    if shape[o] not in (SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE):
+        return False
+    return body_row[o] < 0 or is_centred(o, body_row[o], position, center)
+
+
+@kernel("fast", "numbers")
+def find_fast(
+    pairs, span, shape, local_position, bound_center, bound_half, bound_radius, position, body_row, center,
+    inverse_mass, continuous, linear, angular, fast, numbers,
+):  # fmt: skip
+    """Write which pairs are to be looked after within ``span`` seconds, and their numbers; return how many.
+
+    Those of a body that comes farther than FAST of its smallest half extent and what stands or is kinematic; where both
+    can be pushed, only if one is ``continuous``. Half spaces let nobody through.
+    """
+    count = 0
+    for p in range(len(pairs)):
+        a, b = pairs[p, 0], pairs[p, 1]
+        if shape[a] == PLANE_SHAPE or shape[b] == PLANE_SHAPE:
+            continue
+        smallest, motion, free, asked = NEVER, 0.0, 0, False
+        for side in range(2):
+            c = a if side == 0 else b
+            i = body_row[c]
+            away, off = 0.0, 0.0
+            for k in range(3):
+                away += (position[c, k] - center[i, k]) ** 2 if i >= 0 else 0.0
+                off += (bound_center[c, k] - local_position[c, k]) ** 2
+            hx, hy, hz, r = bound_half[c, 0], bound_half[c, 1], bound_half[c, 2], bound_radius[c]
+            numbers[count, side] = sqrt(away) + sqrt(off) + sqrt(hx * hx + hy * hy + hz * hz) + r
+            motion += speed_of(i, span, linear, angular, numbers[count, side])
+            if i >= 0 and inverse_mass[i] > 0.0:
+                smallest, free, asked = min(smallest, min(hx, hy, hz) + r), free + 1, asked or continuous[i]
+        if motion <= FAST * smallest or (free == 2 and not asked):
+            continue
+        if is_exact(a, b, shape, body_row, position, center, inverse_mass):
+            continue
+        if is_exact(b, a, shape, body_row, position, center, inverse_mass):
+            continue
+        numbers[count, 2], numbers[count, 3] = smallest, TRUST * smallest
+        fast[count, 0], fast[count, 1] = a, b
+        count += 1
+    return count
+
+
+@inlined
+def put(side, i, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation):
+    """Write where a shape of pair p is ``time`` seconds on, as its body moves and turns now."""
+    x, y, z = local_position[p, side, 0], local_position[p, side, 1], local_position[p, side, 2]
+    lx, ly, lz, lw = (
+        local_rotation[p, side, 0], local_rotation[p, side, 1], local_rotation[p, side, 2], local_rotation[p, side, 3]
+    )  # fmt: skip
+    if i >= 0:
+        qx, qy, qz, qw = spun(
+            turns[i, 0], turns[i, 1], turns[i, 2], turns[i, 3], angular[i, 0], angular[i, 1], angular[i, 2], time
+        )
+        x, y, z = turn(qx, qy, qz, qw, x, y, z)
+        x, y, z = x + center[i, 0], y + center[i, 1], z + center[i, 2]
+        x, y, z = x + time * linear[i, 0], y + time * linear[i, 1], z + time * linear[i, 2]
+        lx, ly, lz, lw = product(qx, qy, qz, qw, lx, ly, lz, lw)
+    position[side, 0], position[side, 1], position[side, 2] = x, y, z
+    rotation[side, 0], rotation[side, 1], rotation[side, 2], rotation[side, 3] = lx, ly, lz, lw
+
+
+@inlined
+def across(i, nx, ny, nz, angular):
+    """Return how fast the turning of body i may take a point 1 m from its centre along n."""
+    if i < 0:
+        return 0.0
+    x, y, z = cross(nx, ny, nz, angular[i, 0], angular[i, 1], angular[i, 2])
+    return sqrt(x * x + y * y + z * z)
+
+
+@inlined
+def meet(
+    p, i, o, limit, numbers, core, vertices, center, turns, linear, angular, felt, local_position, local_rotation,
+    position, rotation, place, corner, name, weight, seen,
+):  # fmt: skip
+    """Return when the two cores of pair p are to be looked at again (s, NEVER if not within ``limit``).
+
+    That is where they have come so near that their contact is to be found, or, where they are near already, after they
+    may have moved as far as that contact is trusted.
+    """
+    trust, around, pull, time = numbers[p, 3], core[AROUND] + core[CORE + AROUND], 0.0, 0.0
+    for body in (i, o):
+        if body >= 0:
+            pull += sqrt(felt[body, 0] ** 2 + felt[body, 1] ** 2 + felt[body, 2] ** 2) * limit
+    most = speed_of(i, 1.0, linear, angular, numbers[p, 0]) + speed_of(o, 1.0, linear, angular, numbers[p, 1]) + pull
+    nx, ny, nz = 0.0, 1.0, 0.0
+    for _ in range(MOST_LOOKS):
+        put(0, i, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+        put(1, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+        write_place(position, rotation, 0, 1, place)
+        state, gap, mx, my, mz, _, _, _ = near(
+            core, place, vertices, nx, ny, nz, most * (limit - time) + trust + around, CAST_GAP,
+            corner, name, weight, seen,
+        )  # fmt: skip
+        if state == FAR:
+            return NEVER
+        gap = 0.0 if state == MEETING else gap - around
+        if time == 0.0 and gap <= trust:
+            return trust / most if trust < limit * most else NEVER
+        if gap <= MEET * trust:
+            return time
+        nx, ny, nz = mx, my, mz
+        wx, wy, wz = turned(rotation, 0, nx, ny, nz)
+        closing = pull + across(i, wx, wy, wz, angular) * numbers[p, 0] + across(o, wx, wy, wz, angular) * numbers[p, 1]
+        for k, n in enumerate((wx, wy, wz)):
+            closing += n * ((linear[i, k] if i >= 0 else 0.0) - (linear[o, k] if o >= 0 else 0.0))
+        if closing <= 0.0 or gap > closing * (limit - time):
+            return NEVER
+        time += (gap - 0.5 * MEET * trust) / closing
+    return time
+
+
+@kernel("times")
+def foresee_meetings(
+    fast, numbers, span, first_only, shape, size, geometry, body_row, center, turns, linear, angular, felt,
+    local_position, local_rotation, hulls, meshes, room, times,
+):  # fmt: skip
+    """Write when (s) each of the ``fast`` pairs is to be detected anew as bodies move now, NEVER if not in ``span``.
+
+    Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both shapes about the centres
+    of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and three more for a triangle.
+    """
+    core, place = np.zeros(2 * CORE), np.empty(PLACE)
+    corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
+    position, rotation, found = np.empty((2, 3)), np.empty((2, 4)), np.empty(FEW, np.uint32)
+    root, bounds, nodes, triangles = meshes.root, meshes.bounds, meshes.nodes, meshes.triangles
+    sooner = span
+    for p in range(len(fast)):
+        a, b = fast[p, 0], fast[p, 1]  # a mesh comes first
+        i, o = body_row[a], body_row[b]
+        limit, soonest = sooner if first_only else span, NEVER
+        write_core(shape, size, geometry, b, hulls, core, SECOND)
+        if shape[a] not in (MESH_SHAPE, FIELD_SHAPE):
+            write_core(shape, size, geometry, a, hulls, core, FIRST)
+            times[p] = meet(
+                p, i, o, limit, numbers, core, room, center, turns, linear, angular, felt,
+                local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+            )  # fmt: skip
+            sooner = min(sooner, times[p])
+            continue
+        core[KIND], core[BEGIN], core[END], core[AROUND] = HULL, len(room) - 3, len(room), 0.0
+        put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+        lx, ly, lz = center[o, 0] - position[0, 0], center[o, 1] - position[0, 1], center[o, 2] - position[0, 2]
+        lx, ly, lz = turned_back(rotation, 0, lx, ly, lz)
+        wide = numbers[p, 1] + numbers[p, 3]
+        for body in (i, o):  # turning is in the reach, or, of the mesh, in how far any of it comes
+            wide += speed_of(body, limit, linear, angular, numbers[p, 0] if body == i else 0.0)
+        count, found = all_triangles(
+            root[geometry[a]], bounds, nodes, triangles,
+            lx - wide, ly - wide, lz - wide, lx + wide, ly + wide, lz + wide, found,
+        )  # fmt: skip
+        for c in range(count):
+            for k in range(9):
+                room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * found[c] + k]
+            soonest = min(soonest, meet(
+                p, i, o, min(limit, soonest), numbers, core, room, center, turns, linear, angular, felt,
+                local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+            ))  # fmt: skip
+        times[p] = soonest
+        sooner = min(sooner, soonest)
+
+
+@kernel("agrees")
+def find_agreeing(
+    pairs, numbers, times, span, row_a, row_b, normal, depth, point, body_row, center, linear, angular, agrees
+):
+    """Tell which pairs need nobody to look: their contacts, followed straight on, say when they meet just as well.
+
+    That is so where both times are the same, but for as long as the bodies may move by what a contact is trusted, and
+    for what is near already as long as nobody turns by more than that. Contacts are in order of pair, as pairs are.
+    """
+    c = 0
+    for p in range(len(pairs)):
+        a, b = pairs[p, 0], pairs[p, 1]
+        i, o = body_row[a], body_row[b]
+        while c < len(row_a) and (row_a[c] < a or (row_a[c] == a and row_b[c] < b)):
+            c += 1
+        straight, near_now = NEVER, False
+        while c < len(row_a) and row_a[c] == a and row_b[c] == b:
+            closing = 0.0
+            for body, sense in ((i, 1.0), (o, -1.0)):
+                if body >= 0:
+                    x, y, z = cross(
+                        angular[body, 0], angular[body, 1], angular[body, 2],
+                        point[c, 0] - center[body, 0], point[c, 1] - center[body, 1], point[c, 2] - center[body, 2],
+                    )  # fmt: skip
+                    for k, turn_k in enumerate((x, y, z)):
+                        closing += sense * normal[c, k] * (linear[body, k] + turn_k)
+            near_now |= -depth[c] <= numbers[p, 3]
+            if closing > 0.0 and -depth[c] < closing * span:
+                straight = min(straight, max(0.0, -depth[c] / closing))
+            c += 1
+        turning, most = 0.0, 0.0
+        for side in range(2):
+            body = i if side == 0 else o
+            whole, way = (
+                speed_of(body, 1.0, linear, angular, numbers[p, side]),
+                speed_of(body, 1.0, linear, angular, 0.0),
+            )
+            turning, most = turning + (whole - way), most + whole
+        if near_now:
+            agrees[p] = turning * span <= numbers[p, 3]
+        else:
+            agrees[p] = abs(straight - times[p]) * most <= numbers[p, 3] or straight == times[p]

@@ -1,0 +1,181 @@
+"""Sleeping: islands at rest are left alone until something touches or changes them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from carom.ecs import (
+    Collider,
+    ColliderPose,
+    ExternalForce,
+    Force,
+    Material,
+    Motion,
+    Parent,
+    RigidBody,
+    Transform,
+    World,
+    system,
+)
+from carom.ecs.column import Booleans, Integers
+from carom.ecs.components.flight import Flight
+from carom.ecs.components.path import Path
+from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.sleeping_contact import SleepingContact
+from carom.systems.awake import Awake, stirs
+from carom.systems.compound import bodies_of
+from carom.systems.detection.bounds import reach_within
+from carom.systems.energy import centers_of_mass
+from carom.systems.forces.law import Forces
+from carom.systems.kernels.islands import find_islands, find_sleepers, time_stillness
+from carom.systems.settings import Settings
+from carom.systems.sleeping_contacts import left_alone, locate_contacts, move_contacts
+
+if TYPE_CHECKING:
+    from carom.systems.detection.narrow import Found
+
+SHAPED = {RigidBody, Collider, Material, Parent}  # nobody knows who rests on what these say
+PLACED = {Transform, Motion, ExternalForce}
+
+
+@system(
+    reads=(RigidBody, Collider, ExternalForce, Parent, Path, Settings, Forces),
+    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake),
+)
+def wake_disturbed(world: World, dt: float) -> None:
+    """Wake who was changed from outside since the last step, and see whether there is anything to do."""
+    awake = world[Awake]
+    changes = awake.look(world)
+    if not changes and not awake.asked and awake.idle:
+        return
+    awake.find(world)
+    if changes.restored:  # what snapshots do not keep
+        freeze(world, awake.sleepers)
+        locate_contacts(world)
+    if len(awake.sleepers):
+        if not world[Settings].sleeping or (not changes.restored and (changes.settings or changes.edited & SHAPED)):
+            wake(world, awake.sleepers)
+        else:
+            asked = [world.row(entity) for entity in awake.asked if entity in world]
+            bodies = bodies_of(world)[asked] if asked else np.zeros(0, np.int64)
+            disturbed = [bodies[bodies >= 0]]
+            if awake.strangers or changes.edited & PLACED:
+                disturbed.append(_changed(world, awake.sleepers))
+            if changes.structure:
+                disturbed.append(left_alone(world))
+            wake(world, np.concatenate(disturbed))
+    awake.asked.clear()
+    awake.idle = not changes and awake.nobody_moves(world)
+
+
+@system(
+    reads=(RigidBody, Collider, Parent, Force, Forces, Settings),
+    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake),
+    when=stirs,
+)
+def fall_asleep(world: World, dt: float) -> None:
+    """Let islands that have been still for long enough fall asleep: they stop, and nothing of them changes."""
+    motion, body, contact, awake = world[Motion], world[RigidBody], world[Contact], world[Awake]
+    if not world[Settings].sleeping:
+        return
+    if awake.strangers and len(awake.sleepers):  # one of them may be pushing
+        force = world[Force]
+        pushed = (force.force[awake.sleepers] != 0.0) | (force.torque[awake.sleepers] != 0.0)
+        awake.asked += world.entities(awake.sleepers[pushed.any(axis=1)]).tolist()
+    for law in world[Forces].entries:
+        for _, rows in () if law.steady else world[Forces].acting(law, world):
+            motion.still[rows] = -dt  # who is pushed another way in every step
+    time_stillness(
+        awake.rows, dt, body.inverse_mass, body.inertia, body.sleeps, motion.linear, motion.angular, motion.still
+    )
+    falls: Booleans = np.zeros(len(motion.asleep), np.bool_)
+    count = contact.count
+    touches = touching(contact)
+    if find_sleepers(
+        awake.rows, count, contact.body_a, contact.body_b, touches, body.inverse_mass,
+        motion.linear, motion.angular, world[Flight].felt, motion.still, falls,
+    ):  # fmt: skip
+        rows = np.nonzero(falls)[0]
+        motion.asleep[rows] = True
+        freeze(world, rows)
+        a, b = contact.body_a[:count], contact.body_b[:count]
+        move_contacts(world, Contact, SleepingContact, touches & (_among(a, falls) | _among(b, falls)))
+        awake.find(world)
+
+
+def touching(contact: Contact) -> Booleans:
+    """Tell which contacts (count,) join islands."""
+    found: Booleans = contact.resting[: contact.count] | (contact.depth[: contact.count] >= 0.0)
+    return found
+
+
+def wake(world: World, rows: Integers) -> None:
+    """Wake the islands of bodies that sleep; their contacts are as they were."""
+    rows = rows[world[Motion].asleep[rows]]
+    if not len(rows):
+        return
+    motion, sleeping, awake = world[Motion], world[SleepingContact], world[Awake]
+    island, count = np.zeros(len(motion.asleep), np.int64), sleeping.count
+    a, b, inverse_mass = sleeping.body_a[:count], sleeping.body_b[:count], world[RigidBody].inverse_mass
+    find_islands(awake.sleepers, count, a, b, np.ones(count, np.bool_), inverse_mass, island)
+    woken: Booleans = np.zeros(len(island), np.bool_)
+    woken[awake.sleepers] = np.isin(island[awake.sleepers], island[rows])
+    motion.asleep[woken], motion.still[woken] = False, 0.0
+    which = _among(a, woken) | _among(b, woken)
+    sleeping.impulse[:count][which], sleeping.friction_impulse[:count][which] = 0.0, 0.0  # of this step, until now
+    move_contacts(world, SleepingContact, Contact, which)
+    awake.find(world)
+
+
+def rouse(world: World, found: Found) -> bool:
+    """Wake who sleeps and is found by somebody, or whose support was moved; tell whether anybody was."""
+    awake = world[Awake]
+    if not len(awake.sleepers):
+        return False
+    asleep, pose, sleeping = world[Motion].asleep, world[ColliderPose], world[SleepingContact]
+    near = [pose.body_row[row] for row in (found.row_a, found.row_b)]
+    rows, count = world.row_numbers(Collider), sleeping.count
+    if (moved := pose.moved[rows]).any():
+        near.append(pose.body_row[rows[moved]])
+        left = pose.moved[sleeping.row_a[:count]] | pose.moved[sleeping.row_b[:count]]
+        near += [sleeping.body_a[:count][left], sleeping.body_b[:count][left]]
+    bodies = np.concatenate(near)
+    bodies = bodies[bodies >= 0]
+    bodies = bodies[asleep[bodies]]
+    wake(world, bodies)
+    return len(bodies) > 0
+
+
+def freeze(world: World, rows: Integers) -> None:
+    """Stop bodies where they are, and their colliders with them, as the next substep would find them."""
+    transform, motion, flight = world[Transform], world[Motion], world[Flight]
+    for velocity in (
+        motion.linear, motion.angular, motion.linear_acceleration, motion.angular_acceleration,
+        flight.start_linear, flight.start_angular, flight.acceleration, flight.angular_acceleration,
+        flight.flow, flight.turned,
+    ):  # fmt: skip
+        velocity[rows] = 0.0
+    flight.reach[rows], flight.time[rows], flight.touching[rows] = 0.0, 0.0, False
+    flight.decay[rows], flight.angular_decay[rows] = 1.0, 1.0
+    flight.start_position[rows], flight.start_rotation[rows] = transform.position[rows], transform.rotation[rows]
+    for center in (flight.center, flight.start_center, flight.detected_center):
+        center[rows] = centers_of_mass(world, rows)
+    reach_within(world, 0.0)
+
+
+def _among(rows: Integers, mask: Booleans) -> Booleans:
+    """Tell which rows are in a mask; -1 is not."""
+    found: Booleans = mask[rows] & (rows >= 0)
+    return found
+
+
+def _changed(world: World, rows: Integers) -> Integers:
+    """Return those that were moved, given a velocity or pushed."""
+    transform, motion, flight, external = world[Transform], world[Motion], world[Flight], world[ExternalForce]
+    moved = (transform.position[rows] != flight.start_position[rows]).any(axis=1)
+    moved |= (transform.rotation[rows] != flight.start_rotation[rows]).any(axis=1)
+    for values in (motion.linear, motion.angular, external.force, external.torque):
+        moved |= (values[rows] != 0.0).any(axis=1)
+    return np.asarray(rows[moved])

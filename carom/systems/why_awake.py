@@ -1,0 +1,85 @@
+"""Why a body is awake: who keeps its island from falling asleep, told in words with numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from carom.ecs import Motion, RigidBody, World
+from carom.ecs.column import Floats, Integers
+from carom.ecs.relations.contact import Contact
+from carom.systems.compound import bodies_of
+from carom.systems.constants import SLEEP_SPEED, SLEEP_TIME
+from carom.systems.forces.law import Forces
+from carom.systems.kernels.islands import find_islands, find_surface_speeds
+from carom.systems.settings import Settings
+from carom.systems.sleeping import touching
+
+if TYPE_CHECKING:
+    from carom.systems.simulation import Simulation
+
+
+def why_awake(of: World | Simulation, entity: int | str) -> str:
+    """Say why a body (handle or name, or that of a part of it) did not fall asleep in the last step, or that it sleeps.
+
+    The fastest body of its island is named with its speed and the limit; then who may not fall asleep, what keeps the
+    island up, and how long it has been still.
+    """
+    world = of if isinstance(of, World) else of.world
+    handle = world.find(entity) if isinstance(entity, str) else int(entity)
+    row, name = int(bodies_of(world)[world.row(handle)]), f"'{world.name(handle)}'"
+    if row < 0:
+        return f"{name} has no body; it stands"
+    body, motion = world[RigidBody], world[Motion]
+    if motion.asleep[row]:
+        return f"{name} sleeps"
+    if body.inverse_mass[row] == 0.0:
+        return f"{name} is kinematic; it neither rests nor sleeps"
+    if not world[Settings].sleeping:
+        return f"{name} is awake since nobody falls asleep in this world: sleeping is off"
+    island = _island_of(world, row)
+    others = "" if len(island) == 1 else f", in its island of {len(island)} bodies"
+    speed: Floats = np.zeros(len(body.mass))
+    find_surface_speeds(island, body.inverse_mass, body.inertia, motion.linear, motion.angular, speed)
+    fastest = island[np.argmax(speed[island])]
+
+    def told(who: int, reason: str) -> str:
+        if who == row:
+            return f"{name} is awake since it {reason}"
+        return f"{name} is awake since '{world.name(world.entity(who))}'{others}, {reason}"
+
+    if speed[fastest] > SLEEP_SPEED:
+        return told(fastest, f"moves at {speed[fastest]:.3g} m/s; at {SLEEP_SPEED:g} m/s or less it may fall asleep")
+    for restless in island[~body.sleeps[island]]:
+        return told(restless, "may not fall asleep: its body says so (sleeps)")
+    for law in world[Forces].entries:
+        for _, rows in () if law.steady else world[Forces].acting(law, world):
+            for pulled in island[np.isin(island, rows)]:
+                return told(pulled, f"is pushed another way in every step, by {law.key}")
+    moving, held = _supports_of(world, island)
+    for support in moving:
+        return f"{name} is awake since '{world.name(world.entity(support))}', which moves, touches it{others}"
+    if not held:
+        return f"{name} is awake since it touches nothing that stands{others}: what drifts slowly goes on doing so"
+    newest = island[np.argmin(motion.still[island])]
+    return told(newest, f"has been still for {motion.still[newest]:.3g} s; after {SLEEP_TIME:g} s it falls asleep")
+
+
+def _island_of(world: World, row: int) -> Integers:
+    rows, contact, inverse_mass = world.row_numbers(RigidBody), world[Contact], world[RigidBody].inverse_mass
+    island = np.zeros(len(inverse_mass), np.int64)
+    find_islands(rows, contact.count, contact.body_a, contact.body_b, touching(contact), inverse_mass, island)
+    return np.asarray(rows[(island[rows] == island[row]) & (inverse_mass[rows] > 0.0)])
+
+
+def _supports_of(world: World, island: Integers) -> tuple[list[int], bool]:
+    """Return the kinematic bodies that touch an island and move, and whether anything that stands touches it."""
+    contact, motion, inverse_mass = world[Contact], world[Motion], world[RigidBody].inverse_mass
+    pairs = np.stack([contact.body_a[: contact.count], contact.body_b[: contact.count]], axis=1)[touching(contact)]
+    of_island = np.isin(pairs, island) & (pairs >= 0)
+    supports = pairs[:, ::-1][of_island]
+    supports = supports[(supports < 0) | (inverse_mass[supports] == 0.0)]
+    kinematic = np.unique(supports[supports >= 0])
+    moves = (motion.linear[kinematic] != 0.0).any(axis=1) | (motion.angular[kinematic] != 0.0).any(axis=1)
+    return kinematic[moves].tolist(), len(supports) > 0
