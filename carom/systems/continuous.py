@@ -13,7 +13,8 @@ from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.narrow import Found
-from carom.systems.kernels.meeting import FASTEST, find_agreeing, find_fast, foresee_meetings
+from carom.systems.kernels.fast_pairs import NUMBERS, find_agreeing, find_fast
+from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
 
 
@@ -31,7 +32,7 @@ class Fast(Resource):
     def find(self, world: World, pairs: Integers, found: Found, span: float) -> None:
         """Find who of ``pairs`` (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them."""
         collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
-        center, fast, numbers = world[Flight].detected_center, np.empty_like(pairs), np.empty((len(pairs) + 1, FASTEST))
+        center, fast, numbers = world[Flight].detected_center, np.empty_like(pairs), np.empty((len(pairs) + 1, NUMBERS))
         count = find_fast(
             pairs, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
             collider.bound_radius, pose.position, pose.body_row, center, body.inverse_mass, body.continuous,

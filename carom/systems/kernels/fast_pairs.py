@@ -1,0 +1,122 @@
+"""Fast pairs: who comes so far within a step for its size that it is looked after on its way."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import FAST, TRUST
+from carom.systems.kernels.contacts import is_centred, is_free_ball
+from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE
+from carom.systems.kernels.spatial import cross
+
+NEVER = 1e300
+#: Numbers of a pair: how far either reaches from its body's centre, smallest half extent, how far a contact is trusted.
+NUMBERS = 4
+
+
+@woven
+def speed_of(i, span, linear, angular, reach):
+    """Return how far (m) any point within ``reach`` of the centre of body i comes within ``span``; of none, 0."""
+    if i < 0:
+        return 0.0
+    quick, spin = 0.0, 0.0
+    for k in range(3):
+        quick += linear[i, k] * linear[i, k]
+        spin += angular[i, k] * angular[i, k]
+    return (sqrt(quick) + sqrt(spin) * reach) * span
+
+
+@woven
+def is_exact(i, o, shape, body_row, position, center, inverse_mass):
+    """Tell whether collider i is a ball whose impacts with o are exact, so that it needs nobody to look ahead."""
+    if not is_free_ball(i, shape, body_row, position, center, inverse_mass):
+        return False
+    if shape[o] not in (SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE):
+        return False
+    return body_row[o] < 0 or is_centred(o, body_row[o], position, center)
+
+
+@kernel("fast", "numbers")
+def find_fast(
+    pairs, span, shape, local_position, bound_center, bound_half, bound_radius, position, body_row, center,
+    inverse_mass, continuous, linear, angular, fast, numbers,
+):  # fmt: skip
+    """Write which pairs are to be looked after within ``span`` seconds, and their numbers; return how many.
+
+    Those of a body that comes farther than FAST of its smallest half extent and what stands or is kinematic; where both
+    can be pushed, only if one is ``continuous``. Half spaces let nobody through.
+    """
+    count = 0
+    for p in range(len(pairs)):
+        a, b = pairs[p, 0], pairs[p, 1]
+        if shape[a] == PLANE_SHAPE or shape[b] == PLANE_SHAPE:
+            continue
+        smallest, motion, free, asked = NEVER, 0.0, 0, False
+        for side in range(2):
+            c = a if side == 0 else b
+            i = body_row[c]
+            away, off = 0.0, 0.0
+            for k in range(3):
+                away += (position[c, k] - center[i, k]) ** 2 if i >= 0 else 0.0
+                off += (bound_center[c, k] - local_position[c, k]) ** 2
+            hx, hy, hz, r = bound_half[c, 0], bound_half[c, 1], bound_half[c, 2], bound_radius[c]
+            numbers[count, side] = sqrt(away) + sqrt(off) + sqrt(hx * hx + hy * hy + hz * hz) + r
+            motion += speed_of(i, span, linear, angular, numbers[count, side])
+            if i >= 0 and inverse_mass[i] > 0.0:
+                smallest, free, asked = min(smallest, min(hx, hy, hz) + r), free + 1, asked or continuous[i]
+        if motion <= FAST * smallest or (free == 2 and not asked):
+            continue
+        if is_exact(a, b, shape, body_row, position, center, inverse_mass):
+            continue
+        if is_exact(b, a, shape, body_row, position, center, inverse_mass):
+            continue
+        numbers[count, 2], numbers[count, 3] = smallest, TRUST * smallest
+        fast[count, 0], fast[count, 1] = a, b
+        count += 1
+    return count
+
+
+@kernel("agrees")
+def find_agreeing(
+    pairs, numbers, times, span, row_a, row_b, normal, depth, point, body_row, center, linear, angular, agrees
+):
+    """Tell which pairs need nobody to look: their contacts, followed straight on, say when they meet just as well.
+
+    That is so where both times are the same, but for as long as the bodies may move by what a contact is trusted, and
+    for what is near already as long as nobody turns by more than that. Contacts are in order of pair, as pairs are.
+    """
+    c = 0
+    for p in range(len(pairs)):
+        a, b = pairs[p, 0], pairs[p, 1]
+        i, o = body_row[a], body_row[b]
+        while c < len(row_a) and (row_a[c] < a or (row_a[c] == a and row_b[c] < b)):
+            c += 1
+        straight, near_now = NEVER, False
+        while c < len(row_a) and row_a[c] == a and row_b[c] == b:
+            closing = 0.0
+            for body, sense in ((i, 1.0), (o, -1.0)):
+                if body >= 0:
+                    x, y, z = cross(
+                        angular[body, 0], angular[body, 1], angular[body, 2],
+                        point[c, 0] - center[body, 0], point[c, 1] - center[body, 1], point[c, 2] - center[body, 2],
+                    )  # fmt: skip
+                    for k, turn_k in enumerate((x, y, z)):
+                        closing += sense * normal[c, k] * (linear[body, k] + turn_k)
+            near_now |= -depth[c] <= numbers[p, 3]
+            if closing > 0.0 and -depth[c] < closing * span:
+                straight = min(straight, max(0.0, -depth[c] / closing))
+            c += 1
+        turning, most = 0.0, 0.0
+        for side in range(2):
+            body = i if side == 0 else o
+            whole, way = (
+                speed_of(body, 1.0, linear, angular, numbers[p, side]),
+                speed_of(body, 1.0, linear, angular, 0.0),
+            )
+            turning, most = turning + (whole - way), most + whole
+        if near_now:
+            agrees[p] = turning * span <= numbers[p, 3]
+        else:
+            agrees[p] = abs(straight - times[p]) * most <= numbers[p, 3] or straight == times[p]
