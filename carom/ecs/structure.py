@@ -33,7 +33,9 @@ class Structure:
         self.tables: dict[type[Record], Table] = {}
         self.structure = 0  # grows whenever entities or components come or go
         self.restored = 0  # grows with every snapshot restored
-        self.edited: set[type[Record]] = set()  # what code outside the step has opened since it was last cleared
+        self.edited: set[type[Record]] = (
+            set()
+        )  # what code outside the step has opened since the last step or snapshot restored
         self.frame = 0
         self.running: System | None = None
         self.entity_names = Names()
@@ -146,6 +148,7 @@ class Structure:
         self.frame = frame
         self.structure += 1
         self.restored += 1
+        self.edited.clear()
 
     def _refuse_inside(self, verb: str) -> None:
         if self.running is not None:

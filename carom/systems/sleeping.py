@@ -52,10 +52,11 @@ def wake_disturbed(world: World, dt: float) -> None:
         return
     awake.find(world)
     if changes.restored:  # what snapshots do not keep
-        freeze(world, awake.sleepers)
+        place_frozen(world, awake.sleepers)
         locate_contacts(world)
     if len(awake.sleepers):
-        if not world[Settings].sleeping or (not changes.restored and (changes.settings or changes.edited & SHAPED)):
+        remade = changes.edited & SHAPED or (changes.restored and Transform in changes.edited)
+        if not world[Settings].sleeping or remade or (changes.settings and not changes.restored):
             wake(world, awake.sleepers)
         else:
             asked = [world.row(entity) for entity in awake.asked if entity in world]
@@ -150,13 +151,20 @@ def rouse(world: World, found: Found) -> bool:
 
 def freeze(world: World, rows: Integers) -> None:
     """Stop bodies where they are, and their colliders with them, as the next substep would find them."""
-    transform, motion, flight = world[Transform], world[Motion], world[Flight]
-    for velocity in (
-        motion.linear, motion.angular, motion.linear_acceleration, motion.angular_acceleration,
+    motion = world[Motion]
+    for velocity in (motion.linear, motion.angular, motion.linear_acceleration, motion.angular_acceleration):
+        velocity[rows] = 0.0
+    place_frozen(world, rows)
+
+
+def place_frozen(world: World, rows: Integers) -> None:
+    """Put what the step has of bodies beside their state where they stand."""
+    transform, flight = world[Transform], world[Flight]
+    for column in (
         flight.start_linear, flight.start_angular, flight.acceleration, flight.angular_acceleration,
         flight.flow, flight.turned,
     ):  # fmt: skip
-        velocity[rows] = 0.0
+        column[rows] = 0.0
     flight.reach[rows], flight.time[rows], flight.touching[rows] = 0.0, 0.0, False
     flight.decay[rows], flight.angular_decay[rows] = 1.0, 1.0
     flight.start_position[rows], flight.start_rotation[rows] = transform.position[rows], transform.rotation[rows]

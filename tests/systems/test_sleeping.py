@@ -299,6 +299,34 @@ def test_a_snapshot_of_sleepers_goes_on_the_same_way() -> None:
         assert _drop(other) == dropped
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        _set("a1", "motion", "linear", (0.0, 0.0, 1.0)),
+        _set("a1", "transform", "position", (0.0, 1.6, 0.0)),
+        _set("a1", "rigid_body", "inverse_mass", 0.5),
+        _push,
+    ],
+)
+def test_a_change_right_after_a_snapshot_was_restored_wakes_too(change: Callable[[Simulation], Any]) -> None:
+    """What the step does not know of, since it has not seen the world restored, counts all the same."""
+    simulation = sleeping(0.0)
+    restore_snapshot(simulation.world, take_snapshot(simulation.world))
+    change(simulation)
+    simulation.step()
+    assert asleep(simulation, "a0", "a1", "a2") == [False] * 3
+
+
+def test_what_was_changed_before_a_snapshot_is_restored_wakes_nobody() -> None:
+    """The change is undone with the rest."""
+    simulation = sleeping(0.0)
+    snapshot = take_snapshot(simulation.world)
+    simulation["a1"].motion.linear = (0.0, 0.0, 1.0)
+    restore_snapshot(simulation.world, snapshot)
+    simulation.step(2)
+    assert asleep(simulation, "a0", "a1", "a2") == [True] * 3
+
+
 def test_rows_may_change_under_sleepers() -> None:
     """Who sleeps is found again when a world is made compact, and wakes to the same bits."""
     futures = []
