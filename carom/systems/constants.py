@@ -121,8 +121,8 @@ MEET = 0.25
 MOST_LOOKS = 64
 
 # m/s. A body no point of which is faster may fall asleep, with its island. Larger: what rolls out slowly stops short.
-# Smaller: tall piles, of which a cube trembles by a tenth of this, stay awake longer.
-SLEEP_SPEED = 0.01
+# Smaller: tall piles, of which cubes tremble by a tenth of this, stay awake longer.
+SLEEP_SPEED = 0.03
 
 # s. For how long. Shorter: what turns round, as a pendulum does at its end, is caught there.
 SLEEP_TIME = 0.5

@@ -352,7 +352,7 @@ def test_why_a_body_is_awake() -> None:
     simulation.step()
     told = why_awake(simulation, "a0")
     assert told.startswith("'a0' is awake since 'late', in its island of 4 bodies, moves at ")
-    assert told.endswith(" m/s; at 0.01 m/s or less it may fall asleep")
+    assert told.endswith(" m/s; at 0.03 m/s or less it may fall asleep")
     assert why_awake(simulation.world, "floor") == "'floor' has no body; it stands"
     simulation = stacks(0.0)
     simulation.step(20)

@@ -12,7 +12,7 @@ from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SP
 from carom.systems.kernels.spatial import cross
 
 NEVER = 1e300
-#: Numbers of a pair: how far either reaches from its body's centre, smallest half extent, how far a contact is trusted.
+#: Numbers of a pair: how far either reaches from its body's centre, which is the smaller, how far a contact is trusted.
 NUMBERS = 4
 
 
@@ -26,6 +26,21 @@ def speed_of(i, span, linear, angular, reach):
         quick += linear[i, k] * linear[i, k]
         spin += angular[i, k] * angular[i, k]
     return (sqrt(quick) + sqrt(spin) * reach) * span
+
+
+@woven
+def motion_of(i, o, center, linear, angular):
+    """Return how fast the centre of body i moves (m/s) and how fast it turns (rad/s), as seen from o or the world."""
+    x, y, z = linear[i, 0], linear[i, 1], linear[i, 2]
+    wx, wy, wz = angular[i, 0], angular[i, 1], angular[i, 2]
+    if o >= 0:
+        ux, uy, uz = angular[o, 0], angular[o, 1], angular[o, 2]
+        cx, cy, cz = cross(
+            ux, uy, uz, center[i, 0] - center[o, 0], center[i, 1] - center[o, 1], center[i, 2] - center[o, 2]
+        )
+        x, y, z = x - linear[o, 0] - cx, y - linear[o, 1] - cy, z - linear[o, 2] - cz
+        wx, wy, wz = wx - ux, wy - uy, wz - uz
+    return sqrt(x * x + y * y + z * z), sqrt(wx * wx + wy * wy + wz * wz)
 
 
 @woven
@@ -53,7 +68,7 @@ def find_fast(
         a, b = pairs[p, 0], pairs[p, 1]
         if shape[a] == PLANE_SHAPE or shape[b] == PLANE_SHAPE:
             continue
-        smallest, motion, free, asked = NEVER, 0.0, 0, False
+        smallest, smaller, free, asked = NEVER, 0, 0, False
         for side in range(2):
             c = a if side == 0 else b
             i = body_row[c]
@@ -63,16 +78,20 @@ def find_fast(
                 off += (bound_center[c, k] - local_position[c, k]) ** 2
             hx, hy, hz, r = bound_half[c, 0], bound_half[c, 1], bound_half[c, 2], bound_radius[c]
             numbers[count, side] = sqrt(away) + sqrt(off) + sqrt(hx * hx + hy * hy + hz * hz) + r
-            motion += speed_of(i, span, linear, angular, numbers[count, side])
             if i >= 0 and inverse_mass[i] > 0.0:
-                smallest, free, asked = min(smallest, min(hx, hy, hz) + r), free + 1, asked or continuous[i]
+                free, asked = free + 1, asked or continuous[i]
+                if min(hx, hy, hz) + r < smallest:
+                    smallest, smaller = min(hx, hy, hz) + r, side
+        one, other = (a, b) if smaller == 0 else (b, a)
+        way, turning = motion_of(body_row[one], body_row[other], center, linear, angular)
+        motion = span * (way + turning * numbers[count, smaller])
         if motion <= FAST * smallest or (free == 2 and not asked):
             continue
         if is_exact(a, b, shape, body_row, position, center, inverse_mass):
             continue
         if is_exact(b, a, shape, body_row, position, center, inverse_mass):
             continue
-        numbers[count, 2], numbers[count, 3] = smallest, TRUST * smallest
+        numbers[count, 2], numbers[count, 3] = smaller, TRUST * smallest
         fast[count, 0], fast[count, 1] = a, b
         count += 1
     return count
@@ -108,14 +127,10 @@ def find_agreeing(
             if closing > 0.0 and -depth[c] < closing * span:
                 straight = min(straight, max(0.0, -depth[c] / closing))
             c += 1
-        turning, most = 0.0, 0.0
-        for side in range(2):
-            body = i if side == 0 else o
-            whole, way = (
-                speed_of(body, 1.0, linear, angular, numbers[p, side]),
-                speed_of(body, 1.0, linear, angular, 0.0),
-            )
-            turning, most = turning + (whole - way), most + whole
+        smaller = int(numbers[p, 2])
+        way, turning = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)
+        turning *= numbers[p, smaller]
+        most = way + turning
         if near_now:
             agrees[p] = turning * span <= numbers[p, 3]
         else:
