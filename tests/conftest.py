@@ -6,6 +6,8 @@ import os
 
 import pytest
 
+collect_ignore = ["example_game"]  # a project of its own: .ci/run installs it and runs its tests
+
 CHECK = "CAROM_CHECK"
 # Long runs of systems that other tests check; guarding every call would double their time.
 UNCHECKED = ("test_mirror_room", "test_rolling")

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+import shlex
 from pathlib import Path
 
 import pytest
+
+from carom.tools.cli import parser
 
 PAGES = sorted((Path(__file__).resolve().parents[1] / "docs").glob("*.md"))
 
@@ -20,3 +23,16 @@ def test_the_python_of_a_page_runs(page: Path, capsys: pytest.CaptureFixture[str
         exec(compile(block, str(page), "exec"), names)
     told = re.findall(r"^```text\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL)
     assert capsys.readouterr().out == "".join(told)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_the_commands_and_files_of_a_page_exist(page: Path) -> None:
+    """Every carom command is one that the command line takes; every picture and page it links is beside it."""
+    text = page.read_text()
+    for block in re.findall(r"^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL):
+        for line in block.splitlines():
+            program, *words = shlex.split(line)
+            assert program == "carom", line
+            parser().parse_args(words)
+    for path in re.findall(r"\]\(((?!http)[^)#]+)\)", text):
+        assert (page.parent / path).is_file(), path

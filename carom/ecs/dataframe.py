@@ -9,7 +9,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from carom.ecs.column import Booleans, Column, Integers
 
@@ -62,15 +61,15 @@ def query_table(query: Query) -> Table:
     for kind in dict.fromkeys((*query.kinds, *query.optional)):
         held = query.has(kind)
         if not kind.columns:
-            columns.append(_flat(kind.key, {"unit": "1", "doc": _first_line(kind)}, held, None))
+            columns.append(flat(kind.key, {"unit": "1", "doc": _first_line(kind)}, held, None))
         elif kind.key != "name":  # which is there already
             columns += _columns(world, kind, kind.key + ".", rows, None if held.all() else ~held)
-    return _table(columns)
+    return table_of(columns)
 
 
 def relation_table(world: World, kind: type[Record]) -> Table:
     """Return the rows of a relation; a column that holds entities is followed by their names."""
-    return _table(_columns(world, kind, "", slice(0, world.count(kind)), None))
+    return table_of(_columns(world, kind, "", slice(0, world.count(kind)), None))
 
 
 def paths(path: str, column: Column) -> list[str]:
@@ -83,34 +82,38 @@ def paths(path: str, column: Column) -> list[str]:
 def _columns(world: World, kind: type[Record], start: str, rows: Rows, missing: Booleans | None) -> Iterator[Flat]:
     for name, column in kind.columns.items():
         values = world.table(kind).arrays[name][rows]
-        flat = np.array(values.reshape(len(values), math.prod(column.shape)).T, order="C")  # a copy
+        split = np.array(values.reshape(len(values), math.prod(column.shape)).T, order="C")  # a copy
         about = {"unit": column.unit, "doc": column.doc}
-        for path, numbers in zip(paths(start + name, column), flat, strict=True):
+        for path, numbers in zip(paths(start + name, column), split, strict=True):
             if column.holds == "entities":
                 yield from _entities(world, path, f"{path}.name", about, numbers, missing)
             else:
-                yield _flat(path, about, numbers, missing)
+                yield flat(path, about, numbers, missing)
 
 
 def _entities(
     world: World, path: str, name: str, about: dict[str, str], handles: Integers, missing: Booleans | None
 ) -> Iterator[Flat]:
     names = world.names_of(handles if missing is None else np.where(missing, -1, handles))  # a gap holds 0, a handle
-    yield _flat(path, about, handles, missing)
-    yield _flat(name, {"unit": "1", "doc": "name, where it has one"}, names, names == "")
+    yield flat(path, about, handles, missing)
+    yield flat(name, {"unit": "1", "doc": "name, where it has one"}, names, names == "")
 
 
-def _flat(path: str, about: dict[str, str], values: npt.NDArray[Any], missing: Booleans | None) -> Flat:
+def flat(path: str, about: dict[str, str], values: Any, missing: Booleans | None = None) -> Flat:
+    """Return a column (n,) of an array or of an Arrow array, with its unit and meaning; those missing are empty."""
     import pyarrow  # 0.1 s, so only where it is needed
 
-    if values.dtype.kind == "U":
+    if isinstance(values, pyarrow.Array):
+        array = values
+    elif values.dtype.kind == "U":
         array = pyarrow.array(values.tolist(), pyarrow.string(), mask=missing)  # 30 times faster than from the array
     else:
         array = pyarrow.array(values, mask=missing)
     return pyarrow.field(path, array.type, metadata=about), array
 
 
-def _table(columns: Iterator[Flat] | list[Flat]) -> Table:
+def table_of(columns: Iterator[Flat] | list[Flat]) -> Table:
+    """Return a table of flat columns."""
     import pyarrow
 
     fields, arrays = zip(*columns, strict=True)

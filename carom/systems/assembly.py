@@ -150,8 +150,8 @@ def bundles_of(
     return bundles
 
 
-def shape_of(words: Words) -> Shape:
-    """Return the shape stated in the words of a collider or visual, or given as ``shape``."""
+def shape_of(words: Words, *, seen: bool = False) -> Shape:
+    """Return the shape that the words of a collider state, or those of a visual, which is only ``seen``."""
     if isinstance(words.get("shape"), Shape):
         return words["shape"]  # type: ignore[no-any-return]
     keys = [key for key in words if key in SHAPES]
@@ -162,7 +162,8 @@ def shape_of(words: Words) -> Shape:
     if isinstance(value, Shape):
         return value
     try:
-        shape = SHAPES[keys[0]].stated(**value)
+        kind = SHAPES[keys[0]]
+        shape = kind.seen(**value) if seen else kind.stated(**value)
     except TypeError as fault:
         raise DeclarationError(f"{keys[0]}: {str(fault).partition('() ')[2] or fault}") from None
     for note in getattr(getattr(shape, "geometry", None), "notes", ()):
@@ -242,13 +243,14 @@ def _visual(
         return None
     look: Words = words if isinstance(words, Mapping) else {}
     own = any(key in SHAPES for key in look) or "shape" in look
-    drawn = shape_of(look) if own else shape
+    drawn = shape_of(look, seen=True) if own else shape
     if drawn is None:
         raise DeclarationError(f"visual: an entity without a collider states one shape of {', '.join(sorted(SHAPES))}")
     place = look if own else collider or {}
     values = _shape_columns(world, drawn)
     values |= {key: place[key] for key in ("position", "rotation") if key in place}
-    color = look.get("color", getattr(material, "color", None))
+    finished = any(part.finish for part in getattr(getattr(drawn, "geometry", None), "parts", ()))
+    color = look.get("color", (1.0, 1.0, 1.0) if finished else getattr(material, "color", None))
     if color is not None:
         values["color"] = opaque(color)
     return Visual(**values, visible=look.get("visible", True))

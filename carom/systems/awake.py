@@ -16,7 +16,8 @@ class Awake(Resource):
     """The rows of bodies that do not sleep, kinematic ones among them, and of those that do; a cache.
 
     ``idle`` is a step in which nobody moves and nothing has changed since the one before. ``strangers`` tells of
-    systems in the schedule that are not carom's, which may change anything; ``asked`` are entities to be woken.
+    systems in the schedule that are not carom's, which may change anything; ``asked`` are entities to be
+    woken, ``edited`` what code outside had opened for writing when this step began.
     """
 
     def __init__(self) -> None:
@@ -24,6 +25,7 @@ class Awake(Resource):
         self.sleepers: Integers = np.zeros(0, np.int64)
         self.idle = self.strangers = False
         self.asked: list[int] = []
+        self.edited: set[type[Record]] = set()
         self.settings: Settings | None = None
         self.restored = self.structure = self.laws = self.found = -1
 
@@ -50,10 +52,10 @@ class Awake(Resource):
 
     def look(self, world: World) -> Changes:
         """Return what has changed since the last look."""
-        edited, world.edited = world.edited, set()
+        self.edited, world.edited = world.edited, set()
         settings, laws = world[Settings], world[Forces].count
         changes = Changes(
-            edited,
+            self.edited,
             restored=self.restored != world.restored,
             structure=self.structure != world.structure,
             settings=self.settings is not settings or self.laws != laws,

@@ -67,10 +67,10 @@ IMPACTS_AT_LEAST = 1024
 # Sweeps over the points of a manifold that strikes; 30 are usual. Fewer: what lands flat leaves with a spin.
 BLOW_SWEEPS = 200
 
-# Part of the smaller shape's longest half extent. A point this near to one of the step before takes over its impulses
-# where its feature is new. Larger: impulses of points far off turn bodies for a substep. Smaller: stacks edge on edge,
-# whose corners change places, begin anew.
-SAME_POINT = 0.2
+# Part of the smaller shape's longest half extent. A point this near to one of the step before, which is no more, takes
+# over its impulses. Larger: impulses of points far off turn bodies for a substep. Smaller: where corners change places,
+# edge on edge or among the four of five that are kept, bodies are let go for a substep, and piles tremble for good.
+SAME_POINT = 1.0
 
 # Part of the smaller shape's longest half extent by which points may slip or sink, and turn in radians, before a pair
 # is measured anew. Larger: contacts are where the shapes no longer are. Smaller: piles are measured at every tremble,
@@ -109,6 +109,10 @@ SLOP = 1e-4
 # thin bodies pass through thin walls. Smaller: slow bodies cost as much as fast ones.
 FAST = 0.5
 
+# m. Half extent that smaller bodies, points among them, are taken to have. Larger: small ones pass through thin walls.
+# Smaller: points are looked after at any speed, and looked at again and again.
+LEAST_FAST = 1e-3
+
 # Part of a body's smallest half extent up to which a contact found on the way is trusted to say when the gap closes.
 # Larger: it is followed past edges that are not there. Smaller: more looks.
 TRUST = 0.25
@@ -117,7 +121,7 @@ TRUST = 0.25
 MEET = 0.25
 
 # Steps towards a meeting, and detections in the middle of a substep for those who are fast. Fewer: bodies that tumble
-# past others are given up before they meet.
+# past others are given up before they meet; those are counted.
 MOST_LOOKS = 64
 
 # m/s. A body no point of which is faster may fall asleep, with its island. Larger: what rolls out slowly stops short.

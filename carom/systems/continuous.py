@@ -32,7 +32,7 @@ class Fast(Resource):
     def find(self, world: World, pairs: Integers, found: Found, span: float) -> None:
         """Find who of ``pairs`` (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them."""
         collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
-        center, fast, numbers = world[Flight].detected_center, np.empty_like(pairs), np.empty((len(pairs) + 1, NUMBERS))
+        center, fast, numbers = world[Flight].detected_center, np.empty_like(pairs), np.empty((len(pairs), NUMBERS))
         count = find_fast(
             pairs, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
             collider.bound_radius, pose.position, pose.body_row, center, body.inverse_mass, body.continuous,
@@ -55,8 +55,9 @@ class Fast(Resource):
             given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
             pose.body_row, center, motion.linear, motion.angular, agrees,
         )  # fmt: skip
-        trusted = np.broadcast_to(self.numbers[:, 3:], bodies.shape)[bodies >= 0] / self.numbers[:, :2][bodies >= 0]
-        np.minimum.at(self.turns, bodies[bodies >= 0], trusted)
+        turning = (bodies >= 0) & (self.numbers[:, :2] > 0.0)  # a ball about its body's centre turns without effect
+        trusted = np.broadcast_to(self.numbers[:, 3:], bodies.shape)[turning] / self.numbers[:, :2][turning]
+        np.minimum.at(self.turns, bodies[turning], trusted)
         self.pairs, self.numbers = self.pairs[~agrees], self.numbers[~agrees]
         self.position, self.rotation = self.position[~agrees], self.rotation[~agrees]
 

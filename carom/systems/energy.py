@@ -18,9 +18,9 @@ def dynamic_rows(world: World) -> Integers:
     return np.asarray(rows[world[RigidBody].type[rows] == BodyType.DYNAMIC])
 
 
-def centers_of_mass(world: World, rows: Integers) -> Floats:
-    """Return centres of mass (n, 3) in m, world frame."""
-    transform = world[Transform]
+def centers_of_mass(world: World, rows: Integers, poses: Transform | None = None) -> Floats:
+    """Return centres of mass (n, 3) in m, world frame, now or at other poses of all rows."""
+    transform = world[Transform] if poses is None else poses
     offset = quaternion.rotate(transform.rotation[rows], world[RigidBody].center_of_mass[rows])
     return np.asarray(transform.position[rows] + offset)
 
@@ -38,18 +38,25 @@ def kinetic_energy(world: World) -> float:
     return float(kinetic_energies(world, dynamic_rows(world)).sum())
 
 
-def potential_energy(world: World) -> float:
-    """Return -s m g.x summed, and -G m1 m2 / r (softened as the force is) for every mutual gravitation, in J.
+def potential_energies(world: World) -> dict[str, float]:
+    """Return -s m g.x summed, and -G m1 m2 / r (softened as the force is), in J, by the force they are of.
 
     The scale s is what each body makes of gravity.
     """
     rows = dynamic_rows(world)
     body, center = world[RigidBody], centers_of_mass(world, rows)
     weighing = body.mass[rows] * body.gravity_scale[rows]
-    total = -float((weighing * (center @ np.array(world[Settings].gravity))).sum())
-    for law, acting in world[Forces].acting(MutualGravitation, world):
-        total += _attraction_energy(world, acting, law)
-    return total
+    weight = -float((weighing * (center @ np.array(world[Settings].gravity))).sum())
+    laws = world[Forces].acting(MutualGravitation, world)
+    return {
+        "gravity": weight,
+        MutualGravitation.key: sum(_attraction_energy(world, acting, law) for law, acting in laws),
+    }
+
+
+def potential_energy(world: World) -> float:
+    """Return the energy of all `potential_energies` in J."""
+    return sum(potential_energies(world).values())
 
 
 def _attraction_energy(world: World, rows: Integers, law: MutualGravitation) -> float:

@@ -21,12 +21,13 @@ from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
-from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, fly
+from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, WORK, fly
 from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.packing import pack_bodies
 from carom.systems.kernels.reach import may_leave_reach
 from carom.systems.kernels.settling import finish_drift
+from carom.systems.ledger import Ledger
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
@@ -104,7 +105,7 @@ def hand_impulses_over(world: World, dt: float) -> None:
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast,
+        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ledger,
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:
@@ -113,7 +114,9 @@ def drift(world: World, dt: float) -> None:
     contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
     at, events, looks = 0.0, 0, 0
     while True:
-        look = at + world[Fast].next_look(world, dt - at) if looks < MOST_LOOKS else inf
+        look = at + world[Fast].next_look(world, dt - at)
+        if looks >= MOST_LOOKS and look < inf:
+            look, world[Answered].looks_cut = inf, world[Answered].looks_cut + 1
         at, reason, events = _fly(world, at, dt, events, look)
         looks += 1
         if reason == DONE:
@@ -130,7 +133,7 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
     """Fly to the end of the substep or to what stops the flight; append the impacts on the way to their table."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     contact, progress, settings = world[Contact], world[Progress], world[Settings]
-    manifolds, bend = world[Resting], 0.5 if settings.integrator == "verlet" else 0.0
+    manifolds, ledger, bend = world[Resting], world[Ledger], 0.5 if settings.integrator == "verlet" else 0.0
     now, reason, events, cut, count, pair, log = fly(
         world[Awake].now(world), at, h, bend, progress.clock,
         flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,
@@ -142,7 +145,7 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
         contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, manifolds.closing(world, at, h),
-        until, world[Fast].turns, events,
+        until, world[Fast].turns, events, ledger.pull, ledger.arc,
     )  # fmt: skip
     rows = world[Awake].now(world)
     share_out(
@@ -150,7 +153,7 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
         lambda begin, end: advance_bodies(
             rows[WIDTH * begin : WIDTH * end], now, bend, flight.center, transform.rotation, flight.turned,
             motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
-            body.inverse_mass, body.inertia, body.principal_axes, body.freedom,
+            body.inverse_mass, body.inertia, body.principal_axes, body.freedom, ledger.pull, ledger.arc,
         ),
     )  # fmt: skip
     world[Answered].impacts_cut += cut
@@ -159,7 +162,8 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
         world.resize(Impact, first + count)
         impact, new, pair, log = world[Impact], slice(first, first + count), pair[:count], log[:count]
         impact.a[new], impact.b[new] = contact.a[pair], contact.b[pair]
-        impact.time[new], impact.speed[new], impact.impulse[new] = log[:, TIME], log[:, SPEED], log[:, IMPULSE]
+        impact.time[new], impact.speed[new] = log[:, TIME], log[:, SPEED]
+        impact.impulse[new], impact.work[new] = log[:, IMPULSE], log[:, WORK]
         for column, at_column in ((impact.point, POINT), (impact.normal, NORMAL), (impact.friction_impulse, FRICTION)):
             column[new] = log[:, at_column : at_column + 3]
     return now, reason, events

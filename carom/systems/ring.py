@@ -29,6 +29,11 @@ class Ring:
         """The frames of which a snapshot is kept, the oldest first."""
         return [snapshot.frame for snapshot in self._kept]
 
+    @property
+    def snapshots(self) -> list[Snapshot]:
+        """What is kept, the oldest first; each lasts until the ring gives its memory to a later one."""
+        return list(self._kept)
+
     def begin(self, simulation: Simulation) -> None:
         """Keep the world before its first step."""
         self.observe(simulation)

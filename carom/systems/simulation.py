@@ -27,6 +27,7 @@ from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
 from carom.systems.assembly import Materials, add_entities, add_entity
 from carom.systems.awake import Awake
+from carom.systems.bookkeeping import Bookkeeping
 from carom.systems.clock import Clock
 from carom.systems.compound import StatedBodies
 from carom.systems.continuous import Fast
@@ -41,6 +42,7 @@ from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
 from carom.systems.interpolation import EarlierPoses
 from carom.systems.layers import Layers
+from carom.systems.ledger import Ledger
 from carom.systems.observer import Observer
 from carom.systems.places import extended
 from carom.systems.progress import Progress
@@ -72,9 +74,10 @@ class Simulation:
         self.clock = Clock()
         self.space = Space(self.world)
         self._earlier = EarlierPoses()
+        self._bookkeeping: Bookkeeping | None = None
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
         packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
-        caches = (*packed, Resting(), Sensing(), Threads(), Scene(), Awake(), Fast())
+        caches = (*packed, Resting(), Sensing(), Threads(), Scene(), Awake(), Fast(), Ledger())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 
@@ -118,6 +121,11 @@ class Simulation:
         """Wake bodies (handles or names) that sleep, with their islands, before the next step."""
         self.world[Awake].asked += [self.world.find(one) if isinstance(one, str) else int(one) for one in entities]
 
+    def keep_ledger(self) -> Ledger:
+        """Book from now on, in every step, where energy comes from and goes to; return the ledger."""
+        self._bookkeeping = Bookkeeping(self.world)
+        return self.world[Ledger]
+
     # Running.
     @property
     def frame(self) -> int:
@@ -146,7 +154,17 @@ class Simulation:
     def _take_step(self, after: Callable[[System], None] | None) -> None:
         self.world[Awake].strangers = has_strangers(self.schedule)
         self.world.frame += 1
-        self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=after)
+        if self._bookkeeping:
+            self._bookkeeping.follow(self.schedule)
+        hearers: list[Callable[[System], None]] = [self._bookkeeping.note] if self._bookkeeping else []
+        if after is not None:
+            hearers.append(after)
+
+        def tell(system: System) -> None:
+            for hear in hearers:
+                hear(system)
+
+        self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=tell if hearers else None)
 
     def advance(self, seconds: float) -> float:
         """Take the steps that ``seconds`` of real time ask for; return how far (0 to 1) time is into the next one.

@@ -93,7 +93,7 @@ def fall_asleep(world: World, dt: float) -> None:
     )
     falls: Booleans = np.zeros(len(motion.asleep), np.bool_)
     count = contact.count
-    touches = touching(contact)
+    touches = joins_islands(contact)
     if find_sleepers(
         awake.rows, count, contact.body_a, contact.body_b, touches, body.inverse_mass,
         motion.linear, motion.angular, world[Flight].felt, motion.still, falls,
@@ -106,7 +106,7 @@ def fall_asleep(world: World, dt: float) -> None:
         awake.find(world)
 
 
-def touching(contact: Contact) -> Booleans:
+def joins_islands(contact: Contact) -> Booleans:
     """Tell which contacts (count,) join islands."""
     found: Booleans = contact.resting[: contact.count] | (contact.depth[: contact.count] >= 0.0)
     return found

@@ -78,7 +78,7 @@ def tell_hits(world: World, dt: float) -> None:
     loud = loud[np.lexsort((impact.b[loud], impact.a[loud], impact.time[loud]))]
     world.resize(Hit, len(loud))
     hit = world[Hit]
-    for name in ("time", "a", "b", "point", "normal", "speed", "impulse"):
+    for name in Impact.columns:
         getattr(hit, name)[: len(loud)] = getattr(impact, name)[loud]
     for party, material in ((hit.a, hit.material_a), (hit.b, hit.material_b)):
         living = world.slots.live(party[: len(loud)])

@@ -14,7 +14,7 @@ from carom.systems.constants import SLEEP_SPEED, SLEEP_TIME
 from carom.systems.forces.law import Forces
 from carom.systems.kernels.islands import find_islands, find_surface_speeds
 from carom.systems.settings import Settings
-from carom.systems.sleeping import touching
+from carom.systems.sleeping import joins_islands
 
 if TYPE_CHECKING:
     from carom.systems.simulation import Simulation
@@ -69,14 +69,14 @@ def why_awake(of: World | Simulation, entity: int | str) -> str:
 def _island_of(world: World, row: int) -> Integers:
     rows, contact, inverse_mass = world.row_numbers(RigidBody), world[Contact], world[RigidBody].inverse_mass
     island = np.zeros(len(inverse_mass), np.int64)
-    find_islands(rows, contact.count, contact.body_a, contact.body_b, touching(contact), inverse_mass, island)
+    find_islands(rows, contact.count, contact.body_a, contact.body_b, joins_islands(contact), inverse_mass, island)
     return np.asarray(rows[(island[rows] == island[row]) & (inverse_mass[rows] > 0.0)])
 
 
 def _supports_of(world: World, island: Integers) -> tuple[list[int], bool]:
     """Return the kinematic bodies that touch an island and move, and whether anything that stands touches it."""
     contact, motion, inverse_mass = world[Contact], world[Motion], world[RigidBody].inverse_mass
-    pairs = np.stack([contact.body_a[: contact.count], contact.body_b[: contact.count]], axis=1)[touching(contact)]
+    pairs = np.stack([contact.body_a[: contact.count], contact.body_b[: contact.count]], axis=1)[joins_islands(contact)]
     of_island = np.isin(pairs, island) & (pairs >= 0)
     supports = pairs[:, ::-1][of_island]
     supports = supports[(supports < 0) | (inverse_mass[supports] == 0.0)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +11,8 @@ import numpy.typing as npt
 
 from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import CaromError
+from carom.systems.shapes.finish import Finish
+from carom.systems.shapes.shape import Surface
 
 LARGEST_ID = 2**24 - 2  # an id goes through the three colour channels, and 0 means background
 CREASE = math.cos(math.radians(30.0))  # faces that meet at a flatter angle are shaded as one curved surface
@@ -24,7 +26,8 @@ class Batch:
     the same two array objects again and they stay on the graphics side. ``poses`` (n, 4, 4) are ``world_from_mesh``,
     ``colors`` (n, 4) red green blue alpha in 0..1 as on a screen, ``ids`` (n,) from 0 to 2^24 - 2. ``smooth`` blends
     normals over every edge, not only the blunt ones. ``floor`` (v, 2) gives each vertex coordinates in m for a pattern
-    of squares, and makes the surface fade into the distance.
+    of squares, and makes the surface fade into the distance. ``coarser`` are meshes of the same shape for copies that
+    are small in the picture.
     """
 
     vertices: Floats
@@ -34,6 +37,8 @@ class Batch:
     ids: Integers
     smooth: bool = False
     floor: Floats | None = None
+    finish: Finish | None = None
+    coarser: tuple[Surface, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse columns of different lengths and ids that do not fit; raise CaromError."""
@@ -43,6 +48,10 @@ class Batch:
         if len(self.ids) and not 0 <= self.ids.min() <= self.ids.max() <= LARGEST_ID:
             received = f"{self.ids.min()} to {self.ids.max()}"
             raise CaromError(f"batch: ids must lie from 0 to {LARGEST_ID}, received {received}")
+
+    def take(self, copies: Integers) -> Batch:
+        """Return some of the copies, by their numbers."""
+        return replace(self, poses=self.poses[copies], colors=self.colors[copies], ids=self.ids[copies])
 
 
 class Shading(NamedTuple):

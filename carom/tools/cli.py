@@ -12,9 +12,13 @@ import carom
 COMMANDS = (
     "run",
     "view",
+    "replay",
+    "query",
+    "salvage",
     "render",
     "check",
     "test",
+    "accept",
     "worlds",
     "explain",
     "doctor",

@@ -1,23 +1,51 @@
-"""Film: pictures written to files, one by one as PNG or in a row as H.264 in MP4."""
+"""Film: pictures written to files, one by one as PNG or in a row as MP4, WebP or GIF."""
 
 from __future__ import annotations
 
+import math
 import subprocess
 from collections import deque
 from contextlib import suppress
 from pathlib import Path
-from typing import IO
+from typing import IO, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from carom.ecs.errors import CaromError
+from carom.ecs.errors import CaromError, did_you_mean
 
 Picture = npt.NDArray[np.uint8]
 QUALITY = (
     20  # H.264's constant rate factor: 0 is lossless, 23 the encoder's own choice; below 18 no eye sees a difference
 )
+WEBP_QUALITY = 85  # of 100; 75 is the encoder's own choice, and shows on the rims of bodies
+PALETTE_PICTURES, PALETTE_MEMORY = 100, 256e6  # a GIF's 256 colours are theirs: they wait for it, at 4 bytes a pixel
 MESSAGE_LINES = 4  # how much of the encoder's last words is passed on when it fails
+
+
+class Format(NamedTuple):
+    """A format of films: the encoder's words for it, whether sizes must be even, and its highest rate (Hz).
+
+    ``{waiting}`` among the words stands for how many pictures may wait for the colours.
+    """
+
+    coding: str
+    even: bool = False
+    fastest: float = math.inf
+
+
+# What moves weighs most among a GIF's colours. Its dots, in an ordered pattern, stay where they are from picture to
+# picture, so that only what moves is stored.
+COLORS = "split[all][some];[some]trim=end_frame={waiting},palettegen=stats_mode=diff[palette]"
+DOTS = "[all][palette]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle"
+FORMATS = {
+    # 4:2:0 is for browsers; the index goes to the front, for those that stream.
+    ".mp4": Format(f"-c:v libx264 -preset veryfast -crf {QUALITY} -pix_fmt yuv420p -movflags +faststart -f mp4", True),
+    # Its times are whole milliseconds.
+    ".webp": Format(f"-c:v libwebp_anim -quality {WEBP_QUALITY} -loop 0 -f webp", fastest=1000.0),
+    # Its times are hundredths of a second, and browsers slow those below two down.
+    ".gif": Format(f"-filter_complex {COLORS};{DOTS} -loop 0 -f gif", fastest=50.0),
+}
 
 
 def save_png(path: Path, picture: Picture) -> None:
@@ -29,22 +57,29 @@ def save_png(path: Path, picture: Picture) -> None:
 
 
 class Film:
-    """An MP4 that grows by a picture at a time and that browsers play, since its pixels are YUV 4:2:0.
+    """A film that grows by a picture at a time, in the format that its suffix names; WebP and GIF play in a loop.
 
-    ``width`` and ``height`` (px) must be even, as 4:2:0 halves them; ``fps`` is in Hz. The encoder (imageio-ffmpeg's
-    own ffmpeg) is another process, and so on another core; it ends the film properly whenever its input ends. So a film
-    cut short, by an exception, Ctrl-C or even a kill of this process, stays and plays up to the last picture added. A
-    film without any picture leaves no file.
+    ``width`` and ``height`` (px) must be even for MP4, whose colours are stored at half the size; ``fps`` is in Hz, at
+    most 50 for GIF. A GIF's 256 colours are those of its first pictures, 100 up to 800 x 800 px. The encoder
+    (imageio-ffmpeg's own ffmpeg) is another process, and so on another core; it ends the film properly whenever its
+    input ends. So a film cut short, by an exception, Ctrl-C or even a kill of this process, stays and plays up to the
+    last picture added. A film without any picture leaves no file.
     """
 
     def __init__(self, path: Path | str, width: int, height: int, fps: float = 30.0) -> None:
-        if width % 2 or height % 2 or width < 2 or height < 2:
-            raise CaromError(
-                f"film {path}: width and height must be even and at least 2 px, received {width} x {height}"
-            )
-        if not fps > 0.0:
-            raise CaromError(f"film {path}: fps must be above 0 Hz, received {fps:g} Hz")
         self.path, self.width, self.height, self.fps = Path(path), width, height, fps
+        suffix = self.path.suffix.lower()
+        if suffix not in FORMATS:
+            parts = f"received {suffix!r}", f"accepted: {', '.join(FORMATS)}", did_you_mean(suffix, FORMATS)
+            raise CaromError(f"film {path}: its suffix must name a format; {'; '.join(filter(None, parts))}")
+        self._format = FORMATS[suffix]
+        even = self._format.even
+        if (even and (width % 2 or height % 2)) or min(width, height) < 1 + even:
+            rule = "even and at least 2" if even else "at least 1"
+            raise CaromError(f"film {path}: width and height must be {rule} px, received {width} x {height}")
+        if not 0.0 < fps <= self._format.fastest:
+            most = "" if math.isinf(self._format.fastest) else f" and at most {self._format.fastest:g} Hz in {suffix}"
+            raise CaromError(f"film {path}: fps must be above 0 Hz{most}, received {fps:g} Hz")
         self.frames = 0
         self._encoder: subprocess.Popen[bytes] | None = None
 
@@ -100,11 +135,11 @@ class Film:
             "-i",
             "-",
         ]
-        coding = ["-c:v", "libx264", "-preset", "veryfast", "-crf", str(QUALITY), "-pix_fmt", "yuv420p"]
-        writing = ["-movflags", "+faststart", "-f", "mp4"]  # the index goes to the front, for browsers that stream
+        waiting = max(1, min(PALETTE_PICTURES, int(PALETTE_MEMORY / (4 * self.width * self.height))))
+        coding = self._format.coding.format(waiting=waiting).split()
         program = [imageio_ffmpeg.get_ffmpeg_exe(), "-y", "-loglevel", "error"]
         return subprocess.Popen(
-            [*program, *source, *coding, *writing, str(self.path)],
+            [*program, *source, *coding, str(self.path)],
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,

@@ -11,13 +11,15 @@ import numpy as np
 import numpy.typing as npt
 import pyrender
 from OpenGL import GL
+from pyrender.material import Material
 
 from carom.tools.batch import Batch, shading
+from carom.tools.cameras import Camera
 
 # pyrender numbers its own vertex attributes from 0 to 8 at most; the shaders name these two by number.
 COLOR_ATTRIBUTE = 12
 ID_ATTRIBUTE = 13
-SMOOTH, DULL = 0.2, 1.0  # roughness, 1 without any reflection: curved things look turned and polished
+POLISHED = 0.2  # roughness of curved things, which look turned; the shader lets other materials reflect nothing
 POSE_BUFFER = 1  # the place of the poses in pyrender's list of buffers
 
 
@@ -31,22 +33,27 @@ class Instances(pyrender.Primitive):  # type: ignore[misc]
             normals=shaded.normals,
             indices=shaded.indices,
             texcoord_0=None if batch.floor is None else batch.floor[shaded.source],
-            material=pyrender.MetallicRoughnessMaterial(
-                alphaMode="BLEND", roughnessFactor=SMOOTH if batch.smooth else DULL
-            ),
+            texcoord_1=None if batch.finish is None else batch.finish.coordinates[shaded.source],
+            material=material_of(batch),
         )
-        self._radius = float(np.linalg.norm(shaded.positions, axis=1).max(initial=0.0))
-        self._take(batch)
+        self.take(batch)
 
-    def spread(self, target: tuple[float, float, float]) -> float:
-        """Return the radius (m) of a ball around ``target`` that holds every instance."""
-        return float(np.linalg.norm(self.poses[:, :3, 3] - target, axis=1).max()) + self._radius
-
-    def _take(self, batch: Batch) -> None:
+    def take(self, batch: Batch) -> None:
+        """Take poses, colours and ids of ``batch``, whose mesh is this one."""
+        self._batch = batch
         self.poses = batch.poses
-        self.colors = np.ascontiguousarray(batch.colors, np.float32)
-        self.ids = np.ascontiguousarray(batch.ids, np.uint32) + np.uint32(1)
-        self.translucent = bool((self.colors[:, 3] < 1.0).any())
+        self.translucent = bool((batch.colors[:, 3] < 1.0).any()) or (
+            batch.finish is not None and batch.finish.translucent
+        )
+
+    def arrange(self, camera: Camera) -> None:
+        """Put the nearest instance first or, of what shines through, the farthest; the context must be current."""
+        apart = self._batch.poses[:, :3, 3] - camera.position
+        away = np.einsum("ij,ij->i", apart, apart)
+        self.away = float(away.max())
+        self._order = np.argsort(-away if self.translucent else away, kind="stable")
+        if self._in_context():
+            self._upload()
 
     def _add_to_context(self) -> None:
         """Upload everything; pyrender calls this when the mesh is first drawn."""
@@ -62,17 +69,27 @@ class Instances(pyrender.Primitive):  # type: ignore[misc]
         GL.glBindVertexArray(0)
         self._upload()
 
-    def update(self, batch: Batch) -> None:
-        """Take poses, colours and ids of ``batch``, whose mesh is this one; the context must be current."""
-        self._take(batch)
-        if self._in_context():
-            self._upload()
-
     def _upload(self) -> None:
         # The ids are the last of pyrender's list of buffers, the colours the one before.
-        fill(self._buffers[POSE_BUFFER], np.ascontiguousarray(self.poses.transpose(0, 2, 1)))
-        fill(self._buffers[-2], self.colors)
-        fill(self._buffers[-1], self.ids)
+        batch, order = self._batch, self._order
+        fill(self._buffers[POSE_BUFFER], np.ascontiguousarray(batch.poses[order].transpose(0, 2, 1), np.float32))
+        fill(self._buffers[-2], batch.colors[order].astype(np.float32))
+        fill(self._buffers[-1], batch.ids[order].astype(np.uint32) + np.uint32(1))
+
+
+def material_of(batch: Batch) -> Any:
+    """Return the material that pyrender binds."""
+    if batch.finish is None and not batch.smooth:
+        return Material(alphaMode="BLEND")
+    if batch.finish is None:
+        return pyrender.MetallicRoughnessMaterial(alphaMode="BLEND", roughnessFactor=POLISHED)
+    return pyrender.MetallicRoughnessMaterial(
+        alphaMode="BLEND",
+        doubleSided=batch.finish.two_sided,
+        baseColorTexture=pyrender.Texture(source=batch.finish.image, source_channels="RGBA"),
+        metallicFactor=batch.finish.metallic,
+        roughnessFactor=batch.finish.roughness,
+    )
 
 
 def fill(buffer: int, data: npt.NDArray[Any]) -> None:

@@ -79,17 +79,17 @@ def _know_references() -> None:
     ArrayDatatype.getRegistry()[type(ctypes.byref(ctypes.c_int()))] = CtypesParameterHandler()
 
 
-def context(width: int, height: int) -> Any:
-    """Return a pyrender platform of ``width`` by ``height`` pixels whose OpenGL context is current."""
+def context() -> Any:
+    """Return a pyrender platform whose OpenGL context is current; all is drawn into framebuffers of their own size."""
     load()
     if backend() == "osmesa":
         from carom.tools.osmesa import OSMesa
 
-        platform = OSMesa(width, height)
+        platform = OSMesa(1, 1)
     else:
         from pyrender.platforms import egl
 
-        platform = egl.EGLPlatform(width, height)
+        platform = egl.EGLPlatform(1, 1)
     try:
         platform.init_context()
     except Exception as fault:
@@ -106,3 +106,10 @@ def driver() -> str:
     from OpenGL import GL
 
     return f"{backend()}: {GL.glGetString(GL.GL_RENDERER).decode()}"
+
+
+def largest() -> int:
+    """Return how wide and high (px) a picture in the current context can be."""
+    from OpenGL import GL
+
+    return int(GL.glGetIntegerv(GL.GL_MAX_RENDERBUFFER_SIZE))

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
-from bisect import bisect_right
-from collections import defaultdict
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from carom.tools.recorder import bodies, contacts, happenings, plots, snapshots
-from carom.tools.recorder.stream import FRAME, TIME
-
-NANOSECONDS = 1e-9
-ROW_ID = "rerun.controls.RowId"
+from carom.ecs.errors import CaromError, did_you_mean
+from carom.tools.reading import read
+from carom.tools.recorder import bodies, contacts, edits, plots, snapshots
+from carom.tools.tables import makers
+from carom.tools.tables.source import RecordedTable, Source
 
 
 class Pose(NamedTuple):
@@ -24,14 +20,6 @@ class Pose(NamedTuple):
 
     position: npt.NDArray[np.float32]
     rotation: npt.NDArray[np.float32]
-
-
-class Line(NamedTuple):
-    """A line of the log: simulated time in s, level and text."""
-
-    time: float
-    level: str
-    text: str
 
 
 class SavedState(NamedTuple):
@@ -42,31 +30,15 @@ class SavedState(NamedTuple):
     hash: str
 
 
-@dataclass
-class Series:
-    """The values of one component of one path, in order of frame; a row holds until the next."""
-
-    frames: list[int] = field(default_factory=list)
-    values: list[Any] = field(default_factory=list)
-
-    def at(self, frame: int) -> tuple[int, Any] | None:
-        """Return the frame and value of the last row not after ``frame``."""
-        place = bisect_right(self.frames, frame)
-        return (self.frames[place - 1], self.values[place - 1]) if place else None
-
-
 class Recording:
     """What a recording holds, by frame and entity.
 
-    Raises RuntimeError when Rerun cannot read the file; warns of one whose writer was killed, and reads what is there.
+    Raises CaromError when Rerun cannot read the file; warns of one whose writer was killed, and reads what is there.
     """
 
     def __init__(self, path: str | Path) -> None:
-        self.static: dict[str, dict[str, Any]] = defaultdict(dict)
-        self.times: dict[int, float] = {}
-        self.lines: list[Line] = []
-        self._series: dict[tuple[str, str], Series] = defaultdict(Series)
-        self._read(Path(path))
+        written = read(Path(path))
+        self.static, self.times, self.lines, self._series = written.static, written.times, written.lines, written.series
         counts = self._series[f"/{plots.COUNTS}/bodies", "Scalars:scalars"]
         self.frames: list[int] = counts.frames
 
@@ -99,8 +71,11 @@ class Recording:
         return found
 
     def contacts(self, frame: int) -> dict[str, npt.NDArray[Any]]:
-        """Return the contacts of a recorded frame: points float32, both colliders int64, the rest float64."""
-        columns = {"point": "Points3D:positions", **{name: name for name in ("a", "b", "normal", "depth", "impulse")}}
+        """Return the contacts of a recorded frame: points float32, colliders int64, speed float32, the rest float64."""
+        columns = {
+            "point": "Points3D:positions",
+            **{name: name for name in ("a", "b", "normal", "depth", "impulse", "speed")},
+        }
         rows = {name: self._series[f"/{contacts.POINTS}", component].at(frame) for name, component in columns.items()}
         return {name: row[1] for name, row in rows.items() if row is not None}
 
@@ -116,60 +91,26 @@ class Recording:
         rows = zip(states.frames, states.values, hashes.values, strict=True)
         return [SavedState(frame, state[0], text[0]) for frame, state, text in rows]
 
-    def _read(self, path: Path) -> None:
-        lines: list[tuple[int, Line]] = []
-        for chunk in _chunks(path):
-            batch = chunk.to_record_batch()
-            columns = {name: batch.column(name) for name in batch.schema.names}
-            components = [name for name in columns if name not in (FRAME, TIME, ROW_ID)]
-            if chunk.is_static:
-                self.static[chunk.entity_path] |= {name: columns[name][0].as_py() for name in components}
-                continue
-            if FRAME not in columns:
-                continue
-            frames = columns[FRAME].to_pylist()
-            times = columns[TIME].cast("int64").to_numpy() * NANOSECONDS
-            if chunk.entity_path == f"/{happenings.PATH}":
-                texts, levels = columns["TextLog:text"].to_pylist(), columns["TextLog:level"].to_pylist()
-                for frame, at, level, text in zip(frames, times, levels, texts, strict=True):
-                    lines.append((frame, Line(float(at), level[0], text[0])))
-                continue
-            self.times |= dict(zip(frames, map(float, times), strict=True))
-            for name in components:
-                series = self._series[chunk.entity_path, name]
-                for frame, value in zip(frames, columns[name], strict=True):
-                    if value.is_valid:
-                        series.frames.append(frame)
-                        series.values.append(_array(value))
-        self.lines = [line for _, line in sorted(lines, key=lambda item: item[0])]
-        for series in self._series.values():
-            order = np.argsort(np.array(series.frames), kind="stable")
-            series.frames = [series.frames[i] for i in order]
-            series.values = [series.values[i] for i in order]
+    def edits(self) -> dict[int, str]:
+        """Return what code outside the step did before it, by the frame it led to: components, who lives."""
+        done = self._series[f"/{edits.PATH}", "done"]
+        return {frame: str(text[0]) for frame, text in zip(done.frames, done.values, strict=True)}
 
+    def table(self, name: str) -> RecordedTable:
+        """Return a table such as ``contacts``, a row per frame and contact, for Arrow, pandas and polars.
 
-def _chunks(path: Path) -> list[Any]:
-    from rerun.chunk import RrdReader
+        Raises CaromError for one that is not there.
+        """
+        found = makers(self._source())
+        if name not in found:
+            hint = did_you_mean(name, found)
+            raise CaromError("; ".join(filter(None, (f"no table '{name}'", f"accepted: {', '.join(found)}", hint))))
+        return RecordedTable(found[name]())
 
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        chunks: list[Any] = RrdReader(str(path)).stream().to_chunks()
-    for warning in told:
-        text = str(warning.message)
-        if "footer" in text:  # Rerun takes an unfinished file for one of an old format
-            text = f"{path} was not finished: the run that wrote it was killed; its last second may be missing"
-        warnings.warn(text, stacklevel=4)
-    return chunks
+    def tables(self) -> list[str]:
+        """Return the names of all tables."""
+        return list(makers(self._source()))
 
-
-def _array(value: Any) -> Any:
-    """Return the instances of one row: numbers as an array (n, *width), others as a list."""
-    import pyarrow
-
-    items = value.values
-    if pyarrow.types.is_fixed_size_list(items.type):
-        width = items.type.list_size
-        return items.flatten().to_numpy(zero_copy_only=False).reshape(-1, width)
-    if pyarrow.types.is_floating(items.type) or pyarrow.types.is_integer(items.type):
-        return items.to_numpy(zero_copy_only=False)
-    return items.to_pylist()
+    def _source(self) -> Source:
+        written = {key: series for key, series in self._series.items() if series.frames}
+        return Source(written, self.frames, self.times, self.lines)

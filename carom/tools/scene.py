@@ -11,8 +11,11 @@ from carom.ecs import Transform, Visual, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial import quaternion
 from carom.systems.shapes import BY_NUMBER
+from carom.systems.shapes.finish import Finish
 from carom.systems.shapes.geometry import Geometries
+from carom.systems.shapes.shape import Surface
 from carom.tools.batch import Batch
+from carom.tools.coloring import Coloring
 
 SPREAD = 100.0  # an endless surface is drawn this many times as wide as its sample, so that its edge lies in the haze
 
@@ -24,22 +27,28 @@ class Mesh(NamedTuple):
     faces: Integers
     smooth: bool
     floor: Floats | None
+    finish: Finish | None = None
+    coarser: tuple[Surface, ...] = ()
 
 
 class Scene:
     """The visible entities of a world: every row with a Transform and a visible Visual, one batch per mesh.
 
-    The id of an instance is the row of its entity. Meshes are made once per shape and size.
+    What a model file paints in several ways is a mesh for each. The id of an instance is the row of its entity. Meshes
+    are made once per shape and size.
     """
 
     def __init__(self, world: World) -> None:
         self._world = world
-        self._meshes: dict[bytes, Mesh] = {}
+        self._meshes: dict[bytes, list[Mesh]] = {}
 
-    def batches(self) -> list[Batch]:
-        """Return the batches as the world is now, in the order of their first rows."""
+    def batches(self, transform: Transform | None = None, coloring: Coloring | None = None) -> list[Batch]:
+        """Return the batches as the world is now, in the order of their first rows; at other poses where stated.
+
+        Their colours are their own, or those of a mode.
+        """
         world = self._world
-        visual, transform = world[Visual], world[Transform]
+        visual, transform = world[Visual], world[Transform] if transform is None else transform
         rows = world.row_numbers(Visual, Transform)
         rows = rows[visual.visible[rows]]
         if not len(rows):
@@ -49,18 +58,19 @@ class Scene:
         poses[:, 3, 3] = 1.0
         poses[:, :3, :3] = quaternion.matrix(quaternion.multiply(rotation, visual.rotation[rows]))
         poses[:, :3, 3] = transform.position[rows] + quaternion.rotate(rotation, visual.position[rows])
-        colors = visual.color[rows]
+        colors = visual.color[rows] if coloring is None else coloring.colors(world, rows)
         looks = np.column_stack([visual.shape[rows], visual.geometry[rows], visual.size[rows]])
         _, first, group = np.unique(looks, axis=0, return_index=True, return_inverse=True)
         batches = []
         for number in np.argsort(first):
             members = np.nonzero(group.ravel() == number)[0]
-            mesh = self._mesh(int(rows[members[0]]), looks[members[0]].tobytes())
             place = (poses[members], colors[members], rows[members])
-            batches.append(Batch(mesh.vertices, mesh.faces, *place, mesh.smooth, mesh.floor))
+            for mesh in self._meshes_of(int(rows[members[0]]), looks[members[0]].tobytes()):
+                finish = mesh.finish if coloring is None or coloring.keeps_looks else None
+                batches.append(Batch(mesh.vertices, mesh.faces, *place, mesh.smooth, mesh.floor, finish, mesh.coarser))
         return batches
 
-    def _mesh(self, row: int, look: bytes) -> Mesh:
+    def _meshes_of(self, row: int, look: bytes) -> list[Mesh]:
         found = self._meshes.get(look)
         if found is None:
             visual = self._world[Visual]
@@ -69,9 +79,12 @@ class Scene:
             shape = BY_NUMBER[int(visual.shape[row])].from_size(visual.size[row], geometry)
             surface = shape.surface()
             if math.isinf(max(shape.bounds().half)):
-                found = endless(surface.vertices, surface.faces)
+                found = [endless(surface.vertices, surface.faces)]
+            elif geometry is not None and geometry.parts:
+                found = [Mesh(part.vertices, part.faces, surface.smooth, None, part.finish) for part in geometry.parts]
             else:
-                found = Mesh(surface.vertices, surface.faces, surface.smooth, None)
+                coarser = shape.coarser_surfaces()
+                found = [Mesh(surface.vertices, surface.faces, surface.smooth, None, coarser=coarser)]
             self._meshes[look] = found
         return found
 

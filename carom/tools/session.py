@@ -18,6 +18,7 @@ from carom.systems.energy import total_energy
 from carom.systems.observer import Observer
 from carom.systems.simulation import Simulation
 from carom.tools.interrupt import deferred_interrupt
+from carom.tools.witness import Witness
 from carom.worlds.builder import LoadedWorld
 
 
@@ -56,6 +57,7 @@ class Summary:
     pairs_by_kernels: int = 0
     points_refused: int = 0
     impacts_cut: int = 0
+    looks_cut: int = 0
     expectations: int = 0
     judged: bool = True
     failures: list[str] = field(default_factory=list)
@@ -83,6 +85,11 @@ class Summary:
             lines.append(
                 f"  warning       {self.impacts_cut} impacts beyond the limit of a step were put off to the next"
             )
+        if self.looks_cut:
+            lines.append(
+                f"  warning       {self.looks_cut} times somebody fast was no longer looked after and may have passed "
+                "through a wall; a smaller dt helps"
+            )
         lines += [f"  {kind:<13} {path}" for kind, path in self.outputs.items()]
         if "recording" in self.outputs:
             lines.append(f"open it with: carom view {self.outputs['recording']}")
@@ -105,11 +112,11 @@ def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None)
     summary = Summary(loaded.name or loaded.path, bodies=simulation.world.count(RigidBody), judged=frames is None)
     summary.energy_before = total_energy(simulation.world)
     expectations = loaded.expectations if summary.judged else []
-    simulation.observers = [watch, *expectations, *observers]
+    simulation.observers = [watch, Witness(loaded), *expectations, *observers]
     simulation.watched = True
     start = perf_counter()
     planned = loaded.run.frames if frames is None else frames
-    with deferred_interrupt() as check, _bar(planned) as bar, ExitStack() as ending:
+    with deferred_interrupt() as check, progress_bar(planned) as bar, ExitStack() as ending:
         for observer in simulation.observers:
             ending.callback(observer.end, simulation)
             observer.begin(simulation)
@@ -123,13 +130,15 @@ def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None)
     summary.deepest_overlap = watch.deepest
     answered = simulation.world[Answered]
     summary.pairs_by_fcl, summary.pairs_by_kernels = answered.fcl, answered.kernels
-    summary.points_refused, summary.impacts_cut = answered.refused, answered.impacts_cut
+    summary.points_refused = answered.refused
+    summary.impacts_cut, summary.looks_cut = answered.impacts_cut, answered.looks_cut
     summary.expectations = len(expectations)
     summary.failures = [str(outcome) for item in expectations if not (outcome := item.outcome()).held]
     return summary
 
 
-def _bar(frames: int) -> Any:
+def progress_bar(frames: int) -> Any:
+    """Return a bar for as many steps, a context, which is drawn when stderr is a terminal."""
     from tqdm import tqdm
 
     return tqdm(total=frames, unit="frame", leave=False, disable=not sys.stderr.isatty())

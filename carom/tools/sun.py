@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.ecs.column import Floats
-from carom.tools.cameras import Camera, standing
+from carom.ecs.spatial import quaternion
+from carom.tools.cameras import Camera, Vector, front
 
-DIRECTION = (-0.75, 1.3, 0.35)  # towards the sun, in the camera's right, the world's up, and away from the target
-REACH = 1.5  # half edge of the largest cube over half the width of the picture at the target
-STEP = 1.5  # cubes shrink by this factor, not smoothly, so that shadows do not shimmer while bodies move
+DIRECTION = (-0.75, 1.3, 0.35)  # towards the sun: to the left of who stands in front of the world, up, and to the front
+REACH = 1.5  # half edge of the cube over half the width of the picture at the target, at least
+STEP = 1.5  # cubes grow by this factor, so that shadows keep their edges while a camera comes nearer
 DISTANCE = 4.0  # from the target to the sun, over half the edge of the cube: what is higher casts no shadow
 
 
@@ -39,14 +40,26 @@ class Sun:
         return matrix
 
 
-def sun_for(camera: Camera, aspect: float, spread: float) -> Sun:
-    """Return the sun for a view whose things to be shaded lie within ``spread`` (m) of the camera's target."""
-    widest = REACH * camera.distance * math.tan(camera.fov / 2.0) * max(aspect, 1.0)
-    steps = math.floor(math.log(widest / spread, STEP)) if 0.0 < spread < widest else 0
-    reach = widest / STEP**steps
-    up = np.array(camera.up) / np.linalg.norm(camera.up)
-    right = camera.pose()[:3, 0]
-    towards = np.column_stack([right, up, np.cross(right, up)]) @ DIRECTION
-    target = np.array(camera.target)
-    position = target + DISTANCE * reach / float(np.linalg.norm(towards)) * towards
-    return Sun(standing(tuple(position), tuple(target), tuple(right)), reach)
+def sun_for(camera: Camera, aspect: float, texels: int) -> Sun:
+    """Return the sun for a view, with a shadow map of ``texels`` along each edge.
+
+    It stands still in the world. The cube moves by whole texels and grows in steps, so that a texel shows the same
+    place from picture to picture, and shadows do not shimmer while the camera moves.
+    """
+    least = REACH * camera.reach * max(aspect, 1.0)
+    reach = STEP ** math.ceil(math.log(least, STEP) - 1e-9)
+    axes = sun_axes(camera.zenith)
+    texel = 2.0 * reach / texels
+    pose = np.eye(4)
+    pose[:3, :3] = axes
+    pose[:3, 3] = axes @ (np.round(camera.target @ axes / texel) * texel + (0.0, 0.0, DISTANCE * reach))
+    return Sun(pose, reach)
+
+
+def sun_axes(up: Vector) -> Floats:
+    """Return the axes of the sun's camera as columns (3, 3): across, across and up, and towards the sun."""
+    zenith = np.array(up) / np.linalg.norm(up)
+    right = np.cross(zenith, front(up))
+    right /= np.linalg.norm(right)
+    towards = np.column_stack([right, zenith, np.cross(right, zenith)]) @ DIRECTION
+    return quaternion.matrix(quaternion.look_at(-towards, zenith))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -11,17 +12,20 @@ from carom.ecs.hierarchy import compose
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.worlds import library
+from carom.worlds.camera import Camera, check_entities
 from carom.worlds.check import check_section, collection
 from carom.worlds.errors import Fault, WordError, WorldError, shown
 from carom.worlds.expect import Expectation, read_expectations
 from carom.worlds.generated import STEP_WORDS
+from carom.worlds.geometry import GeometryReader
 from carom.worlds.names import known, matching
+from carom.worlds.pictures import Pictures
 from carom.worlds.populate import Populator
 from carom.worlds.prefab import extended
 from carom.worlds.reader import Source, read
 from carom.worlds.run import RunPlan, plan
 from carom.worlds.schema import VERSION, document
-from carom.worlds.sections import Camera, Render
+from carom.worlds.sections import Render
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -31,7 +35,8 @@ UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 class LoadedWorld:
     """A world file ready to run; ``document`` is its plain data and ``up`` the direction pictures keep upright.
 
-    ``warnings`` are lines for the user on what the file can be used without, such as triangles without area.
+    ``warnings`` are lines for the user on what the file can be used without, such as triangles without area; ``files``
+    are those that it names, by its words for them.
     """
 
     simulation: Simulation
@@ -46,6 +51,11 @@ class LoadedWorld:
     cameras: dict[str, Camera] = field(default_factory=dict)
     render: Render = field(default_factory=lambda: Render.model_validate({}))
     warnings: list[str] = field(default_factory=list)
+    files: dict[str, Path] = field(default_factory=dict)
+
+    def contents(self) -> dict[str, bytes]:
+        """Return what is in its files, by the words of the world for them."""
+        return {word: path.read_bytes() for word, path in self.files.items()}
 
 
 def load_world(world: str | Path, *, checked: bool | None = None, **options: Any) -> LoadedWorld:
@@ -60,14 +70,24 @@ def load_world(world: str | Path, *, checked: bool | None = None, **options: Any
 
 
 def load_text(
-    text: str, name: str = "world.yaml", folder: Path | None = None, *, checked: bool | None = None, **options: Any
+    text: str,
+    name: str = "world.yaml",
+    folder: Path | None = None,
+    *,
+    files: Mapping[str, Path] | None = None,
+    checked: bool | None = None,
+    **options: Any,
 ) -> LoadedWorld:
-    """Load a world from the text of a file that lies, or would lie, in ``folder``; mesh files are found from there."""
+    """Load a world from the text of a file that lies, or would lie, in ``folder``; mesh files are found from there.
+
+    ``files`` says of some where they are, by the words of the text for them.
+    """
     source = read(text, name)
     data = _with_header(source)
     values = _checked(source, data)
     simulation = _simulation(source, values, checked, options)
-    populator = Populator(source, simulation, folder or Path())
+    geometries = GeometryReader(folder or Path(), files or {})
+    populator = Populator(source, simulation, geometries)
     populator.add_all(values["entities"])
     source.excused = _named(data.get("entities")) - {name.partition("[")[0] for name in simulation.world.names()}
     populator.point_all()
@@ -78,7 +98,9 @@ def load_text(
     except EntityError as fault:
         source.report(("entities",), str(fault))
     _forces(source, simulation, values["forces"])
+    simulation.world.add(Pictures(values["cameras"]))
     expectations = read_expectations(source, simulation, values["expect"])
+    check_entities(source, values["cameras"], simulation.world.names())
     if values["render"] is not None and values["render"].camera is not None:
         try:
             known("camera", values["render"].camera, values["cameras"])
@@ -89,6 +111,7 @@ def load_text(
     return LoadedWorld(
         simulation, data, name, text, plan(values["run"], simulation.settings.dt), expectations,
         values["name"], values["description"], UP[values["up"]], values["cameras"], render, source.warnings,
+        geometries.used,
     )  # fmt: skip
 
 

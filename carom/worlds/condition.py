@@ -46,6 +46,11 @@ class Condition:
     terms: tuple[Term, ...]
     evaluate: Evaluate
 
+    @property
+    def looks(self) -> bool:
+        """Whether it asks for pictures."""
+        return any(term.looks for term in self.terms)
+
     def values(self, world: World, index: int) -> str:
         """Return what its terms are for one of the entities."""
         shown = []

@@ -19,6 +19,10 @@ class WordError(ValueError):
         self.what, self.received, self.accepted, self.hint = what, received, accepted, hint
         self.name = name  # the name that nothing defines, where that is the fault
 
+    def line(self, place: str) -> str:
+        """Return the line that tells it of ``place``, an option or a file, where no line and column are known."""
+        return str(Fault(place, 0, 0, "", self.what, self.received, self.accepted, self.hint))
+
 
 @dataclass(frozen=True, order=True)
 class Fault:

@@ -8,7 +8,9 @@ from carom.systems.simulation import Simulation
 from carom.worlds.condition import read_condition
 from carom.worlds.errors import Path, WordError
 from carom.worlds.expect_laws import QUANTITIES, Conserved, Penetration, Throughout
-from carom.worlds.expect_values import frame_of, read_event, read_values
+from carom.worlds.expect_moment import frame_of, read_event
+from carom.worlds.expect_pictures import Visible
+from carom.worlds.expect_values import read_values
 from carom.worlds.expectation import Expectation, Outcome
 from carom.worlds.reader import Source
 
@@ -29,8 +31,11 @@ def _read(source: Source, simulation: Simulation, path: Path, words: Any) -> lis
     values = dict(words.__pydantic_extra__ or {})
     moments = [key for key in ("at", "when") if getattr(words, key) is not None]
     laws = [key for key in EVERY_FRAME if getattr(words, key) is not None]
-    if len(moments) > 1 or bool(moments) is not bool(values) or not (laws or values):
-        accepted = f"{', '.join(EVERY_FRAME)}; or at or when, with values such as ball.position: {{is, within}}"
+    asked = bool(values) or words.visible is not None
+    if len(moments) > 1 or (moments and not asked) or (values and not moments) or not (laws or asked):
+        accepted = (
+            f"{', '.join(EVERY_FRAME)}, visible; or at or when, with values such as ball.position: {{is, within}}"
+        )
         received = ", ".join((*moments, *values)) or "none"
         source.report(path, "must state a law, or a moment with values", received=received, accepted=accepted)
         return []
@@ -40,17 +45,23 @@ def _read(source: Source, simulation: Simulation, path: Path, words: Any) -> lis
             found.append(_every_frame(simulation, key, getattr(words, key)))
         except WordError as fault:
             source.report_value((*path, key), fault)
+    moment: dict[str, Any] = {}
     for key in moments:
         try:
             moment = _moment(simulation, key, getattr(words, key))
         except WordError as fault:
             source.report_value((*path, key), fault)
-            continue
-        for name, item in read_values(values, simulation.world, **moment):
-            if isinstance(item, WordError):
-                source.report_value((*path, name), item)
-            else:
-                found.append(item)
+            return found
+    if words.visible is not None:
+        try:
+            found.append(Visible(words.visible, simulation.world, **moment))
+        except WordError as fault:
+            source.report_value((*path, "visible"), fault)
+    for name, item in read_values(values, simulation.world, **moment):
+        if isinstance(item, WordError):
+            source.report_value((*path, name), item)
+        else:
+            found.append(item)
     return found
 
 

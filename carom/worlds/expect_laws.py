@@ -132,7 +132,7 @@ class Throughout(Expectation):
     """``always`` or ``never`` a condition, the start included."""
 
     def __init__(self, key: str, condition: Condition) -> None:
-        self.wanted, self.condition = key == "always", condition
+        self.wanted, self.condition, self.looks = key == "always", condition, condition.looks
         super().__init__(f"{key}: {condition.text}", f"{key} {condition.text}")
         self.least = np.inf
 

@@ -28,7 +28,12 @@ class Outcome:
 
 
 class Expectation:
-    """Something that must hold while a world runs; `observe` looks after every step and calls `fail`."""
+    """Something that must hold while a world runs; `observe` looks after every step and calls `fail`.
+
+    ``looks`` is whether it asks for pictures.
+    """
+
+    looks = False
 
     def __init__(self, text: str, expected: str) -> None:
         self.text, self.expected = text, expected

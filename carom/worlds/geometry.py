@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -82,18 +83,22 @@ GEOMETRY_WORDS: dict[str, type[Words]] = {
 
 
 class GeometryReader:
-    """Reads geometries relative to a folder, each file once."""
+    """Reads geometries from files, each once: where ``files`` says, by the world's words for them, or in a folder."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path, files: Mapping[str, Path]) -> None:
+        self.folder, self.files = folder, files
+        self.used: dict[str, Path] = {}
         self.known: dict[tuple[Any, ...], Shape] = {}
 
-    def shape(self, key: str, words: dict[str, Any]) -> Shape:
-        """Return the shape of these words; raise DeclarationError."""
-        files = {name: self.folder / words[name] for name in FILE_WORDS if name in words}
+    def shape(self, key: str, words: dict[str, Any], *, seen: bool) -> Shape:
+        """Return the shape of these words, of a visual where it is only ``seen``; raise DeclarationError."""
+        named = {name: words[name] for name in FILE_WORDS if name in words}
+        files = {name: self.files.get(word, self.folder / word) for name, word in named.items()}
+        self.used |= {word: files[name] for name, word in named.items()}
+        make = SHAPES[key].seen if seen else SHAPES[key].stated
         if not files:
-            return SHAPES[key].stated(**words)
-        known = (key, *sorted(words.items()))
+            return make(**words)
+        known = (key, seen, *sorted(words.items()))
         if known not in self.known:
-            self.known[known] = SHAPES[key].stated(**words | files)
+            self.known[known] = make(**words | files)
         return self.known[known]

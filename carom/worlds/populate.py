@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from itertools import product
-from pathlib import Path as FilePath
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -45,9 +44,9 @@ class Pointer(NamedTuple):
 class Populator:
     """Adds entities, reporting what is wrong with each where the file says it."""
 
-    def __init__(self, source: Source, simulation: Simulation, folder: FilePath) -> None:
+    def __init__(self, source: Source, simulation: Simulation, geometries: GeometryReader) -> None:
         self.source, self.simulation = source, simulation
-        self.geometries = GeometryReader(folder)
+        self.geometries = geometries
         self.taken: dict[str, Path] = {}
         self.pointers: list[tuple[Integers, Pointer]] = []
         self.places_in_file: dict[int, Path] = {}
@@ -165,7 +164,7 @@ class Populator:
             if key in words:
                 place = next(word for word in SOURCES if word in words[key])
                 try:
-                    words[key] = self.geometries.shape(key, words[key])
+                    words[key] = self.geometries.shape(key, words[key], seen=path[-1] == "visual")
                 except DeclarationError as fault:
                     self.source.report((*path, key, place), str(fault))
                     raise _ReportedError from None

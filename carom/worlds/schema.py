@@ -14,6 +14,7 @@ from carom.systems.assembly import COLLIDER_COLUMNS
 from carom.systems.extensions import load_extensions
 from carom.systems.freedom import AXES
 from carom.systems.mass import PASSED_ON
+from carom.worlds.camera import Camera
 from carom.worlds.generated import (
     column_fields,
     law_fields,
@@ -23,7 +24,6 @@ from carom.worlds.generated import (
     shape_fields,
 )
 from carom.worlds.sections import (
-    Camera,
     Expect,
     Grid,
     KeyframesWords,

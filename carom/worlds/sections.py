@@ -1,17 +1,15 @@
-"""Sections of a world file that no registry supplies: grids, cameras, runs, pictures, expectations."""
+"""Sections of a world file that no registry supplies: grids, runs, pictures, expectations."""
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field, WrapValidator, model_validator
 
 from carom.systems.paths import REPEATS
-from carom.worlds.color import ColorWord
 from carom.worlds.errors import WordError, shown
 from carom.worlds.rotation import RotationWord
-from carom.worlds.values import In, Vector3, Whole, Words, either, word_of
+from carom.worlds.values import Flag, In, Vector3, Whole, Words, either, word_of
 
 Length = Annotated[float, In("m")]
 Lengths = Annotated[Vector3, In("m")]
@@ -56,15 +54,6 @@ class OnEnter(Words):
     layer: str = Field(description="layer given to who enters")
 
 
-class Camera(Words):
-    """A view of the world."""
-
-    position: Lengths = Field(description="where it is (m)")
-    target: Lengths = Field((0.0, 0.0, 0.0), description="what it looks at (m)")
-    fov: Annotated[float, In("rad", above=0.0, most=math.pi)] = Field(math.radians(50.0), description="vertical angle")
-    up: Annotated[Vector3, In("1")] | None = Field(None, description="up in the picture, the world's up by default")
-
-
 class Run(Words):
     """How long a run takes: a duration, a number of frames, or until everything rests."""
 
@@ -91,7 +80,10 @@ class Render(Words):
     height: Count = Field(480, description="pixels")
     fps: Annotated[float, In("Hz", above=0.0)] = Field(30.0, description="pictures per second of film")
     camera: str | None = Field(None, description="name of a camera, the first by default")
-    background: ColorWord | None = Field(None, description="colour behind everything")
+    overlays: list[str] = Field([], description="what is drawn over the bodies, such as contacts, velocities, stamp")
+    color: str = Field("material", description="what the colour of bodies tells, such as speed")
+    plots: list[str] = Field([], description="quantities over time in a corner, such as energy or speed(ball)")
+    wireframe: Flag = Field(False, description="bodies as their edges only")
 
 
 class Measure(Words):
@@ -120,7 +112,7 @@ class When(Words):
 
 
 class Expect(Words):
-    """Something that must hold: one law, or values at a time or event, keyed like ``ball.position``."""
+    """Something that must hold: a law, what a camera shows, or values like ``ball.position`` at a time or event."""
 
     model_config = ConfigDict(extra="allow")
     __pydantic_extra__: dict[str, Measure]
@@ -130,5 +122,8 @@ class Expect(Words):
     penetration: str | None = Field(None, description="'< 1 mm'")
     never: str | None = Field(None, description="condition, such as 'ball.position.y < 0'")
     always: str | None = Field(None, description="condition, such as 'speed(ball) < 3 m/s'")
+    visible: str | None = Field(
+        None, description="what a camera shows then, at the end by default, such as 'crate >= 400 px from main'"
+    )
     at: Annotated[float, In("s", least=0.0)] | None = Field(None, description="time of the values (s)")
     when: When | None = Field(None, description="event of the values")

@@ -11,11 +11,11 @@ import numpy as np
 from carom.ecs import Component, Entity, Material, Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.errors import did_you_mean
-from carom.systems.energy import kinetic_energies
 from carom.systems.own_components import is_own
-from carom.systems.queries.space import Space
 from carom.worlds.errors import WordError
+from carom.worlds.functions import CALLS, PAIRS
 from carom.worlds.names import matching
+from carom.worlds.pictures import QUESTIONS, Pictures, check_drawn, read_camera
 
 NAME_PATTERN = r"[^\W\d][\w*-]*(?:\[[\d,*]*\])?"
 COLUMN_TERM = re.compile(rf"({NAME_PATTERN})\.([\w.]+)")
@@ -28,46 +28,21 @@ Read = Callable[[World], Floats]
 
 @dataclass(frozen=True)
 class Term:
-    """A value of one or several entities; ``read`` returns it for each, shape (entities, size), in ``unit``."""
+    """A value of one or several entities; ``read`` returns it for each, shape (entities, size), in ``unit``.
+
+    ``looks`` is whether it is asked of a picture.
+    """
 
     text: str
     unit: str
     size: int
     names: tuple[str, ...]
     read: Read
+    looks: bool = False
 
 
 def _rows(world: World, entities: list[Entity]) -> list[int]:
     return [world.row(entity) for entity in entities]
-
-
-def _speed(world: World, rows: list[int]) -> Floats:
-    return np.asarray(np.linalg.norm(world[Motion].linear[rows], axis=1))
-
-
-def _spin(world: World, rows: list[int]) -> Floats:
-    return np.asarray(np.linalg.norm(world[Motion].angular[rows], axis=1))
-
-
-def _energy(world: World, rows: list[int]) -> Floats:
-    return kinetic_energies(world, np.array(rows, np.int64))
-
-
-def _distance(world: World, rows: list[int]) -> float:
-    first, second = world[Transform].position[rows]
-    return float(np.linalg.norm(second - first))
-
-
-def _sees(world: World, rows: list[int]) -> float:
-    """Return 1 where nothing stands on the straight line between two origins but the two themselves, else 0."""
-    first, second = world[Transform].position[rows]
-    reach = _distance(world, rows)
-    pair = world.entities(np.array(rows))
-    return float(not reach or not Space(world).cast_rays_any(first, second - first, reach, without=pair)[0])
-
-
-CALLS = {"speed": ("m/s", _speed), "spin": ("rad/s", _spin), "kinetic_energy": ("J", _energy)}
-PAIRS: dict[str, tuple[str, Callable[[World, list[int]], float]]] = {"distance": ("m", _distance), "sees": ("1", _sees)}
 
 
 def read_term(text: str, world: World) -> Term:
@@ -86,10 +61,15 @@ def read_term(text: str, world: World) -> Term:
 
 def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
     wanted = dict.fromkeys(CALLS, 1) | dict.fromkeys(PAIRS, 2)
+    asked = QUESTIONS.get(function)
+    if asked is not None and len(patterns) - asked.entities in (0, 1):
+        return _question(text, function, patterns, world)
     if wanted.get(function) != len(patterns):
-        accepted = ", ".join(f"{name}({', '.join(['entity'] * count)})" for name, count in wanted.items())
-        hint = did_you_mean(function, wanted) if function not in wanted else ""
-        raise WordError("unknown function", received=repr(text), accepted=accepted, hint=hint)
+        forms = [f"{name}({', '.join(['entity'] * count)})" for name, count in wanted.items()]
+        forms += [f"{name}({'entity, ' * question.entities}camera)" for name, question in QUESTIONS.items()]
+        known = (*wanted, *QUESTIONS)
+        hint = did_you_mean(function, known) if function not in known else ""
+        raise WordError("unknown function", received=repr(text), accepted=", ".join(forms), hint=hint)
     groups = [matching(pattern, world.names()) for pattern in patterns]
     if function in PAIRS:
         (unit, between), pair = PAIRS[function], [world.find(group[0]) for group in groups]
@@ -100,6 +80,25 @@ def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
         _kinds(world, entity, "linear")
     names = tuple(f"{function}({name})" for name in groups[0])
     return Term(text, unit, 1, names, lambda world: measure(world, _rows(world, entities))[:, None])
+
+
+def _question(text: str, function: str, patterns: list[str], world: World) -> Term:
+    question = QUESTIONS[function]
+    camera = patterns[-1] if len(patterns) > question.entities else None
+    groups = [matching(pattern, world.names()) for pattern in patterns[: question.entities]]
+    # Of a pair each is one entity; a question about one may be asked of each of several.
+    asked = [tuple(group[0] for group in groups)] if question.entities > 1 else [(name,) for name in groups[0]]
+    entities = [tuple(world.find(name) for name in names) for names in asked]
+    for some in entities:
+        check_drawn(world, some)
+    read_camera(world, camera)
+    end = "" if camera is None else f", {camera}"
+    names = tuple(f"{function}({', '.join(some)}{end})" for some in asked)
+
+    def read(world: World) -> Floats:
+        return np.array([[world[Pictures].ask(function, some, camera)] for some in entities])
+
+    return Term(text, question.unit, 1, names, read, looks=True)
 
 
 def _column(text: str, names: list[str], steps: list[str], world: World) -> Term:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from carom.ecs.errors import did_you_mean
 from carom.worlds.errors import WordError, shown
 
-Dimension = tuple[int, int, int, int]  # powers of kg, m, s, rad
+Dimension = tuple[int, int, int, int, int]  # powers of kg, m, s, rad, px
 LONGEST_VALUE = 80  # characters: longer texts are no numbers, and their fractions would grow without bound
 
 
@@ -23,15 +23,15 @@ class Unit(NamedTuple):
     dimension: Dimension
 
 
-PURE = Unit(Fraction(1), (0, 0, 0, 0))
+PURE = Unit(Fraction(1), (0, 0, 0, 0, 0))
 DEGREE = Fraction(math.pi) / 180
 BASE: dict[str, tuple[Dimension, Mapping[str, Fraction | int | str]]] = {
     "a mass": (
-        (1, 0, 0, 0),
+        (1, 0, 0, 0, 0),
         {"kg": 1, "g": "0.001", "mg": "1e-6", "t": 1000, "lb": "0.45359237", "oz": "0.028349523125"},
     ),
     "a length": (
-        (0, 1, 0, 0),
+        (0, 1, 0, 0, 0),
         {
             "m": 1,
             "mm": "0.001",
@@ -43,16 +43,17 @@ BASE: dict[str, tuple[Dimension, Mapping[str, Fraction | int | str]]] = {
             "mi": "1609.344",
         },
     ),
-    "a time": ((0, 0, 1, 0), {"s": 1, "ms": "0.001", "us": "1e-6", "min": 60, "h": 3600, "d": 86400}),
-    "an angle": ((0, 0, 0, 1), {"rad": 1, "deg": DEGREE, "mrad": "0.001", "turn": DEGREE * 360}),
-    "a number": ((0, 0, 0, 0), {"%": "0.01"}),
-    "a frequency": ((0, 0, -1, 0), {"Hz": 1}),
-    "an angular velocity": ((0, 0, -1, 1), {"rpm": DEGREE * 6}),
-    "a speed": ((0, 1, -1, 0), {"mph": "0.44704", "kn": Fraction(1852, 3600)}),
-    "a force": ((1, 1, -2, 0), {"N": 1, "mN": "0.001", "kN": 1000, "MN": 1000000, "lbf": "4.4482216152605"}),
-    "an energy": ((1, 2, -2, 0), {"J": 1, "mJ": "0.001", "kJ": 1000, "MJ": 1000000}),
-    "a power": ((1, 2, -3, 0), {"W": 1, "kW": 1000}),
-    "a pressure": ((1, -1, -2, 0), {"Pa": 1, "kPa": 1000, "MPa": 1000000}),
+    "a time": ((0, 0, 1, 0, 0), {"s": 1, "ms": "0.001", "us": "1e-6", "min": 60, "h": 3600, "d": 86400}),
+    "an angle": ((0, 0, 0, 1, 0), {"rad": 1, "deg": DEGREE, "mrad": "0.001", "turn": DEGREE * 360}),
+    "a number of pixels": ((0, 0, 0, 0, 1), {"px": 1}),
+    "a number": ((0, 0, 0, 0, 0), {"%": "0.01"}),
+    "a frequency": ((0, 0, -1, 0, 0), {"Hz": 1}),
+    "an angular velocity": ((0, 0, -1, 1, 0), {"rpm": DEGREE * 6}),
+    "a speed": ((0, 1, -1, 0, 0), {"mph": "0.44704", "kn": Fraction(1852, 3600)}),
+    "a force": ((1, 1, -2, 0, 0), {"N": 1, "mN": "0.001", "kN": 1000, "MN": 1000000, "lbf": "4.4482216152605"}),
+    "an energy": ((1, 2, -2, 0, 0), {"J": 1, "mJ": "0.001", "kJ": 1000, "MJ": 1000000}),
+    "a power": ((1, 2, -3, 0, 0), {"W": 1, "kW": 1000}),
+    "a pressure": ((1, -1, -2, 0, 0), {"Pa": 1, "kPa": 1000, "MPa": 1000000}),
 }
 UNITS = {name: Unit(Fraction(factor), dim) for dim, names in BASE.values() for name, factor in names.items()}
 COMPOUND = ("m/s", "km/h", "ft/s", "m/s2", "ft/s2", "rad/s", "deg/s", "turn/s", "N s", "N m", "kg/m3", "g/cm3", "kg/s")
@@ -137,7 +138,8 @@ def parse_unit(text: str) -> Unit:
 
 
 def _sum(a: Dimension, b: Dimension, times: int) -> Dimension:
-    return (a[0] + b[0] * times, a[1] + b[1] * times, a[2] + b[2] * times, a[3] + b[3] * times)
+    kg, m, s, rad, px = (one + other * times for one, other in zip(a, b, strict=True))
+    return kg, m, s, rad, px
 
 
 def _unknown(name: str) -> WordError:

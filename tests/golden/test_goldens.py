@@ -6,7 +6,6 @@ from typing import Any
 
 import pytest
 
-from carom.tools.filming import shot_of
 from carom.worlds import load_world
 
 
@@ -30,4 +29,4 @@ def test_a_world_leads_where_it_led_before(world: str, frames: int, carom_snapsh
     """State and picture after some frames are those of the golden; an update needs a line in the changelog."""
     loaded = load_world(world)
     loaded.simulation.step(frames)
-    carom_snapshot.check(loaded.simulation, world, camera=shot_of(loaded).camera)
+    carom_snapshot.check(loaded, world)

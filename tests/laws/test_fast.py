@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from carom.ecs.spatial import quaternion
+from carom.systems.detection.answered import Answered
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.simulation import Simulation
@@ -55,6 +56,45 @@ def test_what_tumbles_does_not_pass_either(collider: dict[str, Any], phase: int)
     bullet = shot(phase, collider, {"collider": WALL}, (3.0, 40.0, 25.0))["bullet"]
     assert bullet.transform.position[0] < 0.0
     assert np.linalg.norm(bullet.motion.linear) < 300.0
+
+
+@pytest.mark.parametrize("wall", ["box", "mesh"])
+@pytest.mark.parametrize("phase", PHASES)
+def test_a_ball_of_10_cm_does_not_cross_a_wall_of_2_cm(wall: str, phase: int) -> None:
+    """At 10 m/s it comes 17 cm a step: wherever it starts, it goes back as fast as it came, e = 1."""
+    hard, simulation = {"restitution": 1.0, "friction": 0.0}, Simulation(gravity=(0.0, 0.0, 0.0))
+    simulation.add(collider=WALL if wall == "box" else sheet(), material=hard)
+    ball = simulation.add(
+        collider={"sphere": {"radius": 0.1}}, body={"mass": 1.0}, material=hard,
+        transform={"position": (-1.0 - phase / 120.0, 0.03, 0.02)}, motion={"linear": (10.0, 0.0, 0.0)},
+    )  # fmt: skip
+    simulation.step(30)
+    flown = 10.0 * simulation.time - (0.89 + phase / 120.0)
+    assert simulation[ball].transform.position[0] == pytest.approx(-0.11 - flown, abs=1e-9)
+    assert simulation[ball].motion.linear == pytest.approx([-10.0, 0.0, 0.0], abs=1e-9)
+
+
+def test_balls_that_only_turn_and_points_need_nobody_to_look() -> None:
+    """A ball that spins at 300 rad/s on a mesh is as it is at rest; a point is taken for a ball of 1 mm."""
+    for collider in ({"sphere": {"radius": 0.1}}, {"point": {}}):
+        simulation = Simulation(gravity=(0.0, 0.0, 0.0))
+        simulation.add(collider=sheet(), material=SMOOTH)
+        simulation.add(
+            collider=collider, body={"mass": 1.0, "inertia": 1.0}, material=SMOOTH,
+            transform={"position": (-0.11 if "sphere" in collider else -0.0101, 0.03, 0.02)},
+            motion={"linear": (0.0, 0.01, 0.0), "angular": (200.0, 200.0, 100.0)},
+        )  # fmt: skip
+        simulation.step(10)
+        assert simulation.world[Answered].detections == 10
+
+
+def test_who_is_given_up_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With no looks at all tumbling cubes pass through a mesh; of each the count says that it may have."""
+    monkeypatch.setattr("carom.systems.response.MOST_LOOKS", 0)
+    shots = [shot(phase, CUBE, {"collider": sheet()}, (3.0, 40.0, 25.0)) for phase in PHASES]
+    through = [simulation for simulation in shots if simulation["bullet"].transform.position[0] > 0.0]
+    assert through
+    assert all(simulation.world[Answered].looks_cut for simulation in through)
 
 
 @pytest.mark.parametrize("phase", range(0, 20, 5))

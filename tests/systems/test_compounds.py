@@ -176,7 +176,7 @@ def test_a_hammer_comes_to_rest_on_the_ground() -> None:
 
     The handle is the body, but the head is what touches, and its contacts say so.
     """
-    simulation = hammer(dt=1 / 120)
+    simulation = hammer(dt=1 / 120, sleeping=False)
     simulation.add(name="floor", collider={"plane": {}})
     simulation.step(120 * 6)
     world = simulation.world

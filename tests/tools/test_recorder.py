@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import signal
-import subprocess
-import sys
-import time
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from killed import record_until_killed
 
 from carom.ecs import (
     Entity,
@@ -23,8 +20,10 @@ from carom.ecs import (
 )
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
+from carom.systems.ledger import Ledger
 from carom.systems.simulation import Simulation
 from carom.tools.recorder import Recorder
+from carom.tools.recorder.contacts import closing_speeds
 from carom.tools.recorder.stream import application_id
 from carom.tools.recording import Recording
 
@@ -165,15 +164,31 @@ def test_contacts_are_recorded_with_both_colliders_and_exact_numbers(tmp_path: P
         contact = simulation.world[Contact]
         touching = (contact.depth[: contact.count] >= 0.0) | (contact.impulse[: contact.count] > 0.0)
         columns = ("a", "b", "point", "normal", "depth", "impulse")
-        seen[simulation.frame] = {name: getattr(contact, name)[: contact.count][touching] for name in columns}
+        rows = {name: getattr(contact, name)[: contact.count][touching] for name in columns}
+        seen[simulation.frame] = rows | {"speed": closing_speeds(simulation.world, rows)}
     recorder.end(simulation)
     recording = Recording(tmp_path / "run.rrd")
     assert sum(len(rows["a"]) for rows in seen.values()) > 20
     for frame, expected in seen.items():
         received = recording.contacts(frame)
         assert np.array_equal(received["point"], expected["point"].astype(np.float32))
-        for name in ("a", "b", "normal", "depth", "impulse"):
+        for name in ("a", "b", "normal", "depth", "impulse", "speed"):
             assert np.array_equal(received[name], expected[name]), (frame, name)
+
+
+def test_speed_of_a_contact_is_that_of_both_surfaces_along_its_normal() -> None:
+    """Travel, and the spin about the centre of mass; one that stands gives nothing, and one that is gone neither."""
+    simulation = Simulation()
+    floor = simulation.add(name="floor", collider={"plane": {}})
+    one = ball(simulation, "one", (0.0, 0.0, 0.0))
+    other = ball(simulation, "other", (0.2, 0.0, 0.0))
+    simulation["one"].motion.linear, simulation["one"].motion.angular = (3.0, 5.0, 7.0), (0.0, 0.0, 2.0)
+    simulation["other"].motion.linear = (-0.5, 1.0, 0.0)
+    sides = {"a": np.array([one, one, floor]), "b": np.array([other, floor, floor])}
+    rows = {**sides, "point": np.tile((0.1, 0.1, 0.0), (3, 1)), "normal": np.tile((1.0, 0.0, 0.0), (3, 1))}
+    assert closing_speeds(simulation.world, rows) == pytest.approx([3.0 - 0.2 + 0.5, 3.0 - 0.2, 0.0], abs=1e-6)
+    simulation.world.despawn(other)
+    assert closing_speeds(simulation.world, rows)[0] == pytest.approx(2.8, abs=1e-6)
 
 
 def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) -> None:
@@ -182,6 +197,7 @@ def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) ->
     simulation.add(name="floor", collider={"plane": {}})
     ball(simulation, "ball", (0.0, 0.3, 0.0))
     struck: list[float] = []
+    speeds: list[float] = []
     recorder = Recorder(tmp_path / "run.rrd")
     simulation.observers.append(recorder)
     recorder.begin(simulation)
@@ -189,9 +205,14 @@ def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) ->
         simulation.step()
         impact = simulation.world[Impact]
         struck += list(impact.time[: impact.count])
+        speeds += list(impact.speed[: impact.count])
     recorder.end(simulation)
-    lines = Recording(tmp_path / "run.rrd").lines
+    recording = Recording(tmp_path / "run.rrd")
+    lines, table = recording.lines, recording.table("impacts").polars()
     assert len(struck) > 0
+    assert table["time"].to_list() == struck
+    assert table["speed"].to_list() == speeds
+    assert set(table["b.name"]) == {"ball"}
     assert [line.time for line in lines] == pytest.approx(struck, abs=1e-9)
     assert lines[0].text.startswith("floor and ball strike at 2.21 m/s, ")
 
@@ -210,12 +231,25 @@ def test_plots_hold_energy_overlap_and_counts(tmp_path: Path) -> None:
     assert recording.plot("plots/overlap/deepest_mm").keys() == set(recording.frames)
 
 
+def test_a_ledger_that_is_kept_is_recorded(tmp_path: Path) -> None:
+    """Each entry is a curve of what was given until then; without a ledger there is none."""
+    for name, kept in (("kept", True), ("none", False)):
+        simulation = falling_world()
+        ledger = simulation.keep_ledger() if kept else Ledger()
+        record(simulation, tmp_path / f"{name}.rrd", 40)
+        recording = Recording(tmp_path / f"{name}.rrd")
+        curves = {entry: recording.plot(f"plots/ledger/{entry}") for entry in ("impacts", "gravity")}
+        assert {entry: curve[40] for entry, curve in curves.items() if curve} == {
+            entry: ledger.since[entry] for entry in curves if kept
+        }
+
+
 def test_a_snapshot_in_the_recording_restores_the_run_bit_by_bit(tmp_path: Path) -> None:
     """Into a world built anew from the same words."""
     simulation = falling_world()
     record(simulation, tmp_path / "run.rrd", 300)
     states = Recording(tmp_path / "run.rrd").saved_states()
-    assert [saved.frame for saved in states] == [0, 240]
+    assert [saved.frame for saved in states] == [0, 240, 300]  # each second, and the end
     again = falling_world()
     restore_snapshot(again.world, snapshot_from_bytes(states[1].state, again.world))
     assert state_hash(again.world) == states[1].hash
@@ -264,43 +298,15 @@ def test_a_run_that_breaks_off_leaves_a_readable_recording(tmp_path: Path) -> No
     assert Recording(tmp_path / "run.rrd").frames == list(range(0, 100, 4))
 
 
-KILLED = """
-import sys, time
-sys.path.insert(0, {folder!r})
-from pathlib import Path
-from test_recorder import falling_world
-from carom.tools.recorder import Recorder
-simulation = falling_world()
-recorder = Recorder(Path({path!r}))
-simulation.observers.append(recorder)
-recorder.begin(simulation)
-while True:
-    simulation.step()
-    print(simulation.frame, flush=True)
-    time.sleep(1 / 240)
-"""
-
-
 def test_a_kill_loses_at_most_the_last_second(tmp_path: Path) -> None:
     """Of simulated or of real time; what is left is exact and opens with a warning."""
     path = tmp_path / "killed.rrd"
-    code = KILLED.format(folder=str(Path(__file__).parent), path=str(path))
-    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
-        start, last, at = time.monotonic(), 0, {}
-        for line in process.stdout:
-            last = int(line)
-            at[last] = time.monotonic()
-            start = min(start, at[last]) if last > 1 else at[last]
-            if at[last] - start > 3.0:
-                break
-        process.send_signal(signal.SIGKILL)
-        killed = time.monotonic()
+    killed = record_until_killed(falling_world, path, 3.0)
     with pytest.warns(UserWarning, match=r"killed\.rrd was not finished: the run that wrote it was killed"):
         recording = Recording(path)
     newest = recording.frames[-1]
     assert newest > 0
-    assert last - newest <= 240 or killed - at[newest] <= 1.0
+    assert killed.lost_at_most_a_second(newest)
     simulation = falling_world()
     seen = {0: poses(simulation)}
     for _ in range(newest):

@@ -1,7 +1,8 @@
-"""Pictures, depths and ids hold to the geometry of a pinhole camera."""
+"""Pictures show what they are given, depend on nothing else, and faults are told in whole sentences."""
 
 from __future__ import annotations
 
+import gc
 import math
 import os
 import subprocess
@@ -52,85 +53,25 @@ def batch(
     return Batch(mesh.vertices, mesh.faces, poses(*positions), np.tile(color, (len(positions), 1)), ids, smooth)  # type: ignore[attr-defined]
 
 
-def rays(camera: Camera) -> np.ndarray:
-    """Return for each pixel centre the point (h, w, 3) of its line of sight 1 m before the camera, camera frame."""
-    half = math.tan(camera.fov / 2.0)
-    y = half * (1.0 - 2.0 * (np.arange(HEIGHT) + 0.5) / HEIGHT)
-    x = half * WIDTH / HEIGHT * (2.0 * (np.arange(WIDTH) + 0.5) / WIDTH - 1.0)
-    return np.stack([*np.meshgrid(x, y), np.full((HEIGHT, WIDTH), -1.0)], axis=-1)
-
-
-def resolution(depth: np.ndarray, camera: Camera) -> np.ndarray:
-    """Return twice the step of a depth buffer of 24 bits at ``depth`` (m): one for rounding, one for interpolation."""
-    near, far = camera.planes
-    return 2.0 * depth**2 * (far - near) / (near * far * 2**24) + 1e-6 * depth
-
-
-def test_a_ball_covers_the_area_of_its_silhouette(renderer: Renderer) -> None:
-    """The pixels of a ball's id are as many as the pinhole projection of its outline encloses."""
-    camera = Camera((0.0, 0.0, 4.0), fov=math.radians(50.0))
-    covered = (renderer.ids([batch(BALL, (0.0, 0.0, 0.0), first=7)], camera) == 7).sum()
-    inner = np.einsum("ij,ij->i", BALL.face_normals, BALL.triangles[:, 0]).min()  # facets lie inside of the sphere
-    pixels = HEIGHT / 2.0 / math.tan(camera.fov / 2.0)
-    least, most = (math.pi * (pixels * r) ** 2 / (4.0**2 - r**2) for r in (inner, 1.0))
-    # A pixel counts by its centre: for a disc that errs by less than the square root of its perimeter.
-    rounding = math.sqrt(2.0 * math.sqrt(math.pi * most))
-    assert least - rounding < covered < most + rounding
-    assert most - least < 0.005 * most
-
-
-def test_a_box_has_the_depth_and_the_width_of_its_near_face(renderer: Renderer) -> None:
-    """Depth is measured along the line of view to the face, and is infinite where nothing is drawn."""
-    camera = Camera((0.0, 0.0, 3.0))
-    drawn = [batch(CUBE, (0.0, 0.0, 0.0))]
-    depth, seen = renderer.depth(drawn, camera), renderer.ids(drawn, camera) == 0
-    inside = (np.abs(rays(camera)[..., :2]) * 2.5 < 0.5).all(axis=-1)
-    assert np.array_equal(seen, inside)  # only the near face is seen from the front
-    assert np.abs(depth[seen] - 2.5).max() < resolution(np.array(2.5), camera)
-    assert np.isinf(depth[~seen]).all()
-
-
-def test_the_depth_of_a_plane_follows_from_the_line_of_sight(renderer: Renderer) -> None:
-    """Over slanted ground, each pixel's depth agrees with the ray through its centre."""
-    camera = Camera((0.0, 2.0, 3.0), (0.0, 0.0, 0.0))
-    ground = Batch(SQUARE * 100.0, SQUARE_FACES, poses((0.0, 0.0, 0.0)), np.ones((1, 4)), np.zeros(1, np.int64))
-    ground.poses[0, :3, :3] = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-    depth = renderer.depth([ground], camera)
-    down = (rays(camera) @ camera.pose()[:3, :3].T)[..., 1]
-    truth = 2.0 / np.maximum(-down, 1e-9)
-    near = truth < 30.0
-    assert near.mean() > 0.7
-    slope = np.abs(np.gradient(truth, axis=0))  # m per pixel; OpenGL places corners on a grid of 1/256 pixel
-    assert (np.abs(depth - truth) < resolution(truth, camera) + slope / 128.0)[near].all()
-
-
-def test_the_ids_of_2500_instances_are_exact(renderer: Renderer) -> None:
-    """Each pixel holds the id of the instance its ray meets, and every instance is seen."""
-    side, camera = 50, Camera((0.0, 0.0, 60.0), fov=math.radians(45.0))
-    column, row = np.meshgrid(np.arange(side), np.arange(side))
-    places = [(x - side / 2 + 0.5, y - side / 2 + 0.5, 0.0) for x, y in zip(column.ravel(), row.ravel(), strict=True)]
-    numbers = np.random.default_rng(1).permutation(LARGEST_ID)[: side * side]
-    tiles = Batch(SQUARE, SQUARE_FACES, poses(*places), np.tile(WHITE, (side * side, 1)), numbers)
-    ids = renderer.ids([tiles], camera)
-    at = rays(camera)[..., :2] * 60.0 + side / 2
-    cell = np.floor(at).astype(int)
-    inside = ((cell >= 0) & (cell < side)).all(axis=-1)
-    truth = np.where(
-        inside,
-        numbers.reshape(side, side)[tuple(np.clip(cell, 0, side - 1)[..., ::-1].reshape(-1, 2).T)].reshape(
-            HEIGHT, WIDTH
-        ),
-        -1,
-    )
-    sure = (np.abs(at - np.round(at)) > 1e-3).all(axis=-1)  # OpenGL places corners on a grid of 1/256 pixel
-    assert np.array_equal(ids[sure], truth[sure])
-    assert set(numbers.tolist()) == set(ids[ids >= 0].tolist())
-
-
 def test_the_largest_id_comes_through(renderer: Renderer) -> None:
     """The id image holds the highest id allowed unchanged, and -1 for the background."""
     ids = renderer.ids([batch(CUBE, (0.0, 0.0, 0.0), first=LARGEST_ID)], Camera((0.0, 0.0, 3.0)))
     assert sorted(np.unique(ids).tolist()) == [-1, LARGEST_ID]
+
+
+def test_a_closed_renderer_leaves_those_that_came_after_it_alone(renderer: Renderer) -> None:
+    """Also when Python throws it away, at whatever time: framebuffers of different contexts have the same numbers."""
+    camera, ball = Camera((1.0, 2.0, 5.0)), batch(BALL, (0.0, 0.0, 0.0), smooth=True)
+    fresh = renderer.picture([ball], camera)
+    first, second = Renderer(WIDTH, HEIGHT), Renderer(WIDTH, HEIGHT)
+    for made in (first, second):
+        made.picture([ball], camera)
+    first.close()
+    assert np.array_equal(second.picture([ball], camera), fresh)
+    del first
+    gc.collect()
+    assert np.array_equal(second.picture([ball], camera), fresh)
+    second.close()
 
 
 def test_frames_are_bit_identical_in_another_renderer_with_another_past(renderer: Renderer) -> None:
@@ -166,6 +107,43 @@ def test_a_translucent_body_lets_through_what_is_behind(renderer: Renderer) -> N
     glass = batch(CUBE, (0.0, 0.0, 1.0), color=(0.0, 0.0, 1.0, 0.5), first=1)
     seen = renderer.picture([glass, behind], camera)[middle]
     assert seen[0] > 60 and seen[2] > 60
+
+
+@pytest.mark.parametrize("shares", [(0.5,), (0.25, 0.75), (0.9, 0.1, 0.4)])
+@pytest.mark.parametrize("given", [1, -1], ids=["nearest first", "farthest first"])
+def test_panes_blend_one_after_another(renderer: Renderer, shares: tuple[float, ...], given: int) -> None:
+    """Through panes of alpha a before each other one sees a c + (1 - a) (what is behind), in whatever order given."""
+    camera, middle = Camera((0.0, 0.0, 9.0)), (HEIGHT // 2, WIDTH // 2)
+    colors = ((0.9, 0.1, 0.2), (0.1, 0.8, 0.3), (0.2, 0.2, 0.9))
+
+    def pane(number: int, alpha: float) -> Batch:
+        """Return the pane of that place: the first is the farthest."""
+        own = np.array(SQUARE) * 3.0  # each a mesh of its own
+        color = np.array([(*colors[number], alpha)])
+        return Batch(own, SQUARE_FACES, poses((0.0, 0.0, 2.0 * number)), color, np.array([number]))
+
+    wanted = renderer.picture([], camera)[middle].astype(float)
+    for number, alpha in enumerate(shares):
+        wanted += alpha * (renderer.picture([pane(number, 1.0)], camera)[middle] - wanted)
+    panes = [pane(number, alpha) for number, alpha in enumerate(shares)]
+    assert renderer.picture(panes[::given], camera)[middle] == pytest.approx(wanted, abs=1.0 + len(shares) / 2.0)
+
+
+@pytest.mark.parametrize("given", [1, -1], ids=["nearest first", "farthest first"])
+def test_copies_blend_one_after_another(renderer: Renderer, given: int) -> None:
+    """So do copies of one mesh."""
+    camera, middle = Camera((0.0, 0.0, 9.0)), (HEIGHT // 2, WIDTH // 2)
+    places, colors = (
+        poses(*((0.0, 0.0, z) for z in range(3))),
+        np.array([(0.9, 0.1, 0.2), (0.1, 0.8, 0.3), (0.2, 0.2, 0.9)]),
+    )
+    wanted = renderer.picture([], camera)[middle].astype(float)
+    for place, color in zip(places, colors, strict=True):
+        alone = Batch(SQUARE, SQUARE_FACES, place[None], np.array([(*color, 1.0)]), np.zeros(1, np.int64))
+        wanted += 0.4 * (renderer.picture([alone], camera)[middle] - wanted)
+    tinted = np.column_stack([colors, np.full(3, 0.4)])
+    panes = Batch(SQUARE, SQUARE_FACES, places[::given], tinted[::given], np.arange(3))
+    assert renderer.picture([panes], camera)[middle] == pytest.approx(wanted, abs=2.5)
 
 
 def test_a_body_casts_a_shadow(renderer: Renderer) -> None:
@@ -274,13 +252,6 @@ def test_columns_of_different_lengths_are_refused() -> None:
     assert str(caught.value) == "batch: poses, colors and ids must be as many, received 1, 2 and 1"
 
 
-def test_a_picture_without_area_is_refused() -> None:
-    """A renderer needs at least one pixel each way, and the error states the size received."""
-    with pytest.raises(CaromError) as caught:
-        Renderer(0, 10)
-    assert str(caught.value) == "renderer: width and height must be at least 1 px, received 0 x 10"
-
-
 def test_a_closed_renderer_says_so() -> None:
     """Closing twice is harmless, and drawing afterwards raises an error that says what to do."""
     closed = Renderer(8, 8)
@@ -354,3 +325,56 @@ def test_egl_draws_the_same_scene() -> None:
     # The near face, 2.5 m away, is 23.2 pixels high: 23 or 24 rows of as many pixel centres.
     assert all(covered in (22 * 22, 23 * 23, 24 * 24) for covered, _ in drawn.values())
     assert len({mean for _, mean in drawn.values()}) == 1
+
+
+WITHOUT_OSMESA = """
+from carom.tools import offscreen
+offscreen.LIBRARIES["osmesa"] = (("libOSMesa-that-is-not-there.so",),)
+"""
+
+
+@pytest.mark.skipif(not offscreen.loads(("libEGL.so.1", "libEGL_mesa.so.0")), reason="no libEGL on this machine")
+def test_where_osmesa_is_missing_egl_draws_without_being_asked() -> None:
+    """In a process whose loader finds no libOSMesa the driver is EGL's, and the cube is drawn."""
+    environment = {name: value for name, value in os.environ.items() if name != offscreen.PLATFORM_VARIABLE}
+    command = [sys.executable, "-c", WITHOUT_OSMESA + DRAW]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    said, covered, _ = done.stdout.split()
+    assert (said, int(covered)) in (("egl", 23 * 23), ("egl", 24 * 24))
+
+
+def test_frames_are_bit_identical_in_other_processes() -> None:
+    """Pictures, depths and ids of shadowed, translucent and curved bodies have one hash, whatever the threads."""
+    hashes = {
+        subprocess.run(
+            [sys.executable, "-c", HASH],
+            env={**os.environ, "LP_NUM_THREADS": threads},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for threads in ("0", "2", "5")
+    }
+    assert len(hashes) == 1 and len(hashes.pop().split()) == 3
+
+
+HASH = """
+import hashlib
+import numpy as np
+from trimesh.creation import box, icosphere
+from carom.tools.batch import Batch
+from carom.tools.cameras import Camera
+from carom.tools.renderer import Renderer
+rng = np.random.default_rng(5)
+batches = []
+for mesh, smooth, alpha in ((box(extents=(9, 0.1, 9)), False, 1), (box(), False, 1), (icosphere(), True, 0.5)):
+    poses = np.tile(np.eye(4), (20, 1, 1))
+    poses[:, :3, 3] = rng.uniform(-3, 3, (20, 3))
+    colors = np.column_stack([rng.uniform(0, 1, (20, 3)), np.full(20, alpha)])
+    batches.append(Batch(mesh.vertices, mesh.faces, poses, colors, np.arange(20), smooth))
+with Renderer(160, 120) as renderer:
+    for camera in (Camera((2.0, 5.0, 9.0)), Camera((2.0, 5.0, 9.0), height=8.0)):
+        parts = renderer.picture(batches, camera), renderer.depth(batches, camera), renderer.ids(batches, camera)
+        told = [hashlib.sha256(part.tobytes()).hexdigest() for part in parts]
+print(*told)
+"""

@@ -5,18 +5,17 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from carom.ecs.component import Record
 from carom.systems.simulation import Simulation
-from carom.tools.cameras import Camera
-from carom.tools.goldens import state_golden, write_picture
-from carom.tools.renderer import Renderer
-from carom.tools.scene import Scene
+from carom.tools.snapshot_kit.state import StateGolden, state_fault, state_golden, this_machine
 
 pytest_plugins = "pytester"
+pytestmark = pytest.mark.usefixtures("loaded")
 
 WORLD = """
 from carom.systems.simulation import Simulation
@@ -35,17 +34,6 @@ def test_two_balls(carom_snapshot):
     simulation.step(10)
     carom_snapshot.check(simulation, "falling", camera=Camera((0.0, 1.0, 3.0), (0.0, 0.7, 0.0)))
 """
-
-
-@pytest.fixture(scope="module", autouse=True)
-def loaded(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Import all the inner runs need: each forgets what it imported itself, and NumPy and OpenGL load only once."""
-    simulation = Simulation()
-    simulation.add(collider={"sphere": {"radius": 0.3}}, body={})
-    simulation.step()
-    with Renderer(16, 16) as renderer:
-        picture = renderer.picture(Scene(simulation.world).batches(), Camera((0.0, 0.0, 1.0)))
-    write_picture(tmp_path_factory.mktemp("loaded") / "a.png", picture)
 
 
 @pytest.fixture
@@ -69,10 +57,22 @@ def golden(kit: pytest.Pytester, name: str) -> Path:
     return kit.path / "__carom__" / "test_balls" / name
 
 
-def test_the_same_world_passes_and_leaves_no_pictures_behind(kit: pytest.Pytester) -> None:
+def left(kit: pytest.Pytester) -> Path:
+    """Return the folder of the one check that did not pass."""
+    (folder,) = (kit.path / "carom-report" / "carom-cases").iterdir()
+    return folder
+
+
+def shown(kit: pytest.Pytester) -> str:
+    """Return the same as messages say it."""
+    return left(kit).relative_to(kit.path).as_posix()
+
+
+def test_the_same_world_passes_and_leaves_nothing_behind(kit: pytest.Pytester) -> None:
     """Only the goldens are there."""
     kit.runpytest_inprocess().assert_outcomes(passed=1)
     assert sorted(path.name for path in golden(kit, "").iterdir()) == ["falling.json", "falling.png"]
+    assert list((kit.path / "carom-report").glob("*/*")) == []
 
 
 def test_a_missing_golden_fails_with_the_command_that_accepts(pytester: pytest.Pytester) -> None:
@@ -83,7 +83,10 @@ def test_a_missing_golden_fails_with_the_command_that_accepts(pytester: pytest.P
     folder = pytester.path / "__carom__" / "test_balls"
     result.stdout.fnmatch_lines(
         [
-            f"no golden falling.json, falling.png in {folder}",
+            "no golden falling.json, falling.png in __carom__/test_balls",
+            f"  left in {shown(pytester)}",
+            f"  its last frames: carom view {shown(pytester)}/recording.rrd",
+            '  again: pytest "test_balls.py::test_two_balls"',
             '  to accept what is now: pytest "test_balls.py::test_two_balls" --carom-update',
         ]
     )
@@ -98,13 +101,19 @@ def test_a_body_moved_by_one_percent_fails_as_physics(kit: pytest.Pytester) -> N
     result.stdout.fnmatch_lines(
         [
             "physics: transform.position of entity 'left' is [[]-0.505, *[]], expected exactly [[]-0.5, *[]]",
-            f"  picture: {golden(kit, 'falling.actual.png')}",
-            f"  difference: {golden(kit, 'falling.difference.png')}",
+            f"  left in {shown(kit)}",
+            f"  its last frames: carom view {shown(kit)}/recording.rrd",
+            '  again: pytest "test_balls.py::test_two_balls"',
             '  to accept what is now: pytest "test_balls.py::test_two_balls" --carom-update',
+            "carom: expected and actual, side by side: carom-report/index.html",
         ]
     )
-    assert golden(kit, "falling.actual.png").exists()
-    assert golden(kit, "falling.difference.png").exists()
+    assert sorted(path.name for path in left(kit).iterdir()) == [
+        "actual.json", "actual.png", "case.json", "difference.png", "expected.json", "expected.png", "recording.rrd",
+    ]  # fmt: skip
+    case = json.loads((left(kit) / "case.json").read_text())
+    assert (case["entity"], case["column"], case["frame"]) == ("left", "transform.position", 10)
+    assert case["expected"].startswith("[-0.5, ") and case["actual"].startswith("[-0.505, ")
 
 
 def test_swapped_colours_fail_as_rendering(kit: pytest.Pytester) -> None:
@@ -117,7 +126,7 @@ def test_swapped_colours_fail_as_rendering(kit: pytest.Pytester) -> None:
     result = kit.runpytest_inprocess()
     result.assert_outcomes(failed=1)
     result.stdout.fnmatch_lines(
-        ["rendering: *% of the pixels differ by more than 16 of 255, at most 0.02% may on the driver * state agrees"]
+        ["rendering: 4 x 4 px from (*, *) on differ by * of 255, at most 2.5 may *; the state agrees"]
     )
 
 
@@ -136,12 +145,19 @@ def test_elsewhere_poses_need_agree_only_within_the_tolerance(kit: pytest.Pytest
 
 
 def test_an_accepted_change_passes_again(kit: pytest.Pytester) -> None:
-    """And accepting takes the pictures of the failure away."""
+    """And the next run leaves no report."""
     edit(kit, "MOVED, LEFT, RIGHT = 1.0", "MOVED, LEFT, RIGHT = 1.01")
     kit.runpytest_inprocess().assert_outcomes(failed=1)
-    kit.runpytest_inprocess("--carom-update").assert_outcomes(passed=1)
+    result = kit.runpytest_inprocess("--carom-update")
+    result.assert_outcomes(passed=1)
+    result.stdout.fnmatch_lines(
+        [
+            "goldens to change:",
+            "  __carom__/test_balls/falling: physics: transform.position of entity 'left' is *, expected exactly *",
+        ]
+    )
     kit.runpytest_inprocess().assert_outcomes(passed=1)
-    assert not golden(kit, "falling.actual.png").exists()
+    assert list((kit.path / "carom-report").glob("*/*")) == []
 
 
 def test_only_state_is_held() -> None:
@@ -154,6 +170,26 @@ def test_only_state_is_held() -> None:
     roles = {Record.registry[key].columns[name].role for key, _, name in (path.partition(".") for path in digests)}
     assert {"contact.normal", "transform.position"} <= digests.keys()
     assert roles == {"state", "input"}
+
+
+@pytest.mark.parametrize(
+    ("held", "is_now", "what"),
+    [
+        (5, 6, "purse.points of entity 'marble' is 6, expected within 1e-06 5"),
+        (True, False, "purse.points of entity 'marble' is False, expected within 1e-06 True"),
+        ("gold", "copper", "purse.points of entity 'marble' is copper, expected within 1e-06 gold"),
+        ([1.0, 2.0], [1.0, 2.1], "purse.points of entity 'marble' is [1.0, 2.1], expected within 1e-06 [1.0, 2.0]"),
+        ([1.0, 2.0], [1.0, 2.0 + 1e-7], None),
+        (5, None, "entity 'marble' has no purse.points any more"),
+    ],
+)
+def test_what_components_of_a_game_hold_counts_elsewhere_too(held: object, is_now: object, what: str | None) -> None:
+    """Numbers within the tolerance, all else as it is."""
+    here = this_machine()
+    golden = StateGolden(replace(here, numba="another"), 1, {}, {"marble": {"purse.points": held}})
+    actual = StateGolden(here, 1, {}, {"marble": {"purse.points": is_now}})
+    fault = state_fault(actual, golden, 1e-6)
+    assert (fault and fault.what) == what
 
 
 def test_the_plugin_imports_nothing_of_weight() -> None:

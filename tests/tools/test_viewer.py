@@ -137,7 +137,7 @@ def test_the_balls_of_a_break_are_seen_where_the_simulation_has_them(tmp_path: P
     recording = Recording(path)
     names = recording.names(0)
     loaded = load_world("billiards")
-    camera_from_world = np.linalg.inv(shot_of(loaded).camera.pose())
+    camera_from_world = np.linalg.inv(shot_of(loaded).camera(loaded.simulation.world).pose())
     viewer.open(str(path))
     screenshot(viewer, 240, tmp_path / "loading.png")
     rows, seen, moved = [], [], []

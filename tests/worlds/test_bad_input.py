@@ -229,7 +229,7 @@ expect:
         ),
         (
             "{when: {impact: [ball, floor]}, tim: {is: 1, within: 1}}",
-            ("tim: is nothing the event tells; received 'tim'; accepted: time, point, normal, speed, impulse, "
+            ("tim: is nothing the event tells; received 'tim'; accepted: time, point, normal, speed, impulse, work, "
             "friction_impulse or <entity>.<column>; did you mean 'time'?"),
         ),
         (
@@ -245,7 +245,9 @@ expect:
         (
             "{always: __import__('os')}",
             ("always: unknown function; received \"__import__('os')\"; accepted: speed(entity), spin(entity), "
-            "kinetic_energy(entity), distance(entity, entity), sees(entity, entity)"),
+            "kinetic_energy(entity), distance(entity, entity), sees(entity, entity), visible(entity, camera), "
+            "visible_share(entity, camera), overlap(entity, entity, camera), left_of(entity, entity, camera), "
+            "above(entity, entity, camera)"),
         ),
         (
             "{always: ball.position.y + 1 > 0}",
@@ -263,9 +265,27 @@ expect:
             "ball.position: 'is' must be a list of 3 numbers; received 3; accepted: numbers in m",
         ),
         (
+            "{visible: ball}",
+            ("visible: tells nothing visible; received 'ball'; accepted: 'crate >= 400 px from main', or a share such as "
+            "'crate > 50 % from main'"),
+        ),
+        (
+            "{visible: bal > 3 px from main}",
+            ("visible: unknown entity; received 'bal'; accepted: ball, floor; did you mean 'ball'?"),
+        ),
+        (
+            "{visible: ball > 3 px from main}",
+            ("visible: unknown camera; received 'main'; accepted: none is defined"),
+        ),
+        (
+            "{visible: ball > 3 m}",
+            ("visible: must be a number of pixels; received '3 m', which is a length; "
+            "accepted: a number in px, or one with a unit: px"),
+        ),
+        (
             "{}",
             (": must state a law, or a moment with values; received none; accepted: energy, momentum, angular_momentum, "
-            "penetration, never, always; or at or when, with values such as ball.position: {is, within}"),
+            "penetration, never, always, visible; or at or when, with values such as ball.position: {is, within}"),
         ),
     ],
 )  # fmt: skip

@@ -11,6 +11,7 @@ import pytest
 
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
+from carom.tools.witness import Witness
 from carom.worlds import LoadedWorld, library, load_text, load_world
 from carom.worlds.expectation import Outcome
 
@@ -21,13 +22,14 @@ def run(world: LoadedWorld, *, to_first_failure: bool = False) -> list[Outcome]:
     """Run to the end, or to the first failure, and return what became of each expectation."""
     simulation = world.simulation
     simulation.observers += world.expectations
-    for item in world.expectations:
+    witness = Witness(world)
+    for item in (witness, *world.expectations):
         item.begin(simulation)
     while not world.run.finished(simulation):
         if to_first_failure and not all(item.held for item in world.expectations):
             break
         simulation.step()
-    for item in world.expectations:
+    for item in (*world.expectations, witness):
         item.end(simulation)
     return [item.outcome() for item in world.expectations]
 
@@ -75,6 +77,7 @@ def test_expectations_hold(name: str, collision: str) -> None:
         ("trap", WEIGHT, 1.01, 0.0),
         ("line_of_sight", r"size: \[(1\.5), 1\.1", 1.02, 0.0),
         ("line_of_sight", r"12 s, position: \[(9), 0, -8", 1.01, 0.0),
+        ("line_of_sight", r"name: sill, collider: {box: {size: \[10, (0\.6), 0\.2", 1.05, 0.0),
         ("camera_follow", r"2 s, position: \[4, 0\.9, (-4)\]", 1.01, 0.0),
         ("orbit", r"mass: (100)\b", 1.05, 0.0),
         ("orbit", r"mass: (1)\b", 1.05, 0.0),

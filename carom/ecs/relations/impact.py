@@ -15,4 +15,7 @@ class Impact(Relation):
     normal: Floats = column(3, unit="1", doc="unit normal from a to b", role="derived")
     speed: Floats = column(unit="m/s", doc="closing speed along the normal", role="derived")
     impulse: Floats = column(unit="N s", doc="normal impulse", role="derived")
+    work: Floats = column(
+        unit="J", doc="energy that the bodies gained, friction included; below 0: lost", role="derived"
+    )
     friction_impulse: Floats = column(3, unit="N s", doc="friction impulse on b, world frame", role="derived")

@@ -7,6 +7,7 @@ import numpy as np
 
 from carom.ecs.spatial.trigonometry import QUARTER_TURN, QUARTER_TURN_REST
 from carom.systems.constants import SMALL_ANGLE
+from carom.systems.kernels.accounting import KEPT, keep_arc, note_arc
 from carom.systems.kernels.bodies import advance_body
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lanes import WIDTH, address, choose, load, root, some, spread, store, whole
@@ -17,16 +18,16 @@ TIME, CENTER, LINEAR, ANGULAR, TURNED, ROTATION = 0, 1, 4, 7, 10, 13
 ACCELERATION, ANGULAR_ACCELERATION, PRINCIPAL, INERTIA, ROWS = 17, 20, 23, 27, 30
 
 
-@kernel("center", "rotation", "turned", "linear", "angular", "time")
+@kernel("center", "rotation", "turned", "linear", "angular", "time", "arc")
 def advance_bodies(
     rows, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
-    inverse_mass, inertia, principal_axes, freedom,
+    inverse_mass, inertia, principal_axes, freedom, pull, arc,
 ):  # fmt: skip
     """Bring all bodies that are not there yet along their arcs to ``now``.
 
-    Those that are kinematic or have locked rotations go one by one.
+    Those that are kinematic or have locked rotations go one by one. An ``arc`` of more than no rows is accounted for.
     """
-    scratch, row = np.zeros((ROWS, WIDTH)), np.empty(WIDTH, np.int64)
+    scratch, row, kept = np.zeros((ROWS, WIDTH)), np.empty(WIDTH, np.int64), np.empty((WIDTH, KEPT))
     for lane in range(WIDTH):  # what has no body is one that stands still
         scratch[ROTATION + 3, lane] = scratch[PRINCIPAL + 3, lane] = 1.0
     lanes = address(scratch)
@@ -34,11 +35,21 @@ def advance_bodies(
     for number, i in enumerate(rows):
         if time[i] < now:
             if inverse_mass[i] == 0.0 or freedom[i, 3] + freedom[i, 4] + freedom[i, 5] < 3.0:
+                t = now - time[i]
+                if len(arc):
+                    keep_arc(i, filled, kept, center, linear, angular, rotation)
                 advance_body(
                     i, now, bend, center, rotation, turned, linear, angular, time, acceleration,
                     angular_acceleration, inverse_mass, inertia, principal_axes, freedom,
                 )  # fmt: skip
+                if len(arc):
+                    note_arc(
+                        i, filled, t, bend, kept, center, rotation, linear, angular, acceleration,
+                        angular_acceleration, inverse_mass, inertia, principal_axes, pull, arc,
+                    )  # fmt: skip
             else:
+                if len(arc):
+                    keep_arc(i, filled, kept, center, linear, angular, rotation)
                 scratch[TIME, filled] = now - time[i]
                 time[i] = now
                 for k in range(3):
@@ -61,6 +72,11 @@ def advance_bodies(
                     angular[j, k], turned[j, k] = scratch[ANGULAR + k, lane], scratch[TURNED + k, lane]
                 for k in range(4):
                     rotation[j, k] = scratch[ROTATION + k, lane]
+                if len(arc):
+                    note_arc(
+                        j, lane, scratch[TIME, lane], bend, kept, center, rotation, linear, angular, acceleration,
+                        angular_acceleration, inverse_mass, inertia, principal_axes, pull, arc,
+                    )  # fmt: skip
             filled = 0
 
 

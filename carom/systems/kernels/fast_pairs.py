@@ -5,14 +5,15 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FAST, TRUST
+from carom.systems.constants import FAST, LEAST_FAST, TRUST
 from carom.systems.kernels.contacts import is_centred, is_free_ball
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE
 from carom.systems.kernels.spatial import cross
 
 NEVER = 1e300
-#: Numbers of a pair: how far either reaches from its body's centre, which is the smaller, how far a contact is trusted.
+#: Numbers of a pair: how far either core reaches from the centre of its body, which is the smaller, and how far a
+#: contact is trusted.
 NUMBERS = 4
 
 
@@ -53,6 +54,20 @@ def is_exact(i, o, shape, body_row, position, center, inverse_mass):
     return body_row[o] < 0 or is_centred(o, body_row[o], position, center)
 
 
+@woven
+def reach_of(c, i, local_position, bound_center, bound_half, position, center):
+    """Return how far (m) the core of collider c, what it is without its roundness, reaches from the centre of body i.
+
+    Roundness does not count, since it turns without effect.
+    """
+    away, off, half = 0.0, 0.0, 0.0
+    for k in range(3):
+        away += (position[c, k] - center[i, k]) ** 2 if i >= 0 else 0.0
+        off += (bound_center[c, k] - local_position[c, k]) ** 2
+        half += bound_half[c, k] * bound_half[c, k]
+    return sqrt(away) + sqrt(off) + sqrt(half)
+
+
 @kernel("fast", "numbers")
 def find_fast(
     pairs, span, shape, local_position, bound_center, bound_half, bound_radius, position, body_row, center,
@@ -66,33 +81,31 @@ def find_fast(
     count = 0
     for p in range(len(pairs)):
         a, b = pairs[p, 0], pairs[p, 1]
+        i, o = body_row[a], body_row[b]
+        free_a, free_b = i >= 0 and inverse_mass[i] > 0.0, o >= 0 and inverse_mass[o] > 0.0
+        if free_a and free_b and not (continuous[i] or continuous[o]):
+            continue
         if shape[a] == PLANE_SHAPE or shape[b] == PLANE_SHAPE:
             continue
-        smallest, smaller, free, asked = NEVER, 0, 0, False
+        smallest, smaller = NEVER, 0
         for side in range(2):
             c = a if side == 0 else b
-            i = body_row[c]
-            away, off = 0.0, 0.0
-            for k in range(3):
-                away += (position[c, k] - center[i, k]) ** 2 if i >= 0 else 0.0
-                off += (bound_center[c, k] - local_position[c, k]) ** 2
-            hx, hy, hz, r = bound_half[c, 0], bound_half[c, 1], bound_half[c, 2], bound_radius[c]
-            numbers[count, side] = sqrt(away) + sqrt(off) + sqrt(hx * hx + hy * hy + hz * hz) + r
-            if i >= 0 and inverse_mass[i] > 0.0:
-                free, asked = free + 1, asked or continuous[i]
-                if min(hx, hy, hz) + r < smallest:
-                    smallest, smaller = min(hx, hy, hz) + r, side
-        one, other = (a, b) if smaller == 0 else (b, a)
-        way, turning = motion_of(body_row[one], body_row[other], center, linear, angular)
-        motion = span * (way + turning * numbers[count, smaller])
-        if motion <= FAST * smallest or (free == 2 and not asked):
+            extent = max(LEAST_FAST, min(bound_half[c, 0], bound_half[c, 1], bound_half[c, 2]) + bound_radius[c])
+            if (free_a if side == 0 else free_b) and extent < smallest:
+                smallest, smaller = extent, side
+        way, turning = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)
+        c = a if smaller == 0 else b
+        reach = reach_of(c, body_row[c], local_position, bound_center, bound_half, position, center)
+        if span * (way + turning * reach) <= FAST * smallest:
             continue
         if is_exact(a, b, shape, body_row, position, center, inverse_mass):
             continue
         if is_exact(b, a, shape, body_row, position, center, inverse_mass):
             continue
-        numbers[count, 2], numbers[count, 3] = smaller, TRUST * smallest
         fast[count, 0], fast[count, 1] = a, b
+        numbers[count, 0] = reach_of(a, i, local_position, bound_center, bound_half, position, center)
+        numbers[count, 1] = reach_of(b, o, local_position, bound_center, bound_half, position, center)
+        numbers[count, 2], numbers[count, 3] = smaller, TRUST * smallest
         count += 1
     return count
 

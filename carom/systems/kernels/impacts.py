@@ -8,6 +8,7 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import IMPACTS_AT_LEAST, IMPACTS_PER_PAIR, PATIENCE
+from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import BALL, NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body
@@ -17,13 +18,13 @@ from carom.systems.kernels.strikes import foresee, strike
 
 DONE, OUT_OF_REACH = 0, 1
 
-# A row of the log: time, speed, impulse, and where the three vectors of 3 begin.
-TIME, SPEED, IMPULSE, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 6, 9, 12
+# A row of the log: time, speed, impulse, work, and where the three vectors of 3 begin.
+TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 10, 13
 
 
 @kernel(
     "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
-    "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic",
+    "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic", "arc",
 )  # fmt: skip
 def fly(
     rows, start, h, bend, clock,
@@ -33,6 +34,7 @@ def fly(
     count, beginning, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
     surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, until, turns, events,
+    pull, arc,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts.
 
@@ -44,6 +46,7 @@ def fly(
     counted so far goes on: ``events``, and for each pair ``strikes`` and ``plastic``, else to detect in the middle
     would renew the patience with endless rows of impacts. ``cut`` counts impacts beyond the cap, which are let pass.
     Nobody flies on beyond ``until``, nor after an impact by which a body turns more than its ``turns`` (rad).
+    An ``arc`` of more than no rows is accounted for (`note_arc`).
     """
     pairs, ends = np.empty(count, np.int64), np.empty(count, np.int64)
     taken, near = 0, 0
@@ -86,7 +89,7 @@ def fly(
             seek[seek_count] = m
             seek_count += 1
     # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
-    log, log_pair, log_count = np.empty((64, WIDTH)), np.empty(64, np.int64), 0
+    log, log_pair, log_count, kept = np.empty((64, WIDTH)), np.empty(64, np.int64), 0, np.empty((1, KEPT))
     now, end, cut = start, min(h, until), 0
     within = time_within_all(rows, h - now, center, detected_center, reach, linear, acceleration)
     if within < end - now:
@@ -147,10 +150,20 @@ def fly(
             i, o = ball[p], other[p]
         for body in (i, o):
             if body >= 0 and time[body] < now:
+                t = now - time[body]
+                if len(arc):
+                    keep_arc(body, 0, kept, center, linear, angular, rotation)
                 advance_body(
                     body, now, bend, center, rotation, turned, linear, angular, time, acceleration,
                     angular_acceleration, inverse_mass, inertia, principal_axes, freedom,
                 )  # fmt: skip
+                if len(arc):
+                    note_arc(
+                        body, 0, t, bend, kept, center, rotation, linear, angular, acceleration, angular_acceleration,
+                        inverse_mass, inertia, principal_axes, pull, arc,
+                    )  # fmt: skip
+        work = -kinetic_energy(i, linear, angular, rotation, inverse_mass, inertia, principal_axes)
+        work -= kinetic_energy(o, linear, angular, rotation, inverse_mass, inertia, principal_axes)
         along_a = -1.0 if kind[p] < 0 else -sign[p]  # of the normal and the friction below, which act on the first
         if kind[p] < 0:
             nx, ny, nz = -normal[p, 0], -normal[p, 1], -normal[p, 2]
@@ -186,6 +199,10 @@ def fly(
                 log, log_pair = longer, longer_pair
             log_pair[log_count] = p
             log[log_count, TIME], log[log_count, SPEED], log[log_count, IMPULSE] = clock + now, speed, pressed
+            work += kinetic_energy(i, linear, angular, rotation, inverse_mass, inertia, principal_axes)
+            log[log_count, WORK] = work + kinetic_energy(
+                o, linear, angular, rotation, inverse_mass, inertia, principal_axes
+            )
             # The normal from a to b points away from a ball that is a, and b feels the reaction.
             for k, (f, n, at_k) in enumerate(((fx, nx, px), (fy, ny, py), (fz, nz, pz))):
                 log[log_count, FRICTION + k] = along_a * f

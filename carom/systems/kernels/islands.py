@@ -47,8 +47,10 @@ def lowest_of(i, island):
 
 
 @inlined
-def join(count, body_a, body_b, touches, inverse_mass, island):
+def join(rows, count, body_a, body_b, touches, inverse_mass, island):
     """Join the islands of every two bodies that can be pushed and touch; at first each body is one of its own."""
+    for i in rows:
+        island[i] = i
     for c in range(count):
         a, b = body_a[c], body_b[c]
         if touches[c] and a >= 0 and b >= 0 and inverse_mass[a] > 0.0 and inverse_mass[b] > 0.0:
@@ -59,9 +61,7 @@ def join(count, body_a, body_b, touches, inverse_mass, island):
 @kernel("island")
 def find_islands(rows, count, body_a, body_b, touches, inverse_mass, island):
     """Write for each body the lowest row of its island."""
-    for i in rows:
-        island[i] = i
-    join(count, body_a, body_b, touches, inverse_mass, island)
+    join(rows, count, body_a, body_b, touches, inverse_mass, island)
     for i in rows:
         island[i] = lowest_of(i, island)
 
@@ -79,9 +79,7 @@ def find_sleepers(rows, count, body_a, body_b, touches, inverse_mass, linear, an
     if not ripe:
         return 0
     island = np.empty(len(falls), np.int64)
-    for i in rows:
-        island[i] = i
-    join(count, body_a, body_b, touches, inverse_mass, island)
+    join(rows, count, body_a, body_b, touches, inverse_mass, island)
     stays, held, drifts = np.zeros(len(falls), np.bool_), np.zeros(len(falls), np.bool_), np.zeros(len(falls), np.bool_)
     for i in rows:
         low = lowest_of(i, island)

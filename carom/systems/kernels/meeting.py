@@ -137,7 +137,7 @@ def foresee_meetings(
         put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
         lx, ly, lz = center[o, 0] - position[0, 0], center[o, 1] - position[0, 1], center[o, 2] - position[0, 2]
         lx, ly, lz = turned_back(rotation, 0, lx, ly, lz)
-        wide = numbers[p, 1] + numbers[p, 3]
+        wide = numbers[p, 1] + core[CORE + AROUND] + numbers[p, 3]
         for body in (i, o):  # turning is in the reach, or, of the mesh, in how far any of it comes
             wide += speed_of(body, limit, linear, angular, numbers[p, 0] if body == i else 0.0)
         count, found = all_triangles(

@@ -88,9 +88,8 @@ def sort_groups(
             if c < 0:
                 continue
             held = lanes[r + of.RESTS, lane] > 0.0
-            if resting[c] != held:
-                for k in range(c, c + size[g, lane]):
-                    resting[k] = held
+            for k in range(c, c + size[g, lane]):
+                resting[k] = held
             if held:
                 number += 1
                 balls += measured or kind[c] >= 0

@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial.vector import normalise
+from carom.systems.shapes.ball_surface import ball_surfaces
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface
 
 
@@ -45,10 +46,11 @@ class Ellipsoid(Shape):
 
     def surface(self) -> Surface:
         """Return a stretched icosphere of 1,280 triangles."""
-        from trimesh.creation import icosphere
+        return ball_surfaces(np.array(self.radii))[0]
 
-        ball = icosphere(subdivisions=3)
-        return Surface(np.asarray(ball.vertices) * self.radii, np.asarray(ball.faces), True)
+    def coarser_surfaces(self) -> tuple[Surface, ...]:
+        """Return stretched icospheres of 320 and of 80 triangles."""
+        return ball_surfaces(np.array(self.radii))[1:]
 
     def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return its farthest point ``towards``."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from hashlib import blake2b
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,18 +14,22 @@ from carom.ecs.errors import DeclarationError
 from carom.systems.constants import FLATTEST_HULL
 from carom.systems.shapes.shape import Bounds
 
+if TYPE_CHECKING:
+    from carom.systems.shapes.finish import Part
+
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
     """Vertices (v, 3) in m and outward faces (f, 3).
 
-    ``source`` says where they came from, ``notes`` what of that was left out.
+    ``source`` says where they came from, ``notes`` what of that was left out, ``parts`` how they look.
     """
 
     vertices: Floats
     faces: Integers
     source: str = ""
     notes: tuple[str, ...] = ()
+    parts: tuple[Part, ...] = ()
 
     def bounds(self) -> Bounds:
         """Return the axis-aligned box around the vertices."""
@@ -33,10 +38,12 @@ class Geometry:
         return Bounds(tuple(map(float, center)), tuple(map(float, half)), 0.0)  # type: ignore[arg-type]
 
     def content(self) -> bytes:
-        """Return a digest that is the same for the same triangles."""
+        """Return a digest that is the same for the same triangles that look alike."""
         digest = blake2b(np.array(self.vertices.shape).tobytes(), digest_size=32)
         for array in (self.vertices, self.faces):
             digest.update(np.ascontiguousarray(array).data)
+        for part in self.parts:
+            digest.update(part.content())
         return digest.digest()
 
 

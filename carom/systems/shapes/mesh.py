@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from carom.systems.shapes.finish import load_seen
 from carom.systems.shapes.model_files import Axis, Unit, load_mesh
 from carom.systems.shapes.triangles import Triangles
 
@@ -28,6 +29,11 @@ class Mesh(Triangles):
     def stated(cls, *, file: str | Path, scale: float = 1.0, unit: Unit = "m", up: Axis = "y") -> Self:
         """Return the mesh of a file, read by `load_mesh`."""
         return cls(load_mesh(file, scale=scale, unit=unit, up=up))
+
+    @classmethod
+    def seen(cls, *, file: str | Path, scale: float = 1.0, unit: Unit = "m", up: Axis = "y") -> Self:
+        """Return the mesh of a file as it looks, read by `load_seen`."""
+        return cls(load_seen(file, scale=scale, unit=unit, up=up))
 
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return an FCL bounding-volume hierarchy; it cannot grow, so the margin is left out."""

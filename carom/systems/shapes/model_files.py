@@ -73,12 +73,21 @@ def load_hull(file: str | Path, *, scale: float = 1.0, unit: Unit = "m", up: Axi
 def _read(path: Path, scale: float, unit: str, up: str) -> tuple[Floats, Integers]:
     """Return finite vertices in m, y up, and the faces of a file."""
     source = f"mesh file {path}"
+    refuse_numbers(source, scale, unit, up)
+    return vertices_and_faces(source, read_scene(path), scale, unit, up)
+
+
+def refuse_numbers(source: str, scale: float, unit: str, up: str) -> None:
+    """Raise DeclarationError for a scale, unit or axis that cannot be."""
     for word, value, choices in (("unit", unit, tuple(UNITS)), ("up", up, ("y", "z"))):
         if value not in choices:
             raise DeclarationError(f"{source}: {word} must be one of {', '.join(choices)}, received {value!r}")
     if not (isinstance(scale, (int, float)) and math.isfinite(scale) and scale > 0.0):
         raise DeclarationError(f"{source}: scale must be finite and above 0, received {scale!r}")
-    scene = _scene(path)
+
+
+def vertices_and_faces(source: str, scene: Any, scale: float, unit: str, up: str) -> tuple[Floats, Integers]:
+    """Return finite vertices in m, y up, and the faces of what `read_scene` has read; raise DeclarationError."""
     vertices = np.array(scene.vertices, np.float64).reshape(-1, 3) * (scale * UNITS[unit])
     faces = np.array(getattr(scene, "faces", ()), np.int64).reshape(-1, 3)
     if not np.isfinite(vertices).all():
@@ -89,8 +98,16 @@ def _read(path: Path, scale: float, unit: str, up: str) -> tuple[Floats, Integer
     return (along_y(vertices) if up == "z" else vertices), faces
 
 
-def _scene(path: Path) -> Any:
+def read_scene(path: Path) -> Any:
     """Return everything in a file as one trimesh, or its points."""
+    import trimesh
+
+    parts = read_parts(path)
+    return parts[0] if len(parts) == 1 else trimesh.util.concatenate(parts)
+
+
+def read_parts(path: Path) -> list[Any]:
+    """Return the meshes in a file where the file puts them, or else all its points as one; raise DeclarationError."""
     import trimesh
 
     source = f"mesh file {path}"
@@ -108,8 +125,8 @@ def _scene(path: Path) -> Any:
     meshes = [part for part in parts if isinstance(part, trimesh.Trimesh)]
     if not meshes:
         points = [part.vertices for part in parts if isinstance(part, trimesh.PointCloud)]
-        return trimesh.PointCloud(np.concatenate([np.zeros((0, 3)), *points]))
-    return meshes[0] if len(meshes) == 1 else trimesh.util.concatenate(meshes)
+        return [trimesh.PointCloud(np.concatenate([np.zeros((0, 3)), *points]))]
+    return meshes
 
 
 def _volume(vertices: Floats, faces: Integers) -> float:

@@ -32,11 +32,15 @@ class Bounds(NamedTuple):
 
 
 class Surface(NamedTuple):
-    """Triangles to draw: vertices (v, 3) in m in the shape frame, faces (f, 3), ``smooth`` where normals blend."""
+    """Triangles to draw: vertices (v, 3) in m in the shape frame, faces (f, 3), ``smooth`` where normals blend.
+
+    They are ``off`` (m) the shape at most.
+    """
 
     vertices: Floats
     faces: Integers
     smooth: bool
+    off: float = 0.0
 
 
 class MassProperties(NamedTuple):
@@ -108,6 +112,11 @@ class Shape(ABC):
         return cls(**words)
 
     @classmethod
+    def seen(cls, *_: Any, **words: Any) -> Self:
+        """Return the shape that the words of a visual state, which is only drawn."""
+        return cls.stated(**words)
+
+    @classmethod
     def parameters(cls) -> list[dataclasses.Field[Any]]:
         """Return the fields that are numbers, not a geometry."""
         return [field for field in dataclasses.fields(cls) if "unit" in field.metadata]
@@ -167,6 +176,10 @@ class Shape(ABC):
     @abstractmethod
     def surface(self) -> Surface:
         """Return the triangles to draw."""
+
+    def coarser_surfaces(self) -> tuple[Surface, ...]:
+        """Return fewer triangles, coarser and coarser, for where the shape is small in a picture."""
+        return ()
 
     def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return points (n, 3) and a radius such that a half space touches the shape first in one of those balls.

@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial.vector import normalise
+from carom.systems.shapes.ball_surface import ball_surfaces
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
 
@@ -42,10 +43,11 @@ class Sphere(Shape):
 
     def surface(self) -> Surface:
         """Return an icosphere of 1,280 triangles."""
-        from trimesh.creation import icosphere
+        return ball_surfaces(np.full(3, self.radius))[0]
 
-        mesh = icosphere(subdivisions=3, radius=self.radius)
-        return Surface(np.asarray(mesh.vertices), np.asarray(mesh.faces), True)
+    def coarser_surfaces(self) -> tuple[Surface, ...]:
+        """Return icospheres of 320 and of 80 triangles."""
+        return ball_surfaces(np.full(3, self.radius))[1:]
 
     def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return the centre with the radius."""

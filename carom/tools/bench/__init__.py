@@ -10,4 +10,6 @@ BENCHES = {  # name on the command line: module
     "detect": "detect",
     "contacts": "contacts",
     "motion": "motion",
+    "render": "render",
+    "record": "record",
 }

@@ -82,7 +82,7 @@ def _one_ball() -> Figure:
 def _pictures() -> Iterator[Figure]:
     loaded = load_world(WORLD)
     loaded.simulation.step(240)
-    scene, camera = Scene(loaded.simulation.world), shot_of(loaded).camera
+    scene, camera = Scene(loaded.simulation.world), shot_of(loaded).camera(loaded.simulation.world)
     with Renderer(640, 480) as renderer, tempfile.TemporaryDirectory() as folder:
         renderer.picture(scene.batches(), camera)
         timing = timed(lambda: renderer.picture(scene.batches(), camera), 9)

@@ -15,15 +15,17 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace) -> int:
     """Print a line for each good world, every fault of each bad one; 2 when any is bad."""
+    from carom.ecs.errors import CaromError
+    from carom.tools.look import look_of
     from carom.worlds.builder import load_world
-    from carom.worlds.errors import WorldError
 
     results = []
     for world in arguments.worlds:
         try:
             loaded = load_world(world)
-        except WorldError as fault:
-            results.append({"world": world, "faults": [str(one) for one in fault.faults]})
+            look_of(loaded)
+        except CaromError as fault:
+            results.append({"world": world, "faults": str(fault).splitlines()})
             if not arguments.json:
                 print(fault, file=sys.stderr)
             continue

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import sys
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 
@@ -25,21 +28,46 @@ def overrides(arguments: argparse.Namespace) -> dict[str, Any]:
 
 def seconds(option: str, text: str, **bounds: float) -> float:
     """Return a time (s) as world files write it; raise CaromError, naming the option, for anything else."""
+    return quantity(option, text, "s", **bounds)
+
+
+def quantity(option: str, text: str, unit: str, **bounds: float) -> float:
+    """Return a value in ``unit`` as world files write it; raise CaromError, naming the option, for anything else."""
     from carom.ecs.errors import CaromError
-    from carom.worlds.errors import Fault, WordError
+    from carom.worlds.errors import WordError
     from carom.worlds.units import read_quantity
 
     try:
-        return read_quantity(text, "s", **bounds)
+        return read_quantity(text, unit, **bounds)
     except WordError as fault:
-        raise CaromError(str(Fault(option, 0, 0, "", fault.what, fault.received, fault.accepted, fault.hint))) from None
+        raise CaromError(fault.line(option)) from None
 
 
-def whole_number(text: str) -> int:
-    """Return a whole number from 0 on; raise ArgumentTypeError for anything else."""
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"must be a whole number from 0 on, received {text!r}")
+def whole_number(text: str, least: int = 0) -> int:
+    """Return a whole number from ``least`` on; raise ArgumentTypeError for anything else."""
+    if not text.isdecimal() or int(text) < least:
+        raise argparse.ArgumentTypeError(f"must be a whole number from {least} on, received {text!r}")
     return int(text)
+
+
+def ending(*suffixes: str) -> Callable[[str], Path]:
+    """Return what reads the path of a file; it raises ArgumentTypeError for another suffix than these."""
+
+    def read(text: str) -> Path:
+        path = Path(text)
+        if path.suffix.lower() not in suffixes:
+            raise argparse.ArgumentTypeError(f"must end in {' or '.join(suffixes)}, received {text!r}")
+        return path
+
+    return read
+
+
+def picture_size(text: str) -> tuple[int, int]:
+    """Return the width and height (px) of pictures; raise ArgumentTypeError for anything else."""
+    found = re.fullmatch(r"([1-9]\d{0,4})x([1-9]\d{0,4})", text)
+    if found is None:
+        raise argparse.ArgumentTypeError(f"must be a width and a height in px such as 1280x720, received {text!r}")
+    return int(found[1]), int(found[2])
 
 
 def print_warnings(warnings: list[str]) -> None:

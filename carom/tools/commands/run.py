@@ -7,20 +7,32 @@ import dataclasses
 import sys
 from pathlib import Path
 
-from carom.tools.commands.options import declare_overrides, overrides, print_json, print_warnings, whole_number
+from carom.tools.commands.look import declare_look, look
+from carom.tools.commands.options import (
+    declare_overrides,
+    ending,
+    overrides,
+    print_json,
+    print_warnings,
+    whole_number,
+)
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
     """Declare the world, what to write, and what to override."""
     parser.add_argument("world", metavar="WORLD", help="a world file, or the name of a library world")
     parser.add_argument("--record", type=Path, metavar="FILE", help="write a Rerun recording (.rrd)")
-    parser.add_argument("--film", type=Path, metavar="FILE", help="write a film (.mp4)")
-    parser.add_argument("--picture", type=Path, metavar="FILE", help="write a picture of the last state (.png)")
+    parser.add_argument("--film", type=Path, metavar="FILE", help="write a film (.mp4, .webp or .gif)")
+    parser.add_argument(
+        "--picture", type=ending(".png"), metavar="FILE", help="write a picture of the last state (.png)"
+    )
     parser.add_argument(
         "--frames", type=whole_number, metavar="N", help="stop after N steps; what is expected is not judged"
     )
     parser.add_argument("--camera", metavar="NAME", help="camera of film and picture; the world's 'main' by default")
+    declare_look(parser)
     parser.add_argument("--check", action="store_true", help="let every system touch only what it declares")
+    parser.add_argument("--ledger", action="store_true", help="tell who gave energy and who took it")
     parser.add_argument(
         "--audit", action="store_true", help="measure every contact by FCL as well, and tell where kernels disagree"
     )
@@ -34,23 +46,33 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.tools.auditing import Auditing
     from carom.tools.filming import Filming, photograph, shot_of
     from carom.tools.outputs import prepare_outputs
+    from carom.tools.painter import Painter
     from carom.tools.recorder import Recorder
     from carom.tools.session import run
+    from carom.tools.vantage import vantage_warnings
     from carom.worlds.builder import load_world
 
     loaded = load_world(arguments.world, checked=arguments.check or None, **overrides(arguments))
     print_warnings(loaded.warnings)
-    shot = shot_of(loaded, arguments.camera)
-    prepare_outputs([arguments.record, arguments.film, arguments.picture])
+    shot = shot_of(loaded, arguments.camera, look(arguments, loaded))
+    if arguments.film or arguments.picture:
+        print_warnings(vantage_warnings(shot, loaded.simulation))
     observers: list[Observer] = []
     if arguments.record:
         title = loaded.name or Path(loaded.path).stem
-        observers.append(Recorder(arguments.record, title=title, source=loaded.source_text, camera=shot.camera))
+        camera, source = shot.camera(loaded.simulation.world), loaded.source_text
+        recorder = Recorder(arguments.record, title=title, source=source, files=loaded.contents(), camera=camera)
+        observers.append(recorder)
     if arguments.film:
         observers.append(Filming(shot, arguments.film))
+    prepare_outputs([arguments.record, arguments.film, arguments.picture])
+    painter = Painter(loaded.simulation, shot.look)
+    if arguments.picture:
+        observers.append(painter)
     auditing = Auditing()
     if arguments.audit:
         observers.append(auditing)
+    ledger = loaded.simulation.keep_ledger() if arguments.ledger else None
     kept = f"; the recording up to there: carom view {arguments.record}" if arguments.record else ""
     try:
         summary = run(loaded, observers, frames=arguments.frames)
@@ -61,13 +83,16 @@ def execute(arguments: argparse.Namespace) -> int:
         print(f"{fault}{kept}", file=sys.stderr)
         return 1
     if arguments.picture:
-        photograph(shot, loaded.simulation.world, arguments.picture)
+        photograph(shot, loaded.simulation, arguments.picture, painter)
     written = {"recording": arguments.record, "film": arguments.film, "picture": arguments.picture}
     summary.outputs = {kind: str(path) for kind, path in written.items() if path}
     if arguments.json:
-        print_json(dataclasses.asdict(summary) | ({"audit": auditing.rows()} if arguments.audit else {}))
+        further = ({"audit": auditing.rows()} if arguments.audit else {}) | ({"ledger": ledger.since} if ledger else {})
+        print_json(dataclasses.asdict(summary) | further)
     else:
         print(summary.text())
+        if ledger:
+            print(ledger.text())
         if arguments.audit:
             print(auditing.text())
     return 1 if summary.failures or auditing.failed else 0

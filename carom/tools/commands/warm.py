@@ -19,6 +19,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
 def execute(arguments: argparse.Namespace) -> int:
     """Compile every kernel, saying so before it begins."""
     from carom.systems.kernels.warm import key_of_cache, warm
+    from carom.tools.strokes import compile_strokes
 
     if arguments.key:
         key = key_of_cache()
@@ -26,7 +27,7 @@ def execute(arguments: argparse.Namespace) -> int:
         return 0
     print("compiling the kernels, which takes a minute or two the first time ...", file=sys.stderr, flush=True)
     start = perf_counter()
-    warm()
+    warm(compile_strokes)
     seconds = perf_counter() - start
     if arguments.json:
         print_json({"seconds": seconds})

@@ -7,14 +7,15 @@ from typing import Any
 import numpy as np
 
 from carom.ecs import Collider, Motion, Transform, Visual, World
-from carom.tools.cameras import Camera
-from carom.tools.recorder import about, bodies, contacts, happenings, plots
+from carom.systems.ledger import Ledger
+from carom.tools.cameras import Camera, Vector, front
+from carom.tools.recorder import about, bodies, booked, contacts, happenings, plots
 from carom.tools.recorder.stream import TIME
 
 BACKGROUND = (44, 50, 60)
 
 
-def blueprint(camera: Camera, *, grid: bool) -> Any:
+def blueprint(world: World, camera: Camera) -> Any:
     """Return a large view of the world beside the log and the plots, playing on simulated time."""
     import rerun.blueprint as rrb
 
@@ -24,13 +25,14 @@ def blueprint(camera: Camera, *, grid: bool) -> Any:
         contents=["$origin/**", f"- {contacts.NORMALS}"],
         name="World",
         eye_controls=controls,
-        line_grid=grid,
+        line_grid=not has_scenery(world),
         background=BACKGROUND,
     )
     curves = rrb.Vertical(
         rrb.TimeSeriesView(origin=plots.ENERGY, name="Energy (J)"),
         rrb.TimeSeriesView(origin=plots.OVERLAP, name="Deepest overlap (mm)"),
         rrb.TimeSeriesView(origin=plots.COUNTS, name="Counts"),
+        *([rrb.TimeSeriesView(origin=booked.PATH, name="Energy given and taken (J)")] if world[Ledger].kept else []),
         name="Plots",
     )
     columns = rrb.TextLogColumns(timeline_columns=[TIME], text_log_columns=["body"])
@@ -48,20 +50,21 @@ def blueprint(camera: Camera, *, grid: bool) -> Any:
     )
 
 
-def default_camera(world: World) -> Camera:
+def default_camera(world: World, up: Vector = (0.0, 1.0, 0.0)) -> Camera:
     """Return a camera that has everything bounded in view, from in front, above and a little to the right."""
     rows = world.row_numbers(Collider, Transform)
     collider = world[Collider]
     reach = np.linalg.norm(collider.bound_half[rows], axis=1) + collider.bound_radius[rows]
     finite = np.isfinite(reach)
+    axes = np.column_stack([np.cross(up, front(up)), up, front(up)])
     if not finite.any():
-        return Camera((3.0, 2.0, 4.0))
+        return Camera(tuple(map(float, axes @ (3.0, 2.0, 4.0))), up=up)  # type: ignore[arg-type]
     positions, reach = world[Transform].position[rows][finite], reach[finite, None]
     lower, upper = (positions - reach).min(axis=0), (positions + reach).max(axis=0)
     target = (lower + upper) / 2.0
     distance = 0.9 * float(np.linalg.norm(upper - lower))
-    away = np.array([0.35, 0.55, 0.76]) * distance
-    return Camera(tuple(map(float, target + away)), tuple(map(float, target)))  # type: ignore[arg-type]
+    away = axes @ (0.35, 0.55, 0.76) * distance
+    return Camera(tuple(map(float, target + away)), tuple(map(float, target)), up)  # type: ignore[arg-type]
 
 
 def has_scenery(world: World) -> bool:

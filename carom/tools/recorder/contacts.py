@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+import numpy.typing as npt
 
-from carom.ecs import Collider, RigidBody, World
+from carom.ecs import Collider, Motion, RigidBody, Visual, World
+from carom.ecs.column import Floats, Integers
 from carom.ecs.relations.contact import Contact
+from carom.systems.compound import bodies_of
+from carom.systems.energy import centers_of_mass
 from carom.systems.simulation import Simulation
+from carom.tools.recorder.block import Columns, joined
 from carom.tools.recorder.stream import Stamp, Stream
 
 PATH = "world/contacts"
@@ -22,8 +25,10 @@ class Contacts:
     """The touching rows of the contact table; rows that only may touch within a step are left out."""
 
     def __init__(self) -> None:
-        self._pending: list[tuple[Stamp, dict[str, Any]]] = []
+        self._pending: list[tuple[Stamp, Columns]] = []
         self._length = 0.0
+        self._structure = -1
+        self._unseen = np.zeros(0, np.int64)
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the contacts of this frame."""
@@ -34,29 +39,64 @@ class Contacts:
             self._length = typical_radius(world)
             stream.static(POINTS, rerun.Points3D.from_fields(colors=[COLOR], radii=[POINT_RADIUS]))
             stream.static(NORMALS, rerun.Arrows3D.from_fields(colors=[COLOR], radii=[ARROW_RADIUS]))
+        if self._structure != world.structure:
+            self._structure = world.structure
+            self._name_unseen(world, stamp, stream)
         table = world[Contact]
         live = slice(0, table.count)
         touching = np.nonzero((table.depth[live] >= 0.0) | (table.impulse[live] > 0.0))[0]
         columns = ("a", "b", "point", "normal", "depth", "impulse")
-        self._pending.append((stamp, {name: getattr(table, name)[touching] for name in columns}))
+        rows = {name: getattr(table, name)[touching] for name in columns}
+        self.keep(stamp, rows | {"speed": closing_speeds(world, rows)})
+
+    def keep(self, stamp: Stamp, rows: Columns) -> None:
+        """Keep contacts: ``a``, ``b``, ``point``, ``normal``, ``depth``, ``impulse`` and ``speed`` by name."""
+        self._pending.append((stamp, rows))
 
     def write(self, stream: Stream) -> None:
         """Write the kept contacts, one block for points with their numbers and one for arrows."""
-        import pyarrow
         import rerun
 
         if not self._pending:
             return
-        stamps = [stamp for stamp, _ in self._pending]
-        counts = [len(rows["a"]) for _, rows in self._pending]
-        joined = {name: np.concatenate([rows[name] for _, rows in self._pending]) for name in self._pending[0][1]}
-        normals = pyarrow.FixedSizeListArray.from_arrays(pyarrow.array(joined["normal"].ravel()), 3)
-        numbers = {name: pyarrow.array(joined[name]) for name in ("a", "b", "depth", "impulse")}
-        points, arrows = joined["point"], joined["normal"] * self._length
-        stream.rows(POINTS, stamps, rerun.Points3D.columns(positions=points).partition(counts))
-        stream.rows(POINTS, stamps, rerun.AnyValues.columns(normal=normals, **numbers).partition(counts))
-        stream.rows(NORMALS, stamps, rerun.Arrows3D.columns(origins=points, vectors=arrows).partition(counts))
+        block = joined(self._pending)
+        points, arrows = block.columns["point"], block.columns["normal"] * self._length
+        stream.rows(POINTS, block.stamps, rerun.Points3D.columns(positions=points).partition(block.counts))
+        stream.rows(POINTS, block.stamps, block.values(("normal", "a", "b", "depth", "impulse", "speed")))
+        columns = rerun.Arrows3D.columns(origins=points, vectors=arrows)
+        stream.rows(NORMALS, block.stamps, columns.partition(block.counts))
         self._pending = []
+
+    def _name_unseen(self, world: World, stamp: Stamp, stream: Stream) -> None:
+        """Write the names of colliders that nobody sees, which are not among the bodies of a recording."""
+        import rerun
+
+        drawn = world.row_numbers(Visual)
+        rows = np.setdiff1d(world.row_numbers(Collider), drawn[world[Visual].visible[drawn]])
+        entities = world.entities(rows)
+        if not np.array_equal(entities, self._unseen):
+            self._unseen = entities
+            names = [world.name(entity) for entity in entities]
+            stream.row(PATH, stamp, rerun.AnyValues(collider=entities, name=names))
+
+
+def closing_speeds(world: World, contacts: Columns) -> npt.NDArray[np.float32]:
+    """Return how fast (m/s) the two sides of each contact move against each other along its normal; below 0: part."""
+    away = [_velocities(world, contacts[side], contacts["point"]) for side in ("a", "b")]
+    speeds: npt.NDArray[np.float32] = ((away[0] - away[1]) * contacts["normal"]).sum(axis=1).astype(np.float32)
+    return speeds
+
+
+def _velocities(world: World, colliders: Integers, points: Floats) -> Floats:
+    """Return the velocity (m/s) of points of colliders, zero of those that never move or are gone in the same step."""
+    live = world.slots.live(colliders)
+    owners = np.full(len(colliders), -1)
+    owners[live] = bodies_of(world)[world.slots.rows(colliders[live])]
+    moving = owners >= 0
+    bodies, motion, velocities = owners[moving], world[Motion], np.zeros((len(colliders), 3))
+    arm = points[moving] - centers_of_mass(world, bodies)
+    velocities[moving] = motion.linear[bodies] + np.cross(motion.angular[bodies], arm)
+    return velocities
 
 
 def typical_radius(world: World) -> float:

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from carom.ecs import RigidBody
-from carom.ecs.relations.contact import Contact
 from carom.systems.simulation import Simulation
+from carom.tools.quantities import QUANTITIES
 from carom.tools.recorder.stream import Stamp, Stream
 
 ENERGY, OVERLAP, COUNTS = "plots/energy", "plots/overlap", "plots/counts"
-MILLIMETRES = 1e3
+PATHS = {ENERGY: QUANTITIES["energy"], OVERLAP: QUANTITIES["overlap"], COUNTS: QUANTITIES["counts"]}
 COLORS = {
     f"{ENERGY}/kinetic": (255, 170, 60),
     f"{ENERGY}/potential": (90, 160, 255),
@@ -30,19 +27,8 @@ class Plots:
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the numbers of this frame."""
-        from carom.systems.energy import kinetic_energy, potential_energy
-
         world = simulation.world
-        contact = world[Contact]
-        kinetic, potential = kinetic_energy(world), potential_energy(world)
-        values = {
-            f"{ENERGY}/kinetic": kinetic,
-            f"{ENERGY}/potential": potential,
-            f"{ENERGY}/total": kinetic + potential,
-            f"{OVERLAP}/deepest_mm": MILLIMETRES * max(0.0, float(np.max(contact.depth[: contact.count], initial=0.0))),
-            f"{COUNTS}/bodies": world.count(RigidBody),
-            f"{COUNTS}/contacts": contact.count,
-        }
+        values = {f"{path}/{name}": value for path in PATHS for name, value in PATHS[path].read(world).items()}
         self._pending.append((stamp, values))
 
     def write(self, stream: Stream) -> None:

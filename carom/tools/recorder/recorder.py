@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from time import monotonic
 
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.recorder import about
-from carom.tools.recorder.blueprint import blueprint, default_camera, has_scenery
+from carom.tools.recorder.blueprint import blueprint, default_camera
 from carom.tools.recorder.bodies import ROOT, Bodies
+from carom.tools.recorder.booked import Booked
 from carom.tools.recorder.contacts import Contacts
+from carom.tools.recorder.edits import Edits
 from carom.tools.recorder.happenings import Happenings
+from carom.tools.recorder.impacts import Impacts
 from carom.tools.recorder.plots import Plots
 from carom.tools.recorder.snapshots import Snapshots
 from carom.tools.recorder.stream import Stamp, Stream
@@ -25,7 +29,8 @@ class Recorder:
 
     Every ``every``-th step is recorded, by default as many as make ``fps`` frames a simulated second; impacts and
     sensors entered are told of every step. Samples are written in blocks and flushed after a second of simulated or of
-    real time, whichever ends first. ``title`` and ``source`` (the text of the world file) travel in the recording.
+    real time, whichever ends first. ``title``, ``source`` (the text of the world file) and ``files`` (the content of
+    those it names, by its words for them) travel in the recording.
     """
 
     def __init__(
@@ -36,16 +41,19 @@ class Recorder:
         *,
         title: str = "world",
         source: str | None = None,
+        files: Mapping[str, bytes] | None = None,
         camera: Camera | None = None,
     ) -> None:
         self.path = Path(path)
         self.frames = 0
         self._every, self._fps = every, fps
-        self._title, self._source, self._camera = title, source, camera
+        self._title, self._source, self._files, self._camera = title, source, files, camera
         self._stream: Stream | None = None
-        self._happenings = Happenings()
-        self._tracks: tuple[Track, ...] = (Bodies(), Contacts(), Plots(), Snapshots())
-        self._waiting = 0
+        self._every_step: tuple[Track, ...] = (Happenings(), Impacts())
+        self._edits = Edits()
+        self._snapshots = Snapshots()
+        self._tracks: tuple[Track, ...] = (Bodies(), Contacts(), Plots(), Booked(), self._snapshots)
+        self._seen = self._waiting = 0
         self._flushed = 0.0
 
     def begin(self, simulation: Simulation) -> None:
@@ -54,29 +62,39 @@ class Recorder:
 
         if self._every is None:
             self._every = max(1, round(1.0 / (self._fps * simulation.settings.dt)))
+        self._seen = simulation.frame
+        self._edits.begin(simulation)
         world = simulation.world
         camera = self._camera or default_camera(world)
         upright = camera.up[1] >= abs(camera.up[2])
         axes = rerun.ViewCoordinates.RIGHT_HAND_Y_UP if upright else rerun.ViewCoordinates.RIGHT_HAND_Z_UP
-        self._stream = Stream(self.path, self._title, blueprint(camera, grid=not has_scenery(world)))
+        self._stream = Stream(self.path, self._title, blueprint(world, camera))
         self._stream.static(ROOT, axes)
-        self._stream.static(about.PATH, *about.about(self._title, simulation.settings, self._source))
+        self._stream.static(about.PATH, *about.about(self._title, simulation, self._source))
+        if self._files:
+            self._stream.static(about.FILES, about.files(self._files))
         self._record(simulation, self._stream)
         self._write(self._stream)
 
     def observe(self, simulation: Simulation) -> None:
         """Record the step if it is one of the frames; write and flush about once a second."""
         assert self._stream is not None and self._every is not None, "begin() comes before observe()"
-        self._happenings.sample(simulation, _stamp(simulation), self._stream)
+        self._seen = simulation.frame
+        for track in self._every_step:
+            track.sample(simulation, _stamp(simulation), self._stream)
+        if self._edits.sample(simulation, _stamp(simulation)):
+            self._snapshots.after_edit(simulation, _stamp(simulation))
         if simulation.frame % self._every == 0:
             self._record(simulation, self._stream)
         if self._waiting >= self._fps or monotonic() - self._flushed > FLUSH_AFTER:
             self._write(self._stream)
 
     def end(self, simulation: Simulation) -> None:
-        """Write what is left and close the file."""
+        """Write what is left, with a last snapshot unless the world stands within a step, and close the file."""
         stream, self._stream = self._stream, None
         if stream is not None:
+            if simulation.frame == self._seen:
+                self._snapshots.keep(simulation, _stamp(simulation))
             self._write(stream)
             stream.close()
 
@@ -87,8 +105,9 @@ class Recorder:
         self._waiting += 1
 
     def _write(self, stream: Stream) -> None:
-        for track in (*self._tracks, self._happenings):
+        for track in (*self._tracks, *self._every_step):
             track.write(stream)
+        self._edits.write(stream)
         stream.flush()
         self._waiting, self._flushed = 0, monotonic()
 

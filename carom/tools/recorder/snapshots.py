@@ -8,21 +8,35 @@ from carom.tools.recorder.stream import Stamp, Stream
 
 PATH = "snapshots"
 EVERY = 1.0  # s, of simulated time
+EDITED = 0.5  # s, of simulated time between snapshots after edits: a game may edit in every step
 
 
 class Snapshots:
-    """Snapshots and hashes of state, at the first recorded frame of every simulated second."""
+    """Snapshots and hashes of state: in the first recorded frame of every second, after edits and at the end."""
 
     def __init__(self) -> None:
-        self._due = 0.0
+        self._due = self._due_after_edit = 0.0
+        self._kept = -1
         self._pending: list[tuple[Stamp, bytes, str]] = []
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep a snapshot when one is due."""
         if stamp.time >= self._due:
+            self.keep(simulation, stamp)
+            self._due = stamp.time + EVERY
+
+    def after_edit(self, simulation: Simulation, stamp: Stamp) -> None:
+        """Keep a snapshot of a step before which code outside had a hand in it, so that a replay parts in it alone."""
+        if stamp.time >= self._due_after_edit:
+            self.keep(simulation, stamp)
+            self._due_after_edit = stamp.time + EDITED
+
+    def keep(self, simulation: Simulation, stamp: Stamp) -> None:
+        """Keep a snapshot, unless there is one of this frame."""
+        if stamp.frame != self._kept:
             world = simulation.world
             self._pending.append((stamp, bytes_from_snapshot(take_snapshot(world)), state_hash(world)))
-            self._due = stamp.time + EVERY
+            self._kept = stamp.frame
 
     def write(self, stream: Stream) -> None:
         """Write the kept snapshots."""

@@ -1,0 +1,90 @@
+"""Free-body diagrams: every force on every body, told apart, for observers; the step never calls this."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from carom.ecs import ExternalForce, Force, Motion, RigidBody, World
+from carom.ecs.column import Floats, Integers
+from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.sleeping_contact import SleepingContact
+from carom.systems.awake import Awake
+from carom.systems.energy import centers_of_mass, dynamic_rows
+from carom.systems.simulation import Simulation
+
+APPLY = "apply_"  # what names of systems begin with, and those of forces do not
+NORMAL, FRICTION, EXTERNAL = "normal", "friction", "external"
+
+
+class Loads(NamedTuple):
+    """Forces (n, 3) in N, world frame: on which body (row), at which point (n, 3) in m, and what each is called."""
+
+    body: Integers
+    point: Floats
+    force: Floats
+    name: list[str]
+
+
+def loads(simulation: Simulation) -> Loads:
+    """Return the forces on all dynamic bodies that are not zero.
+
+    Those of laws, own systems and from outside act on centres of mass, as poses and velocities are now; normal forces
+    and friction act where colliders touch, their impulses of the last step over its time.
+    """
+    found = [*applied(simulation), *contacts(simulation.world, simulation.settings.dt)]
+    dynamic = np.zeros(simulation.world.used() + 1, np.bool_)  # the last is for -1, what has no body
+    dynamic[dynamic_rows(simulation.world)] = True
+    kept = [dynamic[part.body] & part.force.any(axis=1) for part in found]
+    body, point, force = (
+        np.concatenate([getattr(part, column)[keep] for part, keep in zip(found, kept, strict=True)])
+        for column in ("body", "point", "force")
+    )
+    names = [name for part, keep in zip(found, kept, strict=True) for name in np.array(part.name)[keep].tolist()]
+    return Loads(body, point, force, names)
+
+
+def applied(simulation: Simulation) -> list[Loads]:
+    """Return what each system that adds forces adds to a sum of its own, and the forces from outside."""
+    world = simulation.world
+    rows = dynamic_rows(world)
+    sums = SimpleNamespace(**{name: np.zeros_like(getattr(world[Force], name)) for name in Force.columns})
+    everyone = Awake()
+    everyone.rows, everyone.found = world.row_numbers(RigidBody), world.structure
+    step = simulation.settings.dt / simulation.settings.substeps
+    parts = {EXTERNAL: world[ExternalForce].force[rows]}
+    before = np.zeros((len(rows), 3))
+    with world.faces(Instead(world, {Force: sums, Awake: everyone})):
+        for _, system in simulation.schedule:
+            if Force in system.adds:
+                system(world, step)
+                now = sums.force[rows] + sums.drag_flow[rows] - sums.drag[rows, None] * world[Motion].linear[rows]
+                parts[system.name.removeprefix(APPLY).replace("_", " ")] = now - before
+                before = now
+    centers = centers_of_mass(world, rows)
+    return [Loads(rows, centers, force, [name] * len(rows)) for name, force in parts.items()]
+
+
+def contacts(world: World, dt: float) -> list[Loads]:
+    """Return the mean normal forces and friction of the last step on both sides of each contact."""
+    found = []
+    for kind in (Contact, SleepingContact):
+        table, live = world[kind], slice(0, world[kind].count)
+        normal = table.impulse[live, None] * table.normal[live]
+        for name, impulse in ((NORMAL, normal), (FRICTION, table.friction_impulse[live])):
+            for body, sign in ((table.body_a[live], -1.0), (table.body_b[live], 1.0)):
+                found.append(Loads(body, table.point[live], sign / dt * impulse, [name] * len(body)))
+    return found
+
+
+class Instead(dict[Any, Any]):
+    """What a world shows while functions run on some tables and resources in the place of its own."""
+
+    def __init__(self, world: World, replaced: dict[Any, Any]) -> None:
+        super().__init__(replaced)
+        self._own = world.faces(None).faces
+
+    def __missing__(self, key: Any) -> Any:
+        return self._own[key]

@@ -1,0 +1,92 @@
+"""Rigs: where a camera of a world file is at a moment, be it that it follows an entity or orbits a place."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.ecs import Transform, World
+from carom.ecs.column import Floats
+from carom.ecs.errors import CaromError, EntityError
+from carom.ecs.spatial import quaternion
+from carom.systems.settings import Settings
+from carom.tools.cameras import Camera, Vector, front
+from carom.worlds.camera import Camera as Words
+from carom.worlds.camera import Orbit, along
+
+
+@dataclass(frozen=True)
+class Rig:
+    """A camera in the words of a world file, its ``name`` there, and the direction that is up in that world."""
+
+    name: str
+    words: Words
+    up: Vector = (0.0, 1.0, 0.0)
+
+    def camera(self, world: World, time: float | None = None, poses: Transform | None = None) -> Camera:
+        """Return the camera as the world is now; at another time (s), with the poses of all rows then, where stated.
+
+        Raises CaromError when an entity that it follows or looks at is gone, or when it stands at its target.
+        """
+        where = poses if poses is not None else world[Transform]
+        words, target, toward = self.words, self.words.target, front(self.up)
+        if words.orbit is not None:
+            elapsed = world.frame * world[Settings].dt if time is None else time
+            centre = self._place(world, where, words.orbit.around)
+            toward = self._horizontal(words.orbit, elapsed)
+            position = centre + words.orbit.distance * self._risen(toward, words.orbit.elevation)
+            target = words.orbit.around if target is None else target
+        elif words.follow is not None:
+            position = self._followed(world, where)
+            target = words.follow.entity if target is None else target
+        else:
+            assert words.position is not None, "the schema asks for one place"
+            position = np.array(words.position)
+        at = self._place(world, where, (0.0, 0.0, 0.0) if target is None else target)
+        if np.array_equal(position, at):
+            raise CaromError(f"camera {self.name}: it stands where it looks at, {tuple(position.tolist())}")
+        up = self._upright(at - position, toward)
+        return Camera(_vector(position), _vector(at), up, words.fov, height=words.height, sky_up=self.up)
+
+    def _horizontal(self, orbit: Orbit, time: float) -> Floats:
+        """Return the horizontal direction (3,) from the middle of the orbit to the camera."""
+        angle = orbit.azimuth + orbit.rate * time
+        return math.cos(angle) * front(self.up) + math.sin(angle) * np.cross(self.up, front(self.up))
+
+    def _risen(self, horizontal: Floats, elevation: float) -> Floats:
+        return math.cos(elevation) * horizontal + math.sin(elevation) * np.array(self.up)
+
+    def _followed(self, world: World, poses: Transform) -> Floats:
+        """Return the position (3,) at the offset from the entity."""
+        follow = self.words.follow
+        assert follow is not None
+        offset: Floats = np.array(follow.offset)
+        if follow.frame == "body":
+            offset = quaternion.rotate(poses.rotation[self._row(world, follow.entity)], offset)
+        return self._place(world, poses, follow.entity) + offset
+
+    def _place(self, world: World, poses: Transform, place: str | Vector) -> Floats:
+        """Return the point (3,) that a file means: the origin of the entity of that name, or the point itself."""
+        if isinstance(place, str):
+            return np.array(poses.position[self._row(world, place)])
+        return np.array(place)
+
+    def _row(self, world: World, name: str) -> int:
+        try:
+            return world.row(world.find(name))
+        except EntityError as fault:
+            raise CaromError(f"camera {self.name}: {fault}") from None
+
+    def _upright(self, sight: Floats, toward: Floats) -> Vector:
+        """Return what is up in the picture: where up is along the sight, what it would be a little less steep."""
+        up = self.words.up or self.up
+        if not along(up, sight.tolist()):
+            return up
+        return _vector(np.copysign(1.0, sight @ np.array(up)) * toward)
+
+
+def _vector(numbers: Floats) -> Vector:
+    x, y, z = numbers.tolist()
+    return x, y, z

@@ -1,0 +1,25 @@
+"""Tables: what a recording holds as dataframes, keyed by frame and entity."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+from carom.ecs.dataframe import Flat
+from carom.tools.tables.bodies import bodies
+from carom.tools.tables.contacts import contacts, has_contacts
+from carom.tools.tables.impacts import impacts
+from carom.tools.tables.log import log
+from carom.tools.tables.plots import plot, plots
+from carom.tools.tables.snapshots import snapshots
+from carom.tools.tables.source import Source
+
+
+def makers(source: Source) -> dict[str, Callable[[], list[Flat]]]:
+    """Return what makes the columns of each table of a recording, by the table's name."""
+    found: dict[str, Callable[[], list[Flat]]] = {"bodies": partial(bodies, source)}
+    if has_contacts(source):
+        found["contacts"] = partial(contacts, source)
+    found["impacts"] = partial(impacts, source)
+    found |= {name: partial(plot, source, path) for name, path in plots(source).items()}
+    return found | {"log": partial(log, source), "snapshots": partial(snapshots, source)}

@@ -1,0 +1,106 @@
+"""Cameras of a world file: fixed, following an entity, or orbiting a place; through a lens or in parallel light."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from carom.worlds.errors import Path, WordError, shown
+from carom.worlds.names import known
+from carom.worlds.reader import Source
+from carom.worlds.rotation import Direction
+from carom.worlds.values import In, Vector3, Words, either, word_of
+
+Lengths = Annotated[Vector3, In("m")]
+Angle = Annotated[float, In("rad")]
+Elevation = Annotated[float, In("rad", least=-math.pi / 2.0, most=math.pi / 2.0)]
+Place: Any = either(Lengths, str, str)  # a point, or the origin of the entity of that name
+ALONG = 1e-6  # sine of the angle under which two directions count as one
+
+
+class Follow(Words):
+    """Keeps a camera at an offset from an entity."""
+
+    entity: str = Field(description="name of the entity")
+    offset: Lengths = Field(description="from the entity's origin to the camera (m)")
+    frame: word_of("world", "body") = Field("world", description="axes of the offset; those of the body turn with it")  # type: ignore[valid-type]
+
+
+class Orbit(Words):
+    """Leads a camera around a place on a circle."""
+
+    around: Place = Field((0.0, 0.0, 0.0), description="point in the world (m), or name of an entity")
+    distance: Annotated[float, In("m", above=0.0)] = Field(description="from that place to the camera (m)")
+    elevation: Elevation = Field(math.radians(20.0), description="angle above the horizon of that place")
+    azimuth: Angle = Field(0.0, description="where it starts, anticlockwise seen from above; 0 is in front, +z or -y")
+    rate: Annotated[float, In("rad/s")] = Field(0.0, description="by which the azimuth grows (rad/s)")
+
+
+class Camera(Words):
+    """A view of the world: from a position, an entity it follows or an orbit, through a lens or in parallel light."""
+
+    position: Lengths | None = Field(None, description="where it is (m)")
+    follow: Follow | None = Field(None, description="an entity it moves with")
+    orbit: Orbit | None = Field(None, description="a circle it moves on")
+    target: Place | None = Field(
+        None, description="point (m) or name of an entity it looks at, by default who it follows, or what it orbits"
+    )
+    fov: Annotated[float, In("rad", above=0.0, most=math.pi)] = Field(math.radians(50.0), description="vertical angle")
+    height: Annotated[float, In("m", above=0.0)] | None = Field(
+        None, description="of what is seen in parallel light (m), instead of fov"
+    )
+    up: Direction | None = Field(None, description="up in the picture, the world's up by default")
+
+    @model_validator(mode="after")
+    def check(self) -> Camera:
+        """Refuse a camera that is nowhere or in several places, and one that sees nothing."""
+        places = [key for key in ("position", "follow", "orbit") if getattr(self, key) is not None]
+        if len(places) != 1:
+            received = " and ".join(places) or "none"
+            raise WordError("must state one place", received=received, accepted="position, follow or orbit")
+        if self.height is not None and "fov" in self.model_fields_set:
+            raise WordError(
+                "must state one lens", received="fov and height", accepted="fov, or height for parallel light"
+            )
+        self._check_sight()
+        return self
+
+    def _check_sight(self) -> None:
+        start, end = self.position, self.target or (0.0, 0.0, 0.0)
+        if self.follow is not None and self.target in (None, self.follow.entity):
+            start, end = self.follow.offset, (0.0, 0.0, 0.0)
+        if start is None or isinstance(end, str):
+            return  # only a world knows where that is
+        sight = [b - a for a, b in zip(start, end, strict=True)]
+        if not any(sight):
+            raise WordError("looks at where it stands", accepted="a target elsewhere")
+        if self.position is not None and self.up is not None and along(self.up, sight):
+            raise WordError("looks along up", received=f"up {shown(list(self.up))}", accepted="an up across the view")
+
+
+def along(one: Sequence[float], other: Sequence[float]) -> bool:
+    """Tell whether two directions, of any length but 0, are the same or opposite but for rounding."""
+    return bool(np.linalg.norm(np.cross(one, other)) <= ALONG * math.hypot(*one) * math.hypot(*other))
+
+
+def check_entities(source: Source, cameras: dict[str, Any], names: Sequence[str]) -> None:
+    """Report every entity that a camera follows, looks at or orbits and that the world has not."""
+    for name, words in cameras.items():
+        for path, entity in _entities(words) if words is not None else ():
+            try:
+                known("entity", entity, names)
+            except WordError as fault:
+                source.report_value(("cameras", name, *path), fault)
+
+
+def _entities(camera: Camera) -> Iterator[tuple[Path, str]]:
+    if camera.follow is not None:
+        yield ("follow", "entity"), camera.follow.entity
+    if camera.orbit is not None and isinstance(camera.orbit.around, str):
+        yield ("orbit", "around"), camera.orbit.around
+    if isinstance(camera.target, str):
+        yield ("target",), camera.target

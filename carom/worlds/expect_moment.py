@@ -1,0 +1,105 @@
+"""Moments of expectations: a frame, an event, or the end of the run."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+from carom.ecs import Collider, World
+from carom.ecs.component import Relation
+from carom.ecs.relations.enter import Enter, Exit
+from carom.ecs.relations.impact import Impact
+from carom.systems.simulation import Simulation
+from carom.worlds.errors import WordError
+from carom.worlds.expectation import Expectation
+from carom.worlds.names import matching
+
+PARTIES: dict[type[Relation], tuple[str, str]] = {
+    Impact: ("a", "b"),
+    Enter: ("sensor", "entity"),
+    Exit: ("sensor", "entity"),
+}
+
+
+@dataclass(frozen=True)
+class Event:
+    """A row of an event table: which one of those between two groups of entities."""
+
+    kind: type[Relation]
+    first: frozenset[int]
+    second: frozenset[int]
+    nth: int
+    text: str
+
+    def matching_rows(self, world: World) -> list[int]:
+        """Return the rows of the last step that are such events; impacts count whichever of the two is named first."""
+        table = world[self.kind]
+        one, other = (getattr(table, name) for name in PARTIES[self.kind])
+        pairs = [(int(one[row]), int(other[row])) for row in range(table.count)]
+        swap = self.kind is Impact
+        return [row for row, pair in enumerate(pairs) if self._fits(*pair) or (swap and self._fits(*pair[::-1]))]
+
+    def _fits(self, one: int, other: int) -> bool:
+        return one in self.first and other in self.second
+
+
+def read_event(words: Any, world: World) -> Event:
+    """Return the event of ``{impact: [a, b], nth}``, or of ``enter`` or ``exit: [sensor, entity]``; raise WordError."""
+    ((kind, pair),) = ((kind, pair) for kind in PARTIES if (pair := getattr(words, kind.key)) is not None)
+    groups = [frozenset(int(world.find(name)) for name in matching(pattern, world.names())) for pattern in pair]
+    if kind is not Impact:
+        plain = [world.name(entity) for entity in groups[0] if not world[Collider].sensor[world.row(entity)]]
+        if plain:
+            raise WordError("is no sensor", received=repr(plain[0]), accepted="a collider with sensor: true")
+    text = f"{kind.key} {words.nth} of {pair[0]} and {pair[1]}"
+    return Event(kind, groups[0], groups[1], words.nth, text)
+
+
+class AtMoment(Expectation, ABC):
+    """An expectation that looks once: at a frame, at an event, or at the end where neither is stated."""
+
+    def __init__(self, text: str, expected: str, frame: int | None = None, when: Event | None = None) -> None:
+        self.frame, self.when, self.seen = frame, when, 0
+        moment = f" at frame {frame}" if frame is not None else "" if when is None else f" at {when.text}"
+        super().__init__(text + moment, expected)
+
+    @abstractmethod
+    def compare(self, simulation: Simulation, row: int | None) -> None:
+        """Look now, note what is seen in `worst`, and fail if that is wrong; a row is that of the event."""
+
+    def begin(self, simulation: Simulation) -> None:
+        """Compare at time 0 where that is the time."""
+        if self.frame == 0:
+            self.compare(simulation, None)
+
+    def observe(self, simulation: Simulation) -> None:
+        """Compare when the moment has come."""
+        if self.when is None:
+            if simulation.frame == self.frame:
+                self.compare(simulation, None)
+            return
+        for row in self.when.matching_rows(simulation.world) if self.seen < self.when.nth else ():
+            self.seen += 1
+            if self.seen == self.when.nth:
+                self.compare(simulation, row)
+
+    def end(self, simulation: Simulation) -> None:
+        """Compare where the end is the moment; fail when the moment never came."""
+        if self.when is None and self.frame is None:
+            self.compare(simulation, None)
+        elif self.worst:
+            return
+        elif self.when is not None:
+            self.fail(simulation, f"{self.seen} of {self.when.nth} such events by the end of the run")
+        else:
+            self.fail(simulation, f"the run ended at frame {simulation.frame}, before frame {self.frame}")
+
+
+def frame_of(time: float, dt: float) -> int:
+    """Return the step that ends at ``time``; raise WordError when none does."""
+    frame = round(time / dt)
+    if abs(frame * dt - time) > 1e-9 * max(time, dt):
+        accepted = f"a multiple of dt = {dt:.9g} s, such as {frame * dt:.9g} s"
+        raise WordError("is between two steps", received=f"{time:g} s", accepted=accepted)
+    return frame

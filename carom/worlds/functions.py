@@ -1,0 +1,41 @@
+"""Functions that expectations know: of one entity, and of two."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from carom.ecs import Motion, Transform, World
+from carom.ecs.column import Floats
+from carom.systems.energy import kinetic_energies
+from carom.systems.queries.space import Space
+
+
+def _speed(world: World, rows: list[int]) -> Floats:
+    return np.asarray(np.linalg.norm(world[Motion].linear[rows], axis=1))
+
+
+def _spin(world: World, rows: list[int]) -> Floats:
+    return np.asarray(np.linalg.norm(world[Motion].angular[rows], axis=1))
+
+
+def _energy(world: World, rows: list[int]) -> Floats:
+    return kinetic_energies(world, np.array(rows, np.int64))
+
+
+def _distance(world: World, rows: list[int]) -> float:
+    first, second = world[Transform].position[rows]
+    return float(np.linalg.norm(second - first))
+
+
+def _sees(world: World, rows: list[int]) -> float:
+    """Return 1 where nothing stands on the straight line between two origins but the two themselves, else 0."""
+    first, second = world[Transform].position[rows]
+    reach = _distance(world, rows)
+    pair = world.entities(np.array(rows))
+    return float(not reach or not Space(world).cast_rays_any(first, second - first, reach, without=pair)[0])
+
+
+CALLS = {"speed": ("m/s", _speed), "spin": ("rad/s", _spin), "kinetic_energy": ("J", _energy)}
+PAIRS: dict[str, tuple[str, Callable[[World, list[int]], float]]] = {"distance": ("m", _distance), "sees": ("1", _sees)}

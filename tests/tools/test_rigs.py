@@ -1,0 +1,125 @@
+"""Cameras that move with what they show, by where geometry has them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from carom.ecs.errors import CaromError
+from carom.tools.cameras import Camera
+from carom.tools.filming import shot_of
+from carom.tools.moments import Moments
+from carom.worlds import LoadedWorld, load_text
+
+WORLD = """carom: 1
+gravity: [0, 0, 0]
+step: {dt: 0.1, substeps: 1}
+entities:
+  - {name: ball, body: {mass: 1}, collider: {sphere: {radius: 0.5}}, transform: {position: [1, 2, 3]}, motion: {linear: [2, 0, 0], angular: [0, 3, 0]}}
+  - {name: stone, collider: {sphere: {radius: 0.5}}, transform: {position: [0, 5, 0]}}
+"""  # noqa: E501
+
+
+def world(camera: str, up: str = "y") -> LoadedWorld:
+    """Return a world in which a ball glides and spins, with one camera."""
+    return load_text(f"{WORLD}up: {up}\ncameras: {{main: {camera}}}\n")
+
+
+def camera_after(camera: str, steps: int = 0, up: str = "y") -> Camera:
+    """Return where that camera is after some steps of 0.1 s."""
+    loaded = world(camera, up)
+    loaded.simulation.step(steps)
+    return shot_of(loaded).camera(loaded.simulation.world)
+
+
+def test_a_fixed_camera_stays_and_may_look_at_a_body() -> None:
+    """Its target is the origin of the body, wherever that is."""
+    camera = camera_after("{position: [0, 0, 9], target: ball}", 5)
+    assert camera.position == (0.0, 0.0, 9.0)
+    assert camera.target == pytest.approx((2.0, 2.0, 3.0), abs=1e-12)
+
+
+def test_a_follower_keeps_its_offset_in_the_axes_of_the_world() -> None:
+    """Position = place + offset, whatever the body's spin; it looks at the body."""
+    camera = camera_after("{follow: {entity: ball, offset: [0, 1, 4]}}", 5)
+    assert camera.position == pytest.approx((2.0, 3.0, 7.0), abs=1e-12)
+    assert camera.target == pytest.approx((2.0, 2.0, 3.0), abs=1e-12)
+    assert camera_after("{follow: {entity: ball, offset: [0, 1, 4]}, target: stone}", 5).target == (0.0, 5.0, 0.0)
+
+
+def test_a_follower_in_the_axes_of_the_body_turns_with_it() -> None:
+    """After 0.5 s at 3 rad/s about y the offset has turned by 1.5 rad."""
+    camera = camera_after("{follow: {entity: ball, offset: [0, 1, 4], frame: body}}", 5)
+    turned = np.array((4.0 * math.sin(1.5), 1.0, 4.0 * math.cos(1.5)))
+    assert np.array(camera.position) - camera.target == pytest.approx(turned, abs=1e-9)
+
+
+@pytest.mark.parametrize(("up", "front", "right"), [("y", (0, 0, 1), (1, 0, 0)), ("z", (0, -1, 0), (1, 0, 0))])
+def test_an_orbit_is_a_circle_about_up_at_its_rate(up: str, front: tuple[int, ...], right: tuple[int, ...]) -> None:
+    """Anticlockwise from above, from in front, at constant distance and height over what it circles."""
+    words = "{orbit: {around: ball, distance: 2 m, elevation: 30 deg, azimuth: 10 deg, rate: 40 deg/s}}"
+    risen = np.array((0.0, 1.0, 0.0) if up == "y" else (0.0, 0.0, 1.0))
+    for steps in (0, 5, 20):
+        camera = camera_after(words, steps, up)
+        angle = math.radians(10.0 + 40.0 * 0.1 * steps)
+        level = math.cos(angle) * np.array(front) + math.sin(angle) * np.array(right)
+        away = 2.0 * (math.cos(math.pi / 6.0) * level + 0.5 * risen)
+        assert np.array(camera.position) - camera.target == pytest.approx(away, abs=1e-12)
+        assert camera.target == pytest.approx((1.0 + 0.2 * steps, 2.0, 3.0), abs=1e-9)
+        assert camera.up == tuple(risen)
+
+
+def test_a_camera_is_of_its_moment() -> None:
+    """Between two steps it stands by the time and the poses of then, not by those of the world."""
+    loaded = world("{orbit: {around: ball, distance: 2, elevation: 0 deg, rate: 1 rad/s}}")
+    simulation, moments = loaded.simulation, Moments([0.25])
+    for _ in range(3):
+        assert moments.due(simulation) == []
+        simulation.step()
+    ((time, poses),) = moments.due(simulation)
+    camera = shot_of(loaded).camera(simulation.world, time, poses)
+    assert camera.target == pytest.approx((1.5, 2.0, 3.0), abs=1e-12)
+    assert camera.position == pytest.approx((1.5 + 2.0 * math.sin(0.25), 2.0, 3.0 + 2.0 * math.cos(0.25)), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("words", "top"),
+    [
+        ("{position: [0, 9, 0]}", (0.0, 0.0, -1.0)),  # from above, what is far is at the top of the picture
+        ("{position: [0, -9, 0]}", (0.0, 0.0, 1.0)),
+        ("{orbit: {distance: 9, elevation: 90 deg, azimuth: 90 deg}}", (-1.0, 0.0, 0.0)),
+        ("{orbit: {distance: 9, elevation: -90 deg, azimuth: 90 deg}}", (1.0, 0.0, 0.0)),
+    ],
+)
+def test_a_view_along_up_is_turned_as_one_a_little_less_steep(words: str, top: tuple[float, ...]) -> None:
+    """Where the world's up says nothing, the picture's top is what it tends to."""
+    assert camera_after(words).pose()[:3, 1] == pytest.approx(top, abs=1e-12)
+
+
+def test_what_is_stated_of_the_lens_comes_through() -> None:
+    """Angle and height of the file are those of the camera, and up z is the world's."""
+    assert camera_after("{position: [0, 0, 9], fov: 30 deg}").fov == math.radians(30.0)
+    camera = camera_after("{position: [0, -9, 0], height: 4 m}", up="z")
+    assert (camera.height, camera.up) == (4.0, (0.0, 0.0, 1.0))
+    assert camera_after("{position: [0, -9, 0], up: [1, 0, 0]}").up == (1.0, 0.0, 0.0)
+
+
+def test_a_camera_whose_body_is_gone_says_so() -> None:
+    """A body that was removed leaves no place to look at; the error names camera and body."""
+    loaded = world("{follow: {entity: ball, offset: [0, 1, 4]}}")
+    now = loaded.simulation.world
+    now.despawn(now.find("ball"))
+    with pytest.raises(CaromError) as caught:
+        shot_of(loaded).camera(now)
+    assert str(caught.value) == "camera main: no entity is named 'ball'"
+
+
+def test_a_camera_that_its_target_reaches_says_so() -> None:
+    """A body that moves to where the camera stands leaves no direction; the error names camera and place."""
+    loaded = world("{position: [2, 2, 3], target: ball}")
+    loaded.simulation["ball"].transform.position = (2.0, 2.0, 3.0)
+    with pytest.raises(CaromError) as caught:
+        shot_of(loaded).camera(loaded.simulation.world)
+    assert str(caught.value) == "camera main: it stands where it looks at, (2.0, 2.0, 3.0)"
