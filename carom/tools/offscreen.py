@@ -87,9 +87,9 @@ def context() -> Any:
 
         platform = OSMesa(1, 1)
     else:
-        from pyrender.platforms import egl
+        from carom.tools.surfaceless import Surfaceless
 
-        platform = egl.EGLPlatform(1, 1)
+        platform = Surfaceless(1, 1)
     try:
         platform.init_context()
     except Exception as fault:

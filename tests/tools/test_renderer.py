@@ -303,6 +303,7 @@ from carom.tools.cameras import Camera
 from carom.tools.renderer import Renderer
 cube = box(extents=(1.0, 1.0, 1.0))
 with Renderer(64, 48) as renderer:
+    Renderer(64, 48).close()
     drawn = [Batch(cube.vertices, cube.faces, np.eye(4)[None], np.ones((1, 4)), np.zeros(1, np.int64))]
     camera = Camera((0.0, 0.0, 3.0))
     print(renderer.driver.partition(":")[0], (renderer.ids(drawn, camera) == 0).sum())
@@ -312,7 +313,10 @@ with Renderer(64, 48) as renderer:
 
 @pytest.mark.skipif(not offscreen.loads(("libEGL.so.1", "libEGL_mesa.so.0")), reason="no libEGL on this machine")
 def test_egl_draws_the_same_scene() -> None:
-    """Each backend covers the pixels that geometry demands, and all give the same mean brightness."""
+    """Each backend covers the pixels that geometry demands, and all give the same mean brightness.
+
+    That another renderer was made and closed meanwhile is nothing to the first.
+    """
     drawn = {}
     for name in ("egl", "osmesa"):
         if name == "osmesa" and not any(map(offscreen.loads, offscreen.LIBRARIES[name])):
