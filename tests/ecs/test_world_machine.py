@@ -1,4 +1,4 @@
-"""Ten thousand random changes of a world, each held against plain dicts and lists."""
+"""Thousands of random changes of a world, each held against plain dicts and lists."""
 
 from __future__ import annotations
 
@@ -45,8 +45,6 @@ TRIPLES = st.tuples(NUMBERS, NUMBERS, NUMBERS)
 NAMES = st.sampled_from(["", "ball", "wall", "rain[0]", "rain[1]", "rain[1,2]", "Ω"])
 PICK = st.integers(0, 10**6)  # whom of those there are, by the rest of a division
 KIND = st.sampled_from(KINDS)
-STEPS = 10_000
-EXAMPLES = 340
 
 
 class Machine(RuleBasedStateMachine):
@@ -335,13 +333,14 @@ class Machine(RuleBasedStateMachine):
         assert self.hashes.setdefault(state, found) == found
 
 
-def test_a_world_does_what_plain_dicts_do() -> None:
+@pytest.mark.parametrize("steps", [2_000, pytest.param(10_000, marks=pytest.mark.slow)])
+def test_a_world_does_what_plain_dicts_do(steps: int) -> None:
     """Whatever comes, goes, moves, is saved and restored: the same rows, values, names, changes and faults."""
     Machine.steps = 0
     run_state_machine_as_test(
         Machine,
         settings=settings(
-            max_examples=EXAMPLES,
+            max_examples=steps // 29,  # of at most 50 steps
             stateful_step_count=50,
             derandomize=True,
             database=None,
@@ -349,4 +348,4 @@ def test_a_world_does_what_plain_dicts_do() -> None:
             suppress_health_check=list(HealthCheck),
         ),
     )
-    assert Machine.steps >= STEPS
+    assert Machine.steps >= steps

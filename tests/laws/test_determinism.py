@@ -112,7 +112,7 @@ def test_another_process_gives_the_same_bits(here: list[str]) -> None:
     assert hashes(FRAMES, *WORLDS) == here
 
 
-@pytest.mark.skipif(not os.environ.get("CAROM_SLOW"), reason="compiles every kernel anew: set CAROM_SLOW=1")
+@pytest.mark.slow
 def test_a_processor_without_wide_vectors_gives_the_same_bits(here: list[str], tmp_path: Path) -> None:
     """AVX, AVX2, AVX-512 and fused operations turned off for NumPy and Numba change no bit of any frame."""
     assert hashes(

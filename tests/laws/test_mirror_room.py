@@ -36,8 +36,10 @@ def bounces(count: int) -> list[tuple[float, np.ndarray]]:
     return found
 
 
-@pytest.mark.parametrize("dt", [1 / 60, 1 / 240])
-def test_a_thousand_bounces_happen_when_and_where_they_should(dt: float) -> None:
+@pytest.mark.parametrize(
+    ("dt", "count"), [(1 / 60, 1000), (1 / 240, 250), pytest.param(1 / 240, 1000, marks=pytest.mark.slow)]
+)
+def test_bounces_happen_when_and_where_they_should(dt: float, count: int) -> None:
     """Positions within 1e-6 m, times within 1e-9 s, energy within 1e-9."""
     simulation = Simulation(dt=dt, gravity=(0.0, 0.0, 0.0))
     mirror = {"restitution": 1.0, "friction": 0.0}
@@ -49,14 +51,14 @@ def test_a_thousand_bounces_happen_when_and_where_they_should(dt: float) -> None
     )  # fmt: skip
     seen: list[tuple[float, np.ndarray]] = []
     worst_speed = 0.0
-    while len(seen) < 1000:
+    while len(seen) < count:
         simulation.step()
         impact = simulation.world[Impact]
         for k in range(impact.count):
             seen.append((float(impact.time[k]), impact.point[k] + RADIUS * impact.normal[k]))
         speed = float(np.sqrt((simulation[ball].motion.linear ** 2).sum()))
         worst_speed = max(worst_speed, abs(speed / 40.0 - 1.0))
-    for (time, place), (true_time, true_place) in zip(seen, bounces(1000), strict=False):
+    for (time, place), (true_time, true_place) in zip(seen, bounces(count), strict=False):
         assert abs(time - true_time) <= 1e-9
         assert np.abs(place - true_place).max() <= 1e-6
     assert worst_speed <= 0.5e-9  # energy is its square

@@ -63,7 +63,7 @@ def test_the_key_is_the_same_in_every_process() -> None:
     assert key.startswith("carom-kernels-numba-") and key.count("\n") == 1
 
 
-@pytest.mark.skipif(not os.environ.get("CAROM_SLOW"), reason="slow: set CAROM_SLOW=1")
+@pytest.mark.slow
 def test_after_warming_nothing_is_compiled(tmp_path: Path) -> None:
     """A heap of every shape, on a plane and on a mesh, finds all it needs."""
     run("-m", "carom.tools.cli", "warm", NUMBA_CACHE_DIR=str(tmp_path))
