@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.ecs.errors import CaromError
-from carom.tools.recorder import happenings
 from carom.tools.recorder.stream import FRAME, TIME
+from carom.tools.recorder.tracks import happenings
 
 NANOSECONDS = 1e-9
 ROW_ID = "rerun.controls.RowId"

@@ -10,7 +10,8 @@ import numpy.typing as npt
 
 from carom.ecs.errors import CaromError, did_you_mean
 from carom.tools.reading import read
-from carom.tools.recorder import bodies, contacts, edits, plots, snapshots
+from carom.tools.recorder import edits, snapshots
+from carom.tools.recorder.tracks import bodies, contacts, plots
 from carom.tools.tables import makers
 from carom.tools.tables.source import RecordedTable, Source
 

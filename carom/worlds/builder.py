@@ -25,7 +25,7 @@ from carom.worlds.prefab import extended
 from carom.worlds.reader import Source, read
 from carom.worlds.run import RunPlan, plan
 from carom.worlds.schema import VERSION, document
-from carom.worlds.sections import Render
+from carom.worlds.sections import RecordingWords, Render
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -50,6 +50,7 @@ class LoadedWorld:
     up: tuple[float, float, float] = UP["y"]
     cameras: dict[str, Camera] = field(default_factory=dict)
     render: Render = field(default_factory=lambda: Render.model_validate({}))
+    recording: RecordingWords = field(default_factory=lambda: RecordingWords.model_validate({}))
     warnings: list[str] = field(default_factory=list)
     files: dict[str, Path] = field(default_factory=dict)
 
@@ -108,9 +109,10 @@ def load_text(
             source.report_value(("render", "camera"), fault)
     source.refuse_if_faulty()
     render = values["render"] or Render.model_validate({})
+    recording = values["recording"] or RecordingWords.model_validate({})
     return LoadedWorld(
         simulation, data, name, text, plan(values["run"], simulation.settings.dt), expectations,
-        values["name"], values["description"], UP[values["up"]], values["cameras"], render, source.warnings,
+        values["name"], values["description"], UP[values["up"]], values["cameras"], render, recording, source.warnings,
         geometries.used,
     )  # fmt: skip
 

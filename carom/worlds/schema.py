@@ -32,6 +32,7 @@ from carom.worlds.sections import (
     Length,
     Lengths,
     OnEnter,
+    RecordingWords,
     Render,
     Run,
 )
@@ -117,6 +118,7 @@ def document() -> type[Words]:
         forces=(list[force], Field([], description="force laws")),  # type: ignore[valid-type]
         cameras=(dict[Name, Camera], Field({}, description="cameras by name")),
         render=(Render, Field(None, description="pictures and films")),
+        recording=(RecordingWords, Field(None, description="recordings")),
         expect=(list[Expect], Field([], description="what must hold in a run")),
     )  # fmt: skip
 

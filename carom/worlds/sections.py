@@ -14,6 +14,7 @@ from carom.worlds.values import Flag, In, Vector3, Whole, Words, either, word_of
 Length = Annotated[float, In("m")]
 Lengths = Annotated[Vector3, In("m")]
 Count = Annotated[int, Whole(1)]
+DETAILS = ("light", "full", "solver")  # how much a recording holds, each with all of those before it
 LayersMet = Annotated[list[str] | Literal["all"], WrapValidator(lambda value, handler: _layers_met(value))]
 
 
@@ -84,6 +85,14 @@ class Render(Words):
     color: str = Field("material", description="what the colour of bodies tells, such as speed")
     plots: list[str] = Field([], description="quantities over time in a corner, such as energy or speed(ball)")
     wireframe: Flag = Field(False, description="bodies as their edges only")
+
+
+class RecordingWords(Words):
+    """Recordings of the world."""
+
+    detail: word_of(*DETAILS) = Field(  # type: ignore[valid-type]
+        DETAILS[0], description="how much they hold: light, full with velocities, forces and more, or solver"
+    )
 
 
 class Measure(Words):

@@ -16,8 +16,8 @@ from carom.systems.simulation import Simulation
 from carom.tools.asking import ask
 from carom.tools.cli import main
 from carom.tools.recorder import Recorder
-from carom.tools.recorder.booked import Booked
 from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.tracks.booked import Booked
 from carom.tools.recording import Recording
 
 TABLES = "bodies, contacts, impacts, energy, overlap, counts, log, snapshots"

@@ -23,8 +23,8 @@ from carom.ecs.relations.impact import Impact
 from carom.systems.ledger import Ledger
 from carom.systems.simulation import Simulation
 from carom.tools.recorder import Recorder
-from carom.tools.recorder.contacts import closing_speeds
 from carom.tools.recorder.stream import application_id
+from carom.tools.recorder.tracks.contacts import closing_speeds
 from carom.tools.recording import Recording
 
 RED, BLUE, GREY = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9), (0.4, 0.4, 0.4)

@@ -13,8 +13,8 @@ import numpy as np
 
 from carom.tools.asking import ask
 from carom.tools.bench.measure import Figure, figure, timed
-from carom.tools.recorder.contacts import Contacts
 from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.tracks.contacts import Contacts
 from carom.tools.recording import Recording
 
 FRAMES, RATE = 1000, 60

@@ -26,6 +26,22 @@ def overrides(arguments: argparse.Namespace) -> dict[str, Any]:
     return found if arguments.dt is None else found | {"dt": seconds("--dt", arguments.dt, above=0.0)}
 
 
+def declare_detail(parser: argparse.ArgumentParser) -> None:
+    """Declare how much a recording holds."""
+    parser.add_argument(
+        "--detail", choices=("light", "full", "solver"), help="how much the recording holds; as the world file says"
+    )
+
+
+def detail(arguments: argparse.Namespace, stated: str, recorded: str) -> str:
+    """Return the detail of the command line or else that of the world; raise CaromError where nothing is recorded."""
+    from carom.ecs.errors import CaromError
+
+    if arguments.detail and not getattr(arguments, recorded):
+        raise CaromError(f"--detail: goes with --{recorded} FILE, the recording it is of")
+    return arguments.detail or stated
+
+
 def seconds(option: str, text: str, **bounds: float) -> float:
     """Return a time (s) as world files write it; raise CaromError, naming the option, for anything else."""
     return quantity(option, text, "s", **bounds)

@@ -6,7 +6,7 @@ import argparse
 import dataclasses
 from pathlib import Path
 
-from carom.tools.commands.options import ending, print_json, whole_number
+from carom.tools.commands.options import declare_detail, detail, ending, print_json, whole_number
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -19,6 +19,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", type=ending(".rrd"), metavar="FILE", help="record these frames again, every step (.rrd)"
     )
+    declare_detail(parser)
     parser.add_argument("--film", type=Path, metavar="FILE", help="film these frames (.mp4, .webp or .gif)")
     parser.add_argument("--picture", type=ending(".png"), metavar="FILE", help="write a picture of the last (.png)")
     parser.add_argument("--camera", metavar="NAME", help="camera of film and picture; the world's 'main' by default")
@@ -47,10 +48,13 @@ def execute(arguments: argparse.Namespace) -> int:
         )
     loaded = replay.loaded() if first == 0 else replay.loaded_at(first)
     simulation, shot = loaded.simulation, shot_of(loaded, arguments.camera)
+    level = detail(arguments, loaded.recording.detail, "out")
     observers: list[Observer] = []
     if arguments.out:
         title, source, files, camera = replay.title, replay.source, replay.files, shot.camera(simulation.world)
-        recorder = Recorder(arguments.out, every=1, title=title, source=source, files=files, camera=camera)
+        recorder = Recorder(
+            arguments.out, every=1, detail=level, title=title, source=source, files=files, camera=camera
+        )
         observers.append(recorder)
     if arguments.film:
         observers.append(Filming(shot, arguments.film))

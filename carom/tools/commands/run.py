@@ -9,7 +9,9 @@ from pathlib import Path
 
 from carom.tools.commands.look import declare_look, look
 from carom.tools.commands.options import (
+    declare_detail,
     declare_overrides,
+    detail,
     ending,
     overrides,
     print_json,
@@ -22,6 +24,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     """Declare the world, what to write, and what to override."""
     parser.add_argument("world", metavar="WORLD", help="a world file, or the name of a library world")
     parser.add_argument("--record", type=Path, metavar="FILE", help="write a Rerun recording (.rrd)")
+    declare_detail(parser)
     parser.add_argument("--film", type=Path, metavar="FILE", help="write a film (.mp4, .webp or .gif)")
     parser.add_argument(
         "--picture", type=ending(".png"), metavar="FILE", help="write a picture of the last state (.png)"
@@ -54,6 +57,7 @@ def execute(arguments: argparse.Namespace) -> int:
 
     loaded = load_world(arguments.world, checked=arguments.check or None, **overrides(arguments))
     print_warnings(loaded.warnings)
+    level = detail(arguments, loaded.recording.detail, "record")
     shot = shot_of(loaded, arguments.camera, look(arguments, loaded))
     if arguments.film or arguments.picture:
         print_warnings(vantage_warnings(shot, loaded.simulation))
@@ -61,7 +65,9 @@ def execute(arguments: argparse.Namespace) -> int:
     if arguments.record:
         title = loaded.name or Path(loaded.path).stem
         camera, source = shot.camera(loaded.simulation.world), loaded.source_text
-        recorder = Recorder(arguments.record, title=title, source=source, files=loaded.contents(), camera=camera)
+        recorder = Recorder(
+            arguments.record, detail=level, title=title, source=source, files=loaded.contents(), camera=camera
+        )
         observers.append(recorder)
     if arguments.film:
         observers.append(Filming(shot, arguments.film))

@@ -32,7 +32,7 @@ def versions_here() -> dict[str, str]:
     return tagged | {"processor": this_machine().processor}
 
 
-def about(title: str, simulation: Simulation, source: str | None) -> list[Any]:
+def about(title: str, simulation: Simulation, source: str | None, detail: str) -> list[Any]:
     """Return a text to read and the same as values: settings with the seed, versions, the world file as it was."""
     import rerun
 
@@ -44,7 +44,8 @@ def about(title: str, simulation: Simulation, source: str | None) -> list[Any]:
         lines += ["", "```yaml", source.rstrip(), "```"]
     document = rerun.TextDocument("\n".join(lines), media_type="text/markdown")
     frame = explain(simulation.schedule)
-    values = rerun.AnyValues(title=title, world_file=source or "", schedule=frame, **stated, **versions_here())
+    own = {"title": title, "world_file": source or "", "schedule": frame, "detail": detail}
+    values = rerun.AnyValues(**own, **stated, **versions_here())
     return [document, values]
 
 

@@ -2,44 +2,40 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from carom.ecs import Collider, Motion, Transform, Visual, World
-from carom.systems.ledger import Ledger
 from carom.tools.cameras import Camera, Vector, front
-from carom.tools.recorder import about, bodies, booked, contacts, happenings, plots
+from carom.tools.recorder import about
+from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.stream import TIME
+from carom.tools.recorder.track import Track
+from carom.tools.recorder.tracks.bodies import ROOT
 
 BACKGROUND = (44, 50, 60)
 
 
-def blueprint(world: World, camera: Camera) -> Any:
-    """Return a large view of the world beside the log and the plots, playing on simulated time."""
+def blueprint(world: World, camera: Camera, tracks: Iterable[Track]) -> Any:
+    """Return a large view of the world beside the plots and texts of its tracks, on simulated time."""
     import rerun.blueprint as rrb
 
+    layout = Layout()
+    for track in tracks:
+        track.lay_out(world, layout)
     controls = rrb.EyeControls3D(position=camera.position, look_target=camera.target, eye_up=camera.up)
     scene = rrb.Spatial3DView(
-        origin=bodies.ROOT,
-        contents=["$origin/**", f"- {contacts.NORMALS}"],
+        origin=ROOT,
+        overrides={path: [rrb.EntityBehavior(visible=False)] for path in layout.hidden},
         name="World",
         eye_controls=controls,
         line_grid=not has_scenery(world),
         background=BACKGROUND,
     )
-    curves = rrb.Vertical(
-        rrb.TimeSeriesView(origin=plots.ENERGY, name="Energy (J)"),
-        rrb.TimeSeriesView(origin=plots.OVERLAP, name="Deepest overlap (mm)"),
-        rrb.TimeSeriesView(origin=plots.COUNTS, name="Counts"),
-        *([rrb.TimeSeriesView(origin=booked.PATH, name="Energy given and taken (J)")] if world[Ledger].kept else []),
-        name="Plots",
-    )
-    columns = rrb.TextLogColumns(timeline_columns=[TIME], text_log_columns=["body"])
-    texts = rrb.Tabs(
-        rrb.TextLogView(origin=happenings.PATH, name="Log", columns=columns),
-        rrb.TextDocumentView(origin=about.PATH, name="About"),
-    )
+    curves = rrb.Vertical(*layout.plots, name="Plots")
+    texts = rrb.Tabs(*layout.texts, rrb.TextDocumentView(origin=about.PATH, name="About"))
     return rrb.Blueprint(
         rrb.Horizontal(scene, rrb.Vertical(curves, texts, row_shares=[2, 1]), column_shares=[3, 1]),
         rrb.BlueprintPanel(state="collapsed"),

@@ -10,16 +10,11 @@ from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.recorder import about
 from carom.tools.recorder.blueprint import blueprint, default_camera
-from carom.tools.recorder.bodies import ROOT, Bodies
-from carom.tools.recorder.booked import Booked
-from carom.tools.recorder.contacts import Contacts
+from carom.tools.recorder.detail import tracks_of
 from carom.tools.recorder.edits import Edits
-from carom.tools.recorder.happenings import Happenings
-from carom.tools.recorder.impacts import Impacts
-from carom.tools.recorder.plots import Plots
 from carom.tools.recorder.snapshots import Snapshots
 from carom.tools.recorder.stream import Stamp, Stream
-from carom.tools.recorder.track import Track
+from carom.tools.recorder.tracks.bodies import ROOT
 
 FLUSH_AFTER = 0.9  # s of real time: a kill then loses less than the last second also of a slow run
 
@@ -29,8 +24,9 @@ class Recorder:
 
     Every ``every``-th step is recorded, by default as many as make ``fps`` frames a simulated second; impacts and
     sensors entered are told of every step. Samples are written in blocks and flushed after a second of simulated or of
-    real time, whichever ends first. ``title``, ``source`` (the text of the world file) and ``files`` (the content of
-    those it names, by its words for them) travel in the recording.
+    real time, whichever ends first. ``detail`` says how much is recorded: ``light``, ``full`` or ``solver``; no bit of
+    the run depends on it. ``title``, ``source`` (the text of the world file) and ``files`` (the content of
+    those it names, by its words for them) travel in the recording. Raises DeclarationError for an unknown detail.
     """
 
     def __init__(
@@ -39,6 +35,7 @@ class Recorder:
         every: int | None = None,
         fps: int = 60,
         *,
+        detail: str = "light",
         title: str = "world",
         source: str | None = None,
         files: Mapping[str, bytes] | None = None,
@@ -49,10 +46,9 @@ class Recorder:
         self._every, self._fps = every, fps
         self._title, self._source, self._files, self._camera = title, source, files, camera
         self._stream: Stream | None = None
-        self._every_step: tuple[Track, ...] = (Happenings(), Impacts())
-        self._edits = Edits()
-        self._snapshots = Snapshots()
-        self._tracks: tuple[Track, ...] = (Bodies(), Contacts(), Plots(), Booked(), self._snapshots)
+        self._detail = detail
+        self._edits, self._snapshots = Edits(), Snapshots()
+        self._tracks = {**tracks_of(detail), "snapshots": self._snapshots}
         self._seen = self._waiting = 0
         self._flushed = 0.0
 
@@ -68,11 +64,13 @@ class Recorder:
         camera = self._camera or default_camera(world)
         upright = camera.up[1] >= abs(camera.up[2])
         axes = rerun.ViewCoordinates.RIGHT_HAND_Y_UP if upright else rerun.ViewCoordinates.RIGHT_HAND_Z_UP
-        self._stream = Stream(self.path, self._title, blueprint(world, camera))
+        self._stream = Stream(self.path, self._title, blueprint(world, camera, self._tracks.values()))
         self._stream.static(ROOT, axes)
-        self._stream.static(about.PATH, *about.about(self._title, simulation, self._source))
+        self._stream.static(about.PATH, *about.about(self._title, simulation, self._source, self._detail))
         if self._files:
             self._stream.static(about.FILES, about.files(self._files))
+        for track in self._tracks.values():
+            track.begin(simulation, self._stream, self._tracks)
         self._record(simulation, self._stream)
         self._write(self._stream)
 
@@ -80,8 +78,7 @@ class Recorder:
         """Record the step if it is one of the frames; write and flush about once a second."""
         assert self._stream is not None and self._every is not None, "begin() comes before observe()"
         self._seen = simulation.frame
-        for track in self._every_step:
-            track.sample(simulation, _stamp(simulation), self._stream)
+        self._sample(simulation, self._stream, every_step=True)
         if self._edits.sample(simulation, _stamp(simulation)):
             self._snapshots.after_edit(simulation, _stamp(simulation))
         if simulation.frame % self._every == 0:
@@ -99,13 +96,17 @@ class Recorder:
             stream.close()
 
     def _record(self, simulation: Simulation, stream: Stream) -> None:
-        for track in self._tracks:
-            track.sample(simulation, _stamp(simulation), stream)
+        self._sample(simulation, stream, every_step=False)
         self.frames += 1
         self._waiting += 1
 
+    def _sample(self, simulation: Simulation, stream: Stream, *, every_step: bool) -> None:
+        for track in self._tracks.values():
+            if track.every_step is every_step:
+                track.sample(simulation, _stamp(simulation), stream)
+
     def _write(self, stream: Stream) -> None:
-        for track in (*self._tracks, *self._every_step):
+        for track in self._tracks.values():
             track.write(stream)
         self._edits.write(stream)
         stream.flush()

@@ -5,13 +5,14 @@ from __future__ import annotations
 from carom.ecs import bytes_from_snapshot, state_hash, take_snapshot
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.track import Track
 
 PATH = "snapshots"
 EVERY = 1.0  # s, of simulated time
 EDITED = 0.5  # s, of simulated time between snapshots after edits: a game may edit in every step
 
 
-class Snapshots:
+class Snapshots(Track):
     """Snapshots and hashes of state: in the first recorded frame of every second, after edits and at the end."""
 
     def __init__(self) -> None:

@@ -1,18 +1,46 @@
-"""Track: one kind of thing a recording holds."""
+"""Track: one kind of thing a recording holds, from some level of detail on."""
 
 from __future__ import annotations
 
-from typing import Protocol
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import Any, ClassVar
 
+from carom.ecs import World
+from carom.systems.registry import enter
 from carom.systems.simulation import Simulation
+from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.stream import Stamp, Stream
 
+TRACKS: dict[str, type[Track]] = {}
 
-class Track(Protocol):
-    """What samples the world cheaply in recorded frames, and writes its samples in blocks about once a second."""
 
+class Track(ABC):
+    """What samples the world cheaply in recorded frames, and writes its samples in blocks about once a second.
+
+    ``key`` is its name and ``detail`` the least level that has it. One with ``every_step`` sees every step, recorded
+    frame or not. An instance belongs to one recording.
+    """
+
+    key: ClassVar[str] = ""
+    detail: ClassVar[str] = "light"
+    every_step: ClassVar[bool] = False
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if "key" in vars(cls):
+            enter(TRACKS, cls.key, cls, clash="tracks have the key", mend="give one of them another key")
+
+    def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:  # noqa: B027
+        """Write what holds at all times, before the first frame; ``tracks`` are all of the recording, by key."""
+
+    def lay_out(self, world: World, layout: Layout) -> None:  # noqa: B027
+        """Add what is seen of it when the recording is opened; most need nothing but the view of the world."""
+
+    @abstractmethod
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep what the recording needs of this frame."""
 
+    @abstractmethod
     def write(self, stream: Stream) -> None:
         """Write what was kept since the last call."""

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from carom.ecs import Transform
 from carom.ecs.column import Integers
 from carom.ecs.dataframe import Flat, flat
-from carom.tools.recorder.bodies import ROOT
+from carom.tools.recorder.tracks.bodies import ROOT
 from carom.tools.tables.source import Source, flats
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from carom.ecs.dataframe import Flat
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
-from carom.tools.recorder.contacts import POINTS
+from carom.tools.recorder.tracks.contacts import POINTS
 from carom.tools.tables.source import Source, flats
 
 PATH = f"/{POINTS}"

@@ -6,7 +6,7 @@ import numpy as np
 
 from carom.ecs.dataframe import Flat, flat
 from carom.ecs.relations.impact import Impact
-from carom.tools.recorder.impacts import NUMBERS, PATH, VECTORS
+from carom.tools.recorder.tracks.impacts import NUMBERS, PATH, VECTORS
 from carom.tools.tables.source import Source, flats
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs.dataframe import Flat, flat
-from carom.tools.recorder.booked import PATH as LEDGER
-from carom.tools.recorder.plots import PATHS
+from carom.tools.recorder.tracks.booked import PATH as LEDGER
+from carom.tools.recorder.tracks.plots import PATHS
 from carom.tools.tables.source import Source
 
 ROOT = "/plots/"

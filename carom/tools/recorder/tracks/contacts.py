@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import ClassVar
+
 import numpy as np
 import numpy.typing as npt
 
@@ -12,7 +15,9 @@ from carom.systems.compound import bodies_of
 from carom.systems.energy import centers_of_mass
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Columns, joined
+from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.track import Track
 
 PATH = "world/contacts"
 POINTS, NORMALS = f"{PATH}/points", f"{PATH}/normals"
@@ -21,24 +26,32 @@ POINT_RADIUS = -3.0  # negative: points of the screen, visible at any scale
 ARROW_RADIUS = -1.5
 
 
-class Contacts:
+class Contacts(Track):
     """The touching rows of the contact table; rows that only may touch within a step are left out."""
+
+    key: ClassVar[str] = "contacts"
 
     def __init__(self) -> None:
         self._pending: list[tuple[Stamp, Columns]] = []
-        self._length = 0.0
+        self._length = 1.0
         self._structure = -1
         self._unseen = np.zeros(0, np.int64)
 
-    def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
-        """Keep the contacts of this frame."""
+    def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:
+        """Write colours and sizes of points and arrows."""
         import rerun
 
+        self._length = typical_radius(simulation.world)
+        stream.static(POINTS, rerun.Points3D.from_fields(colors=[COLOR], radii=[POINT_RADIUS]))
+        stream.static(NORMALS, rerun.Arrows3D.from_fields(colors=[COLOR], radii=[ARROW_RADIUS]))
+
+    def lay_out(self, world: World, layout: Layout) -> None:
+        """Show the points without the arrows."""
+        layout.hide(NORMALS)
+
+    def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
+        """Keep the contacts of this frame."""
         world = simulation.world
-        if not self._pending and not self._length:
-            self._length = typical_radius(world)
-            stream.static(POINTS, rerun.Points3D.from_fields(colors=[COLOR], radii=[POINT_RADIUS]))
-            stream.static(NORMALS, rerun.Arrows3D.from_fields(colors=[COLOR], radii=[ARROW_RADIUS]))
         if self._structure != world.structure:
             self._structure = world.structure
             self._name_unseen(world, stamp, stream)

@@ -2,22 +2,36 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from carom.ecs import World
 from carom.ecs.errors import EntityError
 from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
-from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.layout import Layout
+from carom.tools.recorder.stream import TIME, Stamp, Stream
+from carom.tools.recorder.track import Track
 
 PATH = "log"
 MOST_LINES = 50  # of impacts a step: beyond it nobody reads them, and a pile of bodies has thousands
 
 
-class Happenings:
+class Happenings(Track):
     """Lines for what happened in every step, recorded frame or not."""
+
+    key: ClassVar[str] = "log"
+    every_step: ClassVar[bool] = True
 
     def __init__(self) -> None:
         self._pending: list[tuple[Stamp, str, str]] = []
+
+    def lay_out(self, world: World, layout: Layout) -> None:
+        """Show the lines with their times."""
+        import rerun.blueprint as rrb
+
+        columns = rrb.TextLogColumns(timeline_columns=[TIME], text_log_columns=["body"])
+        layout.texts.append(rrb.TextLogView(origin=PATH, name="Log", columns=columns))
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep a line for each impact, and each sensor entered or left in the last step."""

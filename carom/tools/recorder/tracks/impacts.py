@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Columns, joined
 from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.track import Track
 
 PATH = "impacts"
 NUMBERS = ("time", "a", "b", "speed", "impulse", "work")
 VECTORS = ("point", "normal")
 
 
-class Impacts:
+class Impacts(Track):
     """The impact table of every step in which there were any; vectors are float32."""
+
+    key: ClassVar[str] = "impacts"
+    every_step: ClassVar[bool] = True
 
     def __init__(self) -> None:
         self._pending: list[tuple[Stamp, Columns]] = []

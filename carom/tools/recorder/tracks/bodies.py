@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +16,7 @@ from carom.systems.shapes.geometry import Geometries
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.surfaces import mesh_of
+from carom.tools.recorder.track import Track
 
 ROOT = "world"
 LOOK = ("shape", "size", "geometry", "position", "rotation", "color")
@@ -30,12 +32,14 @@ class Group:
     span: slice
 
 
-class Bodies:
+class Bodies(Track):
     """Poses of all visible entities, float32 as Rerun keeps them; a group's are written only where they changed.
 
     Bodies may come and go: which entity is which instance is written whenever it changes, and a group that loses its
     last entity is cleared.
     """
+
+    key: ClassVar[str] = "bodies"
 
     def __init__(self) -> None:
         self._groups: dict[bytes, Group] = {}

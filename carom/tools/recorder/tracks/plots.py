@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import ClassVar
+
+from carom.ecs import World
 from carom.systems.simulation import Simulation
 from carom.tools.quantities import QUANTITIES
+from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.track import Track
 
 ENERGY, OVERLAP, COUNTS = "plots/energy", "plots/overlap", "plots/counts"
 PATHS = {ENERGY: QUANTITIES["energy"], OVERLAP: QUANTITIES["overlap"], COUNTS: QUANTITIES["counts"]}
@@ -18,12 +24,26 @@ COLORS = {
 }
 
 
-class Plots:
+class Plots(Track):
     """Energies in J, the deepest overlap in mm, and how many bodies and contacts there are."""
+
+    key: ClassVar[str] = "plots"
 
     def __init__(self) -> None:
         self._pending: list[tuple[Stamp, dict[str, float]]] = []
-        self._styled = False
+
+    def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:
+        """Write the colours of the curves."""
+        import rerun
+
+        for path, color in COLORS.items():
+            stream.static(path, rerun.SeriesLines(colors=[color], widths=[2.0]))
+
+    def lay_out(self, world: World, layout: Layout) -> None:
+        """Show all."""
+        layout.plot(ENERGY, "Energy (J)")
+        layout.plot(OVERLAP, "Deepest overlap (mm)")
+        layout.plot(COUNTS, "Counts")
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the numbers of this frame."""
@@ -38,8 +58,6 @@ class Plots:
         if not self._pending:
             return
         stamps = [stamp for stamp, _ in self._pending]
-        for path, color in COLORS.items():
-            if not self._styled:
-                stream.static(path, rerun.SeriesLines(colors=[color], widths=[2.0]))
+        for path in COLORS:
             stream.rows(path, stamps, rerun.Scalars.columns(scalars=[values[path] for _, values in self._pending]))
-        self._pending, self._styled = [], True
+        self._pending = []

@@ -1,0 +1,80 @@
+"""Levels of detail: each has all before it, commands go before worlds, and no bit of a run depends on one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from carom.ecs import DeclarationError
+from carom.tools.cli import main
+from carom.tools.recorder import Recorder
+from carom.tools.recorder.detail import tracks_of
+from carom.tools.recording import Recording
+from carom.worlds.sections import DETAILS
+
+WORLD = """
+carom: 1
+run: {frames: 30}
+recording: {detail: full}
+entities:
+  - {name: floor, collider: {plane: {}}}
+  - {name: ball, transform: {position: [0, 0.2, 0]}, collider: {sphere: {radius: 0.1}}, body: {}}
+"""
+
+
+def detail(path: Path) -> str:
+    """Return the detail a recording says it has."""
+    return str(Recording(path).static["/about"]["detail"][0])
+
+
+def test_each_level_has_all_of_those_before_it() -> None:
+    """In order of the registry."""
+    light, full, solver = (list(tracks_of(level)) for level in DETAILS)
+    assert light == ["bodies", "ledger", "contacts", "log", "impacts", "plots"]
+    assert [key for key in full if key in light] == light
+    assert [key for key in solver if key in full] == full
+
+
+def test_the_command_line_goes_before_the_world(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of a run and of a replay."""
+    world, path, part = tmp_path / "world.yaml", tmp_path / "rec.rrd", tmp_path / "part.rrd"
+    world.write_text(WORLD)
+    assert main(["run", str(world), "--record", str(path)]) == 0
+    assert detail(path) == "full"
+    assert main(["run", str(world), "--record", str(path), "--detail", "light"]) == 0
+    assert detail(path) == "light"
+    frames = ["--from", "10", "--to", "12", "--out", str(part)]
+    assert main(["replay", str(path), *frames]) == 0
+    assert detail(part) == "full"
+    assert main(["replay", str(path), *frames, "--detail", "solver"]) == 0
+    assert detail(part) == "solver"
+    assert Recording(part).frames == [10, 11, 12]
+    capsys.readouterr()
+    assert main(["replay", str(path), "--detail", "full"]) == 2
+    assert capsys.readouterr().err == "--detail: goes with --out FILE, the recording it is of\n"
+
+
+def test_no_bit_of_a_run_depends_on_the_detail(tmp_path: Path) -> None:
+    """Nor does what a replay finds: hashes of state are the same."""
+    hashes = []
+    for level in DETAILS:
+        path = tmp_path / f"{level}.rrd"
+        assert main(["run", "billiards", "--frames", "240", "--record", str(path), "--detail", level]) == 0
+        hashes.append([saved.hash for saved in Recording(path).saved_states()])
+        assert len(hashes[-1]) > 1
+    assert hashes[0] == hashes[1] == hashes[2]
+
+
+def test_a_detail_that_is_none_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """From Python, of a world, and where nothing is recorded."""
+    with pytest.raises(DeclarationError) as caught:
+        Recorder(tmp_path / "rec.rrd", detail="ful")
+    assert str(caught.value) == "no detail is named 'ful'; accepted: light, full, solver; did you mean 'full'?"
+    world = tmp_path / "world.yaml"
+    world.write_text(WORLD.replace("detail: full", "detail: ful"))
+    assert main(["run", str(world)]) == 2
+    told = f"{world}:4:13: recording.detail: unknown word; received 'ful'; accepted: light, full, solver\n"
+    assert capsys.readouterr().err == told
+    assert main(["run", "bounce", "--detail", "full"]) == 2
+    assert capsys.readouterr().err == "--detail: goes with --record FILE, the recording it is of\n"
