@@ -29,9 +29,10 @@ CLOSED = [(a, b) for a in BALLS for b in ("sphere", "point", "box", "plane")]
 CLOSED += [(b, a) for a, b in CLOSED if b not in BALLS]
 
 
+@pytest.mark.parametrize("count", [800, pytest.param(2000, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("a", "b"), CLOSED)
-def test_kernels_agree_with_fcl(a: str, b: str) -> None:
-    """In 2,000 random poses, near and deep: the same normal and depth to 1e-9, 2e-9 m with FCL's points.
+def test_kernels_agree_with_fcl(a: str, b: str, count: int) -> None:
+    """In random poses, near and deep: the same normal and depth to 1e-9, 2e-9 m with FCL's points.
 
     FCL's points have a radius of 1 nm, which also tilts what is nearer than that; no pose here is.
     """
@@ -40,7 +41,7 @@ def test_kernels_agree_with_fcl(a: str, b: str) -> None:
     pairs, reaches = np.array([[0, 1]]), np.array([0.3])
     within = 2.5e-9 if "point" in (a, b) else 1e-9
     seen = 0
-    for _ in range(2000):
+    for _ in range(count):
         shift = generator.uniform(-1.2, 1.2, 3)
         poses = Poses(generator.normal(size=3), turns(generator), np.zeros(3), turns(generator))
         poses = poses._replace(position_b=poses.position_a + shift)
@@ -54,7 +55,7 @@ def test_kernels_agree_with_fcl(a: str, b: str) -> None:
             if not ambiguous(a, b, poses):
                 assert found.normal[0] == pytest.approx(normal, abs=2e-8 if "point" in (a, b) else 1e-9)
                 assert found.point[0] == pytest.approx(place, abs=1e-8)
-    assert seen > 10
+    assert seen > count / 200
 
 
 def ambiguous(a: str, b: str, poses: Poses) -> bool:

@@ -90,7 +90,9 @@ def test_a_quantity_that_is_off_is_noticed(name: str, pattern: str, factor: floa
     found = re.search(pattern, text)
     assert found is not None
     changed = text[: found.start(1)] + repr(float(found[1]) * factor + offset) + text[found.end(1) :]
-    assert not all(outcome.held for outcome in run(load_text(changed, name), to_first_failure=True))
+    loaded = load_text(changed, name)
+    loaded.simulation.checked = False  # what its systems touch is guarded where all holds
+    assert not all(outcome.held for outcome in run(loaded, to_first_failure=True))
 
 
 def test_the_blow_of_the_bowling_ball_hands_its_momentum_on() -> None:
