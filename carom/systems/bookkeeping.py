@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from carom.ecs import ExternalForce, Force, Motion, RigidBody, Schedule, System, Transform, World
+from carom.ecs import ExternalForce, Force, Motion, RigidBody, Schedule, System, Transform
 from carom.ecs.column import Booleans, Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -26,6 +26,9 @@ from carom.systems.ledger import Dissipation, Ledger
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.step import STEP
+
+if TYPE_CHECKING:
+    from carom.systems.simulation import Simulation
 
 
 class Velocities(NamedTuple):
@@ -51,18 +54,17 @@ class Pull(NamedTuple):
 
 
 class Bookkeeping:
-    """Books into the ledger of a world; `note` is to be told of every system that has run."""
+    """Books into the ledger of a simulation; `note` is to be told of every system that has run."""
 
-    def __init__(self, world: World) -> None:
-        self._world, self._ledger = world, world[Ledger]
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation, self._world = simulation, simulation.world
+        self._ledger: Ledger = self._world[Ledger]
         self._energy: float | None = None
         self._schedule: Schedule | None = None
         self._ledger.kept = True
 
-    def follow(self, schedule: Schedule) -> None:
-        """Follow the systems of a schedule from now on."""
-        if schedule is self._schedule:
-            return
+    def _follow(self, schedule: Schedule) -> None:
+        """Know the systems of a schedule from now on."""
         own, systems = {system.name for _, system in STEP}, [system for _, system in schedule]
         self._strange = {system.name for system in systems if system.name not in own and Force not in system.adds}
         self._before_strange = {a.name for a, b in pairwise(systems) if b.name in self._strange}
@@ -70,6 +72,8 @@ class Bookkeeping:
 
     def note(self, system: System) -> None:
         """Book what a system has done."""
+        if self._schedule is not self._simulation.schedule:
+            self._follow(self._simulation.schedule)
         name = system.name
         if stage := STAGES.get(name):
             stage(self)

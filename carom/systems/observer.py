@@ -25,9 +25,10 @@ class Observer(Protocol):
 
 @contextmanager
 def unobserved(simulation: Simulation) -> Iterator[None]:
-    """Let nobody see the steps a simulation takes within this context."""
-    observers, simulation.observers = simulation.observers, []
+    """Let nobody see or hear of the steps a simulation takes within this context."""
+    observers, hearers = simulation.observers, simulation.hearers
+    simulation.observers, simulation.hearers = [], []
     try:
         yield
     finally:
-        simulation.observers = observers
+        simulation.observers, simulation.hearers = observers, hearers

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import pi
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -30,10 +31,24 @@ from carom.systems.threads import Threads, parts_for, share_out
 Yielding = tuple[float, float]
 
 
+class Stage(NamedTuple):
+    """A stage of solving, so many sweeps over all groups; ``soft`` and ``rigid`` say how contacts yield in it."""
+
+    name: str
+    sweeps: int
+    h: float
+    soft: Yielding
+    rigid: Yielding
+
+
 class Resting(Resource):
-    """Runs of contacts on one plane, in groups that are solved side by side, and the bodies they are of."""
+    """Runs of contacts on one plane, in groups that are solved side by side, and the bodies they are of.
+
+    ``hearers`` are told of every sweep that has been done, by its stage and number; 0 is before the first.
+    """
 
     def __init__(self) -> None:
+        self.hearers: list[Callable[[Stage, int], None]] = []
         self.count = self.groups = self.levels = 0
         self.structure = -1  # that of the world when contacts were detected
         self.start = np.zeros(1, np.int64)
@@ -100,7 +115,7 @@ class Resting(Resource):
             world, start_warm, self.levels, self.level_ends,
             self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
         )  # fmt: skip
-        self._solve(world, 1, h, *yielding(h))
+        self._solve(world, Stage("solve", 1, h, *yielding(h)))
         unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
 
     def closing(self, world: World, at: float, h: float) -> Booleans:
@@ -136,17 +151,26 @@ class Resting(Resource):
         """Take the speed by which overlap left out of the velocities, and sum up the impulses."""
         rows, motion, hard = world[Awake].now(world), world[Motion], (0.0, 1.0)
         pack_velocities(rows, motion.linear, motion.angular, self.bodies)
-        self._solve(world, RELAX_SWEEPS, h, hard, hard)
+        self._solve(world, Stage("relax", RELAX_SWEEPS, h, hard, hard))
         unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
         share_out(
             world, self.groups, lambda begin, end: sum_impulses(begin, end, self.points, self.row, self.lanes)
         )  # fmt: skip
 
-    def _solve(self, world: World, sweeps: int, h: float, soft: Yielding, rigid: Yielding) -> None:
-        self._together(
-            world, press_groups, sweeps, h, self.ends, self.levels, self.level_ends, soft, rigid,
-            self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
-        )  # fmt: skip
+    def _solve(self, world: World, stage: Stage) -> None:
+        """Do all sweeps of a stage, one by one for those who are to hear of each."""
+        self._tell(stage, 0)
+        at_once = 1 if self.hearers else stage.sweeps
+        for done in range(at_once, stage.sweeps + 1, at_once):
+            self._together(
+                world, press_groups, at_once, stage.h, self.ends, self.levels, self.level_ends, stage.soft, stage.rigid,
+                self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
+            )  # fmt: skip
+            self._tell(stage, done)
+
+    def _tell(self, stage: Stage, done: int) -> None:
+        for hear in self.hearers:
+            hear(stage, done)
 
     def _together(self, world: World, kernel: Kernel, *arguments: Any) -> None:
         """Run a kernel that goes level by level in all threads at once."""

@@ -61,7 +61,8 @@ class Simulation:
     """A world that steps: ``Simulation(dt=1/240)``; every option of `Settings` is a keyword.
 
     ``checked`` enforces what systems declare to touch (default: the environment variable CAROM_CHECK). Set ``watched``
-    to have a NaN traced to the system that made it, at the price of a snapshot before every step.
+    to have a NaN traced to the system that made it, at the price of a snapshot before every step. ``observers`` see the
+    world after each step, ``hearers`` are told of each system that has run.
     """
 
     def __init__(self, *, checked: bool | None = None, **settings: Any) -> None:
@@ -74,7 +75,7 @@ class Simulation:
         self.clock = Clock()
         self.space = Space(self.world)
         self._earlier = EarlierPoses()
-        self._bookkeeping: Bookkeeping | None = None
+        self.hearers: list[Callable[[System], None]] = []
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
         packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
         caches = (*packed, Resting(), Sensing(), Threads(), Scene(), Awake(), Fast(), Ledger())
@@ -123,8 +124,10 @@ class Simulation:
 
     def keep_ledger(self) -> Ledger:
         """Book from now on, in every step, where energy comes from and goes to; return the ledger."""
-        self._bookkeeping = Bookkeeping(self.world)
-        return self.world[Ledger]
+        ledger: Ledger = self.world[Ledger]
+        if not ledger.kept:
+            self.hearers.insert(0, Bookkeeping(self).note)
+        return ledger
 
     # Running.
     @property
@@ -154,11 +157,7 @@ class Simulation:
     def _take_step(self, after: Callable[[System], None] | None) -> None:
         self.world[Awake].strangers = has_strangers(self.schedule)
         self.world.frame += 1
-        if self._bookkeeping:
-            self._bookkeeping.follow(self.schedule)
-        hearers: list[Callable[[System], None]] = [self._bookkeeping.note] if self._bookkeeping else []
-        if after is not None:
-            hearers.append(after)
+        hearers = [*self.hearers, *([after] if after is not None else ())]
 
         def tell(system: System) -> None:
             for hear in hearers:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 import pytest
 from heaps import bin_of_balls, hashes, stack_of_boxes
 
-from carom.ecs import DeclarationError, SnapshotError, Transform, state_hash
+from carom.ecs import DeclarationError, NonFiniteError, SnapshotError, Transform, state_hash
 from carom.ecs.relations.contact import Contact
+from carom.systems.detection.answered import Answered
 from carom.systems.ring import Ring
 from carom.systems.simulation import Simulation
 from carom.worlds import load_world
@@ -78,6 +80,92 @@ def test_rewinding_is_unseen_by_observers() -> None:
     ring.rewind(followed, 2)
     followed.step(1)
     assert seen == [1, 2, 3, 4, 5, 6, 5]
+
+
+class Seen:
+    """An observer that keeps the hash of every frame."""
+
+    def __init__(self) -> None:
+        self.hashes: dict[int, str] = {}
+        self.ended = False
+
+    def begin(self, simulation: Simulation) -> None:
+        """Keep the first."""
+        self.observe(simulation)
+
+    def observe(self, simulation: Simulation) -> None:
+        """Keep another."""
+        assert simulation.frame not in self.hashes
+        self.hashes[simulation.frame] = state_hash(simulation.world)
+
+    def end(self, simulation: Simulation) -> None:
+        """Note that this was all."""
+        self.ended = True
+
+
+def test_a_ring_shows_what_led_here_to_the_last_bit() -> None:
+    """From snapshots seconds apart, whatever was done by hand between steps; what comes after is what would have."""
+    simulation, other = stack_of_boxes(), stack_of_boxes()
+    ring, then, now = Ring.of_seconds(0.5, simulation), Seen(), Seen()
+    for observer in (ring, then):
+        observer.begin(simulation)
+        simulation.observers.append(observer)
+    for one in (simulation, other):
+        for number in range(5):
+            one.step(17)
+            one[f"box{number % 4}"].motion.linear = (0.0, 1.0, 0.3)
+        one.step(3)
+    simulation["box1"].motion.linear = (0.0, 0.0, 0.0)  # seen in the last frame
+    answered = vars(simulation.world[Answered]).copy()
+    ring.show(simulation, now)
+    assert list(now.hashes) == list(range(52, 89))
+    assert now.ended
+    assert now.hashes | {88: then.hashes[88]} == {frame: then.hashes[frame] for frame in range(52, 89)}
+    assert now.hashes[88] == state_hash(simulation.world) != then.hashes[88]
+    assert vars(simulation.world[Answered]) == answered
+    other["box1"].motion.linear = (0.0, 0.0, 0.0)
+    assert hashes(simulation, 40) == hashes(other, 40)
+    assert list(then.hashes) == list(range(129))
+
+
+def test_a_ring_keeps_what_was_done_by_hand() -> None:
+    """A frame of which there is no snapshot is gone back to all the same."""
+    simulation = stack_of_boxes()
+    ring = ringed(simulation, Ring(3, 20))
+    simulation.step(5)
+    simulation["box0"].motion.linear = (0.0, 2.0, 0.0)
+    past = hashes(simulation, 30)
+    assert ring.frames == [0, 6, 20]
+    ring.rewind_to(simulation, 15)
+    assert [state_hash(simulation.world), *hashes(simulation, 20)] == past[9:30]
+
+
+def test_what_was_before_other_rules_is_no_past() -> None:
+    """A snapshot holds neither forces nor systems, so that what they did cannot be done again."""
+    simulation = stack_of_boxes()
+    ring = ringed(simulation, Ring(9, 2))
+    simulation.step(5)
+    simulation.force("wind", velocity=(5.0, 0.0, 0.0))
+    simulation.step(2)
+    assert ring.frames == [6]
+    simulation.step()
+    simulation.force_function(lambda world, rows: np.zeros((len(rows), 3)))
+    simulation.step()
+    assert ring.frames == [9]
+
+
+def test_a_step_that_was_not_finished_is_not_shown() -> None:
+    """The last frame is that before it, and the world stays in the state that the fault tells of."""
+    simulation = stack_of_boxes()
+    ring, seen = ringed(simulation, Ring(2, 30)), Seen()
+    simulation.step(7)
+    simulation["box0"].motion.linear = (np.nan, 0.0, 0.0)
+    with np.errstate(all="ignore"), pytest.raises(NonFiniteError):
+        simulation.step()
+    ring.show(simulation, seen)
+    assert list(seen.hashes) == list(range(8))
+    assert simulation.frame == 8
+    assert np.isnan(simulation["box0"].motion.linear[0])
 
 
 def test_memory_of_the_oldest_is_used_again() -> None:

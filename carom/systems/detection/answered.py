@@ -12,13 +12,14 @@ from carom.ecs.component import Resource
 
 @dataclass
 class Answered(Resource):
-    """Counts since the start: pairs by FCL and by array kernels, points no contact can be, detections, what was cut.
+    """Counts since the start: pairs by FCL, by array kernels and recycled, impossible points, detections, what was cut.
 
     Cut are impacts beyond the limit of a step, and looks after somebody fast beyond that of a substep.
     """
 
     fcl: int = 0
     kernels: int = 0
+    recycled: int = 0
     refused: int = 0
     detections: int = 0
     impacts_cut: int = 0

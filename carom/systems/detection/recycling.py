@@ -7,6 +7,7 @@ import numpy as np
 from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.relations.contact import Contact
+from carom.systems.detection.answered import Answered
 from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
 
@@ -17,7 +18,9 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     count = len(recycled.row_a)
     if not count:
         return measure_pairs(world, pairs, reaches)
-    if stays.all():
+    staying = int(np.count_nonzero(stays))
+    world[Answered].recycled += staying
+    if staying == len(pairs):
         return recycled
     moved = ~stays
     fresh = measure_pairs(world, pairs[moved], reaches[moved])

@@ -93,6 +93,7 @@ def compile_frame() -> None:
     look_for_vectors(there=False)
 
     from carom.systems.simulation import Simulation
+    from carom.systems.solving import Solving
 
     simulation = Simulation(checked=False)
     simulation.add(collider={"plane": {}})
@@ -108,6 +109,7 @@ def compile_frame() -> None:
     simulation.force("mutual_gravitation")
     simulation.force("constant_push", force=(1.0, 0.0, 0.0))
     simulation.keep_ledger()
+    Solving(simulation)
     simulation.step(3)
     compile_rest()
 

@@ -9,16 +9,14 @@ from weakref import WeakKeyDictionary
 
 import pytest
 
-from carom.ecs import System, restore_snapshot, take_snapshot
+from carom.ecs import System
 from carom.systems.ring import Ring
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 
-COUNT = 30  # half a second at 60 Hz
-
 
 class LastFrames:
-    """The last frames of simulations, as snapshots: exact whatever a test does to a world between two steps."""
+    """The last second of simulations, and up to another: exact whatever a test does to a world between two steps."""
 
     def __init__(self) -> None:
         self._rings: WeakKeyDictionary[Simulation, Ring] = WeakKeyDictionary()
@@ -29,7 +27,7 @@ class LastFrames:
         take = Simulation.step
 
         def step(simulation: Simulation, count: int = 1, *, after: Callable[[System], None] | None = None) -> None:
-            ring = self._rings.setdefault(simulation, Ring(COUNT))
+            ring = self._ring(simulation)
             if not ring.snapshots:
                 ring.begin(simulation)
             simulation.observers.append(ring)
@@ -46,14 +44,7 @@ class LastFrames:
         """Write them, up to what the world is now, as a recording (.rrd)."""
         from carom.tools.recorder import Recorder
 
-        world = simulation.world
-        now = take_snapshot(world)
-        ring = self._rings.get(simulation)
-        earlier = [snapshot for snapshot in ring.snapshots if snapshot.frame < now.frame] if ring is not None else []
-        recorder = Recorder(path, every=1, title=title, camera=camera)
-        show = recorder.begin
-        for snapshot in (*earlier, now):
-            restore_snapshot(world, snapshot)
-            show(simulation)
-            show = recorder.observe
-        recorder.end(simulation)
+        self._ring(simulation).show(simulation, Recorder(path, every=1, title=title, camera=camera))
+
+    def _ring(self, simulation: Simulation) -> Ring:
+        return self._rings.setdefault(simulation, Ring.of_seconds(1.0, simulation))

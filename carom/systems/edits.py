@@ -1,0 +1,33 @@
+"""Edits: what code outside the step does between two of them."""
+
+from __future__ import annotations
+
+from carom.ecs.component import Record
+from carom.systems.awake import Awake
+from carom.systems.simulation import Simulation
+
+LIVES, RESTORED = "who lives", "a snapshot restored"
+
+
+class EditWatch:
+    """Tells which components code outside has written since the last look, who came or went, snapshots restored."""
+
+    def __init__(self) -> None:
+        self._own: set[type[Record]] = set()
+        self._counts = (0, 0)
+
+    def begin(self, simulation: Simulation) -> None:
+        """Know what was done before, or by commands of the last step."""
+        world = simulation.world
+        self._own, self._counts = set(world.edited), (world.structure, world.restored)
+
+    def done(self, simulation: Simulation) -> list[str]:
+        """Return what was done between the step that has just been taken and the one before."""
+        awake = simulation.world[Awake]
+        done = sorted(kind.__name__ for kind in awake.edited - self._own)
+        if awake.restored != self._counts[1]:
+            done.append(RESTORED)
+        elif awake.structure != self._counts[0]:
+            done.append(LIVES)
+        self.begin(simulation)
+        return done

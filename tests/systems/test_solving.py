@@ -1,0 +1,153 @@
+"""What the resting stage tells of itself is true, and telling it changes no bit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from heaps import bin_of_balls, hashes, stack_of_boxes
+
+from carom.ecs.relations.contact import Contact
+from carom.systems import resting
+from carom.systems.constants import RELAX_SWEEPS
+from carom.systems.simulation import Simulation
+from carom.systems.solving import Solving, Sweep
+
+GRAVITY = 10.0  # m/s2
+
+
+def on_the_ground(speed: tuple[float, float, float] = (0.0, 0.0, 0.0), **words: Any) -> Simulation:
+    """Return a world with one body that lies on the ground."""
+    simulation = Simulation(dt=1 / 100, gravity=(0.0, -GRAVITY, 0.0), sleeping=False)
+    simulation.add(collider={"plane": {}})
+    simulation.add(name="body", body={}, transform={"position": (0.0, 0.5, 0.0)}, motion={"linear": speed}, **words)
+    return simulation
+
+
+def last(solving: Solving) -> Sweep:
+    """Return the last sweep of a step."""
+    return solving.sweeps[-1]
+
+
+@pytest.mark.parametrize("make", [stack_of_boxes, lambda: bin_of_balls(40), lambda: bin_of_balls(20, threads=2)])
+def test_looking_on_changes_no_bit(make: Any) -> None:
+    """Also when it begins and ends in the middle of a run."""
+    plain, watched = make(), make()
+    assert hashes(plain, 20) == hashes(watched, 20)
+    solving = Solving(watched)
+    assert hashes(plain, 60) == hashes(watched, 60)
+    assert solving.sweeps
+    solving.close()
+    assert hashes(plain, 5) == hashes(watched, 5)
+    assert not watched.hearers
+
+
+def test_every_sweep_is_told_in_order() -> None:
+    """Of each substep one of solving and those of relaxing, each stage with how it was before."""
+    simulation = on_the_ground(collider={"box": {"size": (1, 1, 1)}})
+    solving = Solving(simulation)
+    simulation.step(3)
+    each = [("solve", 0), ("solve", 1), *(("relax", number) for number in range(RELAX_SWEEPS + 1))]
+    assert [(sweep.stage, sweep.number) for sweep in solving.sweeps] == 4 * each
+    assert [sweep.substep for sweep in solving.sweeps] == sorted([1, 2, 3, 4] * len(each))
+    assert [sweep.time for sweep in solving.sweeps[:: len(each)]] == pytest.approx([0.0225, 0.025, 0.0275, 0.03])
+
+
+def test_the_residual_of_one_point_is_how_fast_it_closes() -> None:
+    """It falls for one substep, g h fast; one sweep solves one point exactly, and next time the warm start does."""
+    simulation = on_the_ground(collider={"sphere": {"radius": 0.5}})
+    solving = Solving(simulation)
+    simulation.step()
+    cold, solved = solving.sweeps[:2]
+    assert cold.residual == cold.residual_sum == pytest.approx(GRAVITY / 400, rel=1e-12)
+    assert solved.residual < 1e-17
+    assert (cold.open, solved.open) == (1, 0)
+    simulation.step()
+    assert solving.sweeps[0].residual < 1e-15
+    assert solving.sweeps[0].open == 0
+
+
+@pytest.mark.parametrize("upper", [1.0, 3.0, 9.0])
+def test_the_residual_falls_as_fast_as_theory_says(upper: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a ball on another, of m and M: a sweep of Gauss and Seidel's method leaves the part M / (m + M) of it."""
+    simulation = on_the_ground(collider={"sphere": {"radius": 0.5}}, material={"density": 6.0 / np.pi})
+    place = {"position": (0.0, 1.5, 0.0)}
+    simulation.add(collider={"sphere": {"radius": 0.5}}, body={"mass": upper}, transform=place)
+    monkeypatch.setattr(resting, "RELAX_SWEEPS", 10)
+    solving = Solving(simulation)
+    simulation.step(2)
+    left = np.array([sweep.residual for sweep in solving.sweeps[2:13]])
+    assert [sweep.number for sweep in solving.sweeps[2:13]] == list(range(11))
+    assert left[1] > 1e-5
+    assert left[2:] / left[1:-1] == pytest.approx(upper / (1.0 + upper), rel=1e-9)
+    assert [sweep.residual_sum for sweep in solving.sweeps[3:13]] == pytest.approx(left[1:], rel=1e-9)
+
+
+BOX = {"collider": {"box": {"size": (1, 1, 1)}}}
+
+
+@pytest.mark.parametrize(
+    ("world", "limits"),
+    [
+        (on_the_ground(**BOX), {}),
+        (on_the_ground((1.0, 0.0, 0.0), **BOX), {"sliding": 1}),
+        (on_the_ground((1.0, 0.0, 0.0), material={"friction": 0.0}, **BOX), {}),
+        (on_the_ground((3.0, 0.0, 0.0), collider={"sphere": {"radius": 0.5}}), {"sliding": 1}),
+    ],
+)
+def test_limits_are_told_when_they_are_at_work(world: Simulation, limits: dict[str, int]) -> None:
+    """Friction of what slides, none of what lies or has none."""
+    solving = Solving(world)
+    world.step(3)
+    found = {
+        name: value for name in ("pushed", "sliding", "spinning", "rolling") if (value := getattr(last(solving), name))
+    }
+    assert found == limits
+
+
+def test_rolling_and_spinning_have_limits_too() -> None:
+    """Of a ball that rolls, and of one that turns on its spot, until it stands."""
+    ball = {"collider": {"sphere": {"radius": 0.5}}}
+    rolls = on_the_ground((1.0, 0.0, 0.0), material={"rolling_friction": 0.01}, **ball)
+    rolls["body"].motion.angular = (0.0, 0.0, -2.0)
+    turns = on_the_ground(material={"spinning_friction": 0.05}, **ball)
+    turns["body"].motion.angular = (0.0, 2.0, 0.0)
+    for simulation, limit in ((rolls, "rolling"), (turns, "spinning")):
+        solving = Solving(simulation)
+        simulation.step(3)
+        assert getattr(last(solving), limit) == 1
+        simulation.step(1500)
+        assert np.linalg.norm(simulation["body"].motion.angular) < 1e-9
+        assert getattr(last(solving), limit) == 0
+
+
+def test_overlap_that_leaves_at_the_highest_speed_is_told() -> None:
+    """A ball in the ground: its overlap times the rate is more than 3 m/s where it is deeper than 15 cm."""
+    simulation = on_the_ground(collider={"sphere": {"radius": 0.5}})
+    solving, told = Solving(simulation), []
+    simulation["body"].transform.position = (0.0, 0.0, 0.0)
+    for _ in range(20):
+        deep = 0.5 - simulation["body"].transform.position[1] > 3.0 / (0.05 * 400)
+        simulation.step()
+        assert solving.sweeps[0].pushed == int(deep)
+        told.append(deep)
+    assert {True, False} == set(told)
+
+
+def test_levels_hold_what_rests() -> None:
+    """Those of a row of boxes on the ground are one, since none shares a body with another; a tower has several."""
+    row = Simulation(sleeping=False)
+    row.add(collider={"plane": {}})
+    row.add_many([(2.0 * k, 0.5, 0.0) for k in range(20)], collider={"box": {"size": (1, 1, 1)}}, body={})
+    solving = Solving(row)
+    row.step(2)
+    assert [level[2:] for level in solving.levels if level.substep == 1] == [(0, 3, 20, 80)]
+    tower = stack_of_boxes(sleeping=False)
+    tower.step(200)
+    solving = Solving(tower)
+    tower.step()
+    (*upper, _) = levels = [level for level in solving.levels if level.substep == 4]
+    assert len(upper) >= 2
+    assert sum(level.manifolds for level in levels) == 4
+    assert sum(level.points for level in levels) == tower.world[Contact].count
