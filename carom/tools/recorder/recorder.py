@@ -71,6 +71,7 @@ class Recorder:
             self._stream.static(about.FILES, about.files(self._files))
         for track in self._tracks.values():
             track.begin(simulation, self._stream, self._tracks)
+            track.watch(simulation)
         self._record(simulation, self._stream)
         self._write(self._stream)
 
@@ -78,6 +79,8 @@ class Recorder:
         """Record the step if it is one of the frames; write and flush about once a second."""
         assert self._stream is not None and self._every is not None, "begin() comes before observe()"
         self._seen = simulation.frame
+        for track in self._tracks.values():
+            track.watch(simulation)
         self._sample(simulation, self._stream, every_step=True)
         if self._edits.sample(simulation, _stamp(simulation)):
             self._snapshots.after_edit(simulation, _stamp(simulation))

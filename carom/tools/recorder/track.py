@@ -37,6 +37,9 @@ class Track(ABC):
     def lay_out(self, world: World, layout: Layout) -> None:  # noqa: B027
         """Add what is seen of it when the recording is opened; most need nothing but the view of the world."""
 
+    def watch(self, simulation: Simulation) -> None:  # noqa: B027
+        """See the world at the start and after every step; most tracks only look when a frame is recorded."""
+
     @abstractmethod
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep what the recording needs of this frame."""

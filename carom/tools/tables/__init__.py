@@ -6,11 +6,12 @@ from collections.abc import Callable
 from functools import partial
 
 from carom.ecs.dataframe import Flat
+from carom.tools.recorder.rows import RowTrack
+from carom.tools.recorder.tracks import TRACKS
 from carom.tools.tables.bodies import bodies
-from carom.tools.tables.contacts import contacts, has_contacts
-from carom.tools.tables.impacts import impacts
 from carom.tools.tables.log import log
 from carom.tools.tables.plots import plot, plots
+from carom.tools.tables.recorded import is_there, recorded
 from carom.tools.tables.snapshots import snapshots
 from carom.tools.tables.source import Source
 
@@ -18,8 +19,7 @@ from carom.tools.tables.source import Source
 def makers(source: Source) -> dict[str, Callable[[], list[Flat]]]:
     """Return what makes the columns of each table of a recording, by the table's name."""
     found: dict[str, Callable[[], list[Flat]]] = {"bodies": partial(bodies, source)}
-    if has_contacts(source):
-        found["contacts"] = partial(contacts, source)
-    found["impacts"] = partial(impacts, source)
+    tracks = {key: track for key, track in TRACKS.items() if issubclass(track, RowTrack) and is_there(source, track)}
+    found |= {key: partial(recorded, source, track) for key, track in tracks.items()}
     found |= {name: partial(plot, source, path) for name, path in plots(source).items()}
     return found | {"log": partial(log, source), "snapshots": partial(snapshots, source)}

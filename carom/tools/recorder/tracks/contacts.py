@@ -9,13 +9,15 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs import Collider, Motion, RigidBody, Visual, World
-from carom.ecs.column import Floats, Integers
+from carom.ecs.column import Column, Floats, Integers
 from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.impact import Impact
 from carom.systems.compound import bodies_of
 from carom.systems.energy import centers_of_mass
 from carom.systems.simulation import Simulation
-from carom.tools.recorder.block import Columns, joined
+from carom.tools.recorder.block import Block, Columns
 from carom.tools.recorder.layout import Layout
+from carom.tools.recorder.rows import RowTrack
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.track import Track
 
@@ -26,13 +28,20 @@ POINT_RADIUS = -3.0  # negative: points of the screen, visible at any scale
 ARROW_RADIUS = -1.5
 
 
-class Contacts(Track):
+class Contacts(RowTrack):
     """The touching rows of the contact table; rows that only may touch within a step are left out."""
 
     key: ClassVar[str] = "contacts"
+    path: ClassVar[str] = POINTS
+    columns: ClassVar[Mapping[str, Column]] = {
+        **{name: Contact.columns[name] for name in ("a", "b", "depth")},
+        "speed": Impact.columns["speed"],
+        **{name: Contact.columns[name] for name in ("impulse", "point", "normal")},
+    }
+    drawn: ClassVar[Mapping[str, str]] = {"point": "Points3D:positions"}
 
     def __init__(self) -> None:
-        self._pending: list[tuple[Stamp, Columns]] = []
+        super().__init__()
         self._length = 1.0
         self._structure = -1
         self._unseen = np.zeros(0, np.int64)
@@ -55,37 +64,32 @@ class Contacts(Track):
         if self._structure != world.structure:
             self._structure = world.structure
             self._name_unseen(world, stamp, stream)
-        table = world[Contact]
+        super().sample(simulation, stamp, stream)
+
+    def rows(self, simulation: Simulation) -> Columns:
+        """Return the points that touch."""
+        table = simulation.world[Contact]
         live = slice(0, table.count)
         touching = np.nonzero((table.depth[live] >= 0.0) | (table.impulse[live] > 0.0))[0]
-        columns = ("a", "b", "point", "normal", "depth", "impulse")
-        rows = {name: getattr(table, name)[touching] for name in columns}
-        self.keep(stamp, rows | {"speed": closing_speeds(world, rows)})
+        rows = {name: getattr(table, name)[touching] for name in self.columns if name != "speed"}
+        return rows | {"speed": closing_speeds(simulation.world, rows)}
 
-    def keep(self, stamp: Stamp, rows: Columns) -> None:
-        """Keep contacts: ``a``, ``b``, ``point``, ``normal``, ``depth``, ``impulse`` and ``speed`` by name."""
-        self._pending.append((stamp, rows))
-
-    def write(self, stream: Stream) -> None:
-        """Write the kept contacts, one block for points with their numbers and one for arrows."""
+    def draw(self, block: Block, stream: Stream) -> None:
+        """Write points, and arrows along the normals."""
         import rerun
 
-        if not self._pending:
-            return
-        block = joined(self._pending)
         points, arrows = block.columns["point"], block.columns["normal"] * self._length
         stream.rows(POINTS, block.stamps, rerun.Points3D.columns(positions=points).partition(block.counts))
-        stream.rows(POINTS, block.stamps, block.values(("normal", "a", "b", "depth", "impulse", "speed")))
         columns = rerun.Arrows3D.columns(origins=points, vectors=arrows)
         stream.rows(NORMALS, block.stamps, columns.partition(block.counts))
-        self._pending = []
 
     def _name_unseen(self, world: World, stamp: Stamp, stream: Stream) -> None:
-        """Write the names of colliders that nobody sees, which are not among the bodies of a recording."""
+        """Write the names of bodies and colliders that nobody sees, which are not among those that are drawn."""
         import rerun
 
         drawn = world.row_numbers(Visual)
-        rows = np.setdiff1d(world.row_numbers(Collider), drawn[world[Visual].visible[drawn]])
+        named = np.union1d(world.row_numbers(Collider), world.row_numbers(RigidBody))
+        rows = np.setdiff1d(named, drawn[world[Visual].visible[drawn]])
         entities = world.entities(rows)
         if not np.array_equal(entities, self._unseen):
             self._unseen = entities

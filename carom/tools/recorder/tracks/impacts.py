@@ -2,41 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
 
+from carom.ecs.column import Column
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
-from carom.tools.recorder.block import Columns, joined
-from carom.tools.recorder.stream import Stamp, Stream
-from carom.tools.recorder.track import Track
-
-PATH = "impacts"
-NUMBERS = ("time", "a", "b", "speed", "impulse", "work")
-VECTORS = ("point", "normal")
+from carom.tools.recorder.block import Columns
+from carom.tools.recorder.rows import RowTrack
 
 
-class Impacts(Track):
+class Impacts(RowTrack):
     """The impact table of every step in which there were any; vectors are float32."""
 
     key: ClassVar[str] = "impacts"
     every_step: ClassVar[bool] = True
+    path: ClassVar[str] = "impacts"
+    columns: ClassVar[Mapping[str, Column]] = {
+        name: Impact.columns[name] for name in ("time", "a", "b", "speed", "impulse", "work", "point", "normal")
+    }
 
-    def __init__(self) -> None:
-        self._pending: list[tuple[Stamp, Columns]] = []
-
-    def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
-        """Keep the impacts of the last step."""
+    def rows(self, simulation: Simulation) -> Columns | None:
+        """Return the impacts of the last step."""
         impact = simulation.world[Impact]
-        if impact.count:
-            rows = {name: getattr(impact, name)[: impact.count].copy() for name in NUMBERS}
-            rows |= {name: getattr(impact, name)[: impact.count].astype(np.float32) for name in VECTORS}
-            self._pending.append((stamp, rows))
-
-    def write(self, stream: Stream) -> None:
-        """Write the kept impacts."""
-        if self._pending:
-            block = joined(self._pending)
-            stream.rows(PATH, block.stamps, block.values(block.columns))
-            self._pending = []
+        if not impact.count:
+            return None
+        rows = {name: getattr(impact, name)[: impact.count].copy() for name in self.columns}
+        return {name: values.astype(np.float32) if values.ndim == 2 else values for name, values in rows.items()}

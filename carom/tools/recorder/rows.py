@@ -1,0 +1,70 @@
+"""Rows: a track that is a table, of which each frame has some rows."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from carom.ecs.column import Column
+from carom.systems.simulation import Simulation
+from carom.tools.recorder.block import Block, Columns, joined
+from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.track import Track
+
+
+class RowTrack(Track):
+    """Rows of declared columns, written below ``path``; `carom query` has them as a table called by the track's key.
+
+    A column is written under its own name, but for those ``drawn``, of which Rerun's own component by that name holds
+    the values: ``{"point": "Points3D:positions"}``, float32.
+    """
+
+    path: ClassVar[str]
+    columns: ClassVar[Mapping[str, Column]]
+    drawn: ClassVar[Mapping[str, str]] = {}
+
+    def __init__(self) -> None:
+        self._pending: list[tuple[Stamp, Columns]] = []
+
+    @abstractmethod
+    def rows(self, simulation: Simulation) -> Columns | None:
+        """Return the rows of this frame as columns of their own; None for a frame that says nothing."""
+
+    def draw(self, block: Block, stream: Stream) -> None:
+        """Write what the viewer draws of the rows, the columns ``drawn`` among it."""
+
+    def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
+        """Keep the rows of this frame."""
+        rows = self.rows(simulation)
+        if rows is not None:
+            self.keep(stamp, rows)
+
+    def keep(self, stamp: Stamp, rows: Columns) -> None:
+        """Keep rows, by the names of their columns."""
+        self._pending.append((stamp, rows))
+
+    def write(self, stream: Stream) -> None:
+        """Write the kept rows as one block."""
+        if self._pending:
+            block = joined(self._pending)
+            self.draw(block, stream)
+            stream.rows(self.path, block.stamps, block.values(name for name in self.columns if name not in self.drawn))
+            self._pending = []
+
+
+def number(unit: str, doc: str, *shape: int, dtype: str = "float64") -> Column:
+    """Return a column of numbers that no component declares."""
+    return Column(shape, np.dtype(dtype), 0, unit, doc, "derived", "values")
+
+
+def handle(doc: str) -> Column:
+    """Return a column of entities."""
+    return Column((), np.dtype(np.int64), -1, "1", doc, "derived", "entities")
+
+
+def text(doc: str) -> Column:
+    """Return a column of words."""
+    return Column((), np.dtype(np.str_), "", "1", doc, "derived", "values")
