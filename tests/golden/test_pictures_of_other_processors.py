@@ -52,6 +52,7 @@ def drawn(path: Path, floors: str, **environment: str) -> tuple[str, dict[str, n
         return run.stdout.strip(), dict(pictures)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("other", OTHERS)
 def test_narrow_vectors_draw_the_same(other: str, tmp_path: Path) -> None:
     """To the last bit, which is far less than the picture layer lets pass."""

@@ -34,7 +34,7 @@ def run(world: LoadedWorld, *, to_first_failure: bool = False) -> list[Outcome]:
     return [item.outcome() for item in world.expectations]
 
 
-@pytest.mark.parametrize("collision", ["auto", "fcl"])
+@pytest.mark.parametrize("collision", ["auto", pytest.param("fcl", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", library.names())
 def test_expectations_hold(name: str, collision: str) -> None:
     """All expectations of a library world hold, with and without kernels in the place of FCL."""
