@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -46,30 +47,43 @@ class Recording:
     def poses(self, frame: int) -> dict[int, Pose]:
         """Return the pose of every visible entity in a frame, by entity handle."""
         found = {}
-        for (path, component), series in list(self._series.items()):
-            if component != "entity" or not path.startswith(f"/{bodies.ROOT}/"):
-                continue
-            members = series.at(frame)
-            cleared = self._series[path, "Clear:is_recursive"].at(frame)
-            if members is None or (cleared is not None and cleared[0] >= members[0]):
-                continue
+        for path, members in self._groups(frame):
             translations = self._series[path, "InstancePoses3D:translations"].at(frame)
             quaternions = self._series[path, "InstancePoses3D:quaternions"].at(frame)
             if translations is None or quaternions is None:
                 continue  # killed between the two writes
-            for entity, position, rotation in zip(members[1], translations[1], quaternions[1], strict=True):
-                found[int(entity)] = Pose(position, rotation)
+            for entity, position, rotation in zip(members, translations[1], quaternions[1], strict=True):
+                found[entity] = Pose(position, rotation)
         return found
 
     def names(self, frame: int) -> dict[int, str]:
         """Return the name of every visible entity in a frame, by entity handle."""
         found: dict[int, str] = {}
-        for (path, component), series in list(self._series.items()):
-            members = series.at(frame) if component == "entity" else None
-            names = self._series[path, "name"].at(frame) if members else None
-            if members and names:
-                found |= dict(zip(map(int, members[1]), names[1], strict=True))
+        for path, members in self._groups(frame):
+            names = self._series[path, "name"].at(frame)
+            if names:
+                found |= dict(zip(members, names[1], strict=True))
         return found
+
+    def place(self, entity: int, frame: int) -> tuple[str, list[int]]:
+        """Return the path at which an entity is visible in a frame, and all who are: instance i is the i-th of them.
+
+        Raises CaromError for one that is not.
+        """
+        for path, members in self._groups(frame):
+            if entity in members:
+                return path, members
+        raise CaromError(f"entity {entity} is not visible in frame {frame}")
+
+    def _groups(self, frame: int) -> Iterator[tuple[str, list[int]]]:
+        """Yield the path of each group of entities that is there in a frame, and their handles."""
+        for (path, component), series in list(self._series.items()):
+            if component != "entity" or not path.startswith(f"/{bodies.ROOT}/"):
+                continue
+            members = series.at(frame)
+            cleared = self._series[path, "Clear:is_recursive"].at(frame)
+            if members is not None and (cleared is None or cleared[0] < members[0]):
+                yield path, [int(handle) for handle in members[1]]
 
     def contacts(self, frame: int) -> dict[str, npt.NDArray[Any]]:
         """Return the contacts of a recorded frame: points float32, colliders int64, speed float32, the rest float64."""

@@ -8,7 +8,7 @@ import os
 import shutil
 import subprocess
 from base64 import b64decode
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
@@ -19,10 +19,18 @@ from PIL import Image
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 OPTIONS = (
-    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
+    "--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-sync",
     "--disable-background-networking", "--disable-component-update", "--remote-debugging-pipe",
     "--force-device-scale-factor=1", "--hide-scrollbars",
 )  # fmt: skip
+FLAT = ("--disable-gpu",)
+# What WebGL takes where there is no graphics card.
+GRAPHICS = (
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--ignore-gpu-blocklist",
+)
 
 
 class Browser:
@@ -53,10 +61,10 @@ class Browser:
             found += byte
         return bytes(found)
 
-    def open(self, page: Path) -> None:
-        """Show a page, once it is there with all its pictures."""
+    def open(self, page: Path | str) -> None:
+        """Show a page, a file or an address, once it is there with all its pictures."""
         self._ask("Emulation.setDeviceMetricsOverride", width=900, height=1000, deviceScaleFactor=1, mobile=False)
-        self._ask("Page.navigate", url=page.as_uri())
+        self._ask("Page.navigate", url=page if isinstance(page, str) else page.as_uri())
         ready = "new Promise(done => document.readyState == 'complete' ? done() : addEventListener('load', done))"
         self._ask("Runtime.evaluate", expression=ready, awaitPromise=True)
 
@@ -89,7 +97,7 @@ class Browser:
 
 
 @contextmanager
-def browser(profile: Path) -> Iterator[Browser]:
+def browser(profile: Path, graphics: Sequence[str] = FLAT) -> Iterator[Browser]:
     """Start a browser with a new profile, and end it."""
     found = next(filter(None, map(shutil.which, NAMES)), None)
     assert found, f"no browser: none of {', '.join(NAMES)} is on PATH; run: .ci/setup test"
@@ -97,7 +105,7 @@ def browser(profile: Path) -> Iterator[Browser]:
     our_read, their_write = os.pipe()
     # The protocol reads from descriptor 3 and writes to 4, wherever the pipes' own ends are.
     lead = f'exec "$0" "$@" 3<&{their_read} 4>&{their_write}'
-    command = ["bash", "-c", lead, found, *OPTIONS, f"--user-data-dir={profile}", "about:blank"]
+    command = ["bash", "-c", lead, found, *OPTIONS, *graphics, f"--user-data-dir={profile}", "about:blank"]
     process = subprocess.Popen(command, pass_fds=(their_read, their_write), stderr=subprocess.DEVNULL)
     os.close(their_read)
     os.close(their_write)

@@ -211,7 +211,11 @@ def test_view_needs_a_display_or_a_browser(
     assert main(["view", str(path)]) == 2
     assert capsys.readouterr().err == f"no display to open a window on; serve it instead: carom view --web {path}\n"
     assert main(["view", "--web", "--json", str(path)]) == 0
-    assert json.loads(capsys.readouterr().out)["command"][1:] == [str(path), "--serve-web", "--bind", "127.0.0.1"]
+    served = json.loads(capsys.readouterr().out)
+    data, web = served["command"][6], served["command"][8]
+    words = [str(path), "--serve-web", "--bind", "127.0.0.1", "--port", data, "--web-viewer-port", web]
+    assert served["command"][1:] == words
+    assert served["page"] == f"http://127.0.0.1:{web}/?url=rerun%2Bhttp%3A%2F%2F127.0.0.1%3A{data}%2Fproxy"
 
 
 def test_render_photographs_a_moment(world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

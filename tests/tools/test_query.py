@@ -105,7 +105,8 @@ def test_a_curve_that_begins_later_stays_in_its_frames(tmp_path: Path) -> None:
 
     simulation, booked = Simulation(), Booked()
     ledger = simulation.keep_ledger()
-    stream = Stream(tmp_path / "run.rrd", "ledger", rerun.blueprint.Blueprint())
+    stream = Stream("ledger")
+    stream.to_file(tmp_path / "run.rrd", rerun.blueprint.Blueprint())
     for frame in range(4):
         ledger.since["gravity"] = frame
         if frame > 1:

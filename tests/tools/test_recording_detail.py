@@ -77,4 +77,4 @@ def test_a_detail_that_is_none_is_told(tmp_path: Path, capsys: pytest.CaptureFix
     told = f"{world}:4:13: recording.detail: unknown word; received 'ful'; accepted: light, full, solver\n"
     assert capsys.readouterr().err == told
     assert main(["run", "bounce", "--detail", "full"]) == 2
-    assert capsys.readouterr().err == "--detail: goes with --record FILE, the recording it is of\n"
+    assert capsys.readouterr().err == "--detail: goes with --record FILE or --live, the recording it is of\n"

@@ -29,7 +29,8 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     import rerun.blueprint as rrb
 
     path = tmp_path_factory.mktemp("recorded") / "run.rrd"
-    stream = Stream(path, "counting", rrb.Blueprint(rrb.TextLogView(origin="log")))
+    stream = Stream("counting")
+    stream.to_file(path, rrb.Blueprint(rrb.TextLogView(origin="log")))
     stream.static("about", rerun.AnyValues(title="counting"))
     for frame in range(FRAMES):
         stamp = Stamp(frame, frame / 20)

@@ -37,7 +37,8 @@ def write_contacts(path: Path, frames: int, count: int) -> None:
     import rerun.blueprint
 
     chance = np.random.default_rng(1)
-    stream = Stream(path, "contacts", rerun.blueprint.Blueprint())
+    stream = Stream("contacts")
+    stream.to_file(path, rerun.blueprint.Blueprint())
     contacts = Contacts()
     for frame in range(frames):
         rows: dict[str, Any] = {side: chance.integers(0, count, count) for side in ("a", "b")}

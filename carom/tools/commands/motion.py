@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carom.tools.commands.options import ending, quantity, seconds, whole_number
+from carom.tools.commands.options import ending, factor, quantity, seconds, whole_number
 
 if TYPE_CHECKING:
     from carom.systems.observer import Observer
@@ -69,7 +69,7 @@ def motion(arguments: argparse.Namespace, loaded: LoadedWorld, shot: Shot) -> tu
     found: list[Observer] = []
     if arguments.film:
         fps = shot.fps if arguments.fps is None else quantity("--fps", arguments.fps, "Hz", above=0.0)
-        speed = quantity("--speed", (arguments.speed or "1").removesuffix("x"), "1", above=0.0)
+        speed = factor("--speed", arguments.speed or "1x")
         found.append(Filming(replace(shot, fps=fps), arguments.film, every(speed / fps, start, end)))
     if arguments.sheet:
         small = replace(shot, width=SHEET_WIDTH, height=round(SHEET_WIDTH * shot.height / shot.width))

@@ -33,18 +33,23 @@ def declare_detail(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def detail(arguments: argparse.Namespace, stated: str, recorded: str) -> str:
+def detail(arguments: argparse.Namespace, stated: str, recorded: bool, how: str) -> str:
     """Return the detail of the command line or else that of the world; raise CaromError where nothing is recorded."""
     from carom.ecs.errors import CaromError
 
-    if arguments.detail and not getattr(arguments, recorded):
-        raise CaromError(f"--detail: goes with --{recorded} FILE, the recording it is of")
+    if arguments.detail and not recorded:
+        raise CaromError(f"--detail: goes with {how}, the recording it is of")
     return arguments.detail or stated
 
 
 def seconds(option: str, text: str, **bounds: float) -> float:
     """Return a time (s) as world files write it; raise CaromError, naming the option, for anything else."""
     return quantity(option, text, "s", **bounds)
+
+
+def factor(option: str, text: str) -> float:
+    """Return a factor such as ``0.25x``; raise CaromError, naming the option, for anything else."""
+    return quantity(option, text.removesuffix("x"), "1", above=0.0)
 
 
 def quantity(option: str, text: str, unit: str, **bounds: float) -> float:

@@ -48,7 +48,7 @@ def execute(arguments: argparse.Namespace) -> int:
         )
     loaded = replay.loaded() if first == 0 else replay.loaded_at(first)
     simulation, shot = loaded.simulation, shot_of(loaded, arguments.camera)
-    level = detail(arguments, loaded.recording.detail, "out")
+    level = detail(arguments, loaded.recording.detail, bool(arguments.out), "--out FILE")
     observers: list[Observer] = []
     if arguments.out:
         title, source, files, camera = replay.title, replay.source, replay.files, shot.camera(simulation.world)

@@ -13,6 +13,7 @@ from carom.tools.commands.options import (
     declare_overrides,
     detail,
     ending,
+    factor,
     overrides,
     print_json,
     print_warnings,
@@ -25,6 +26,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("world", metavar="WORLD", help="a world file, or the name of a library world")
     parser.add_argument("--record", type=Path, metavar="FILE", help="write a Rerun recording (.rrd)")
     declare_detail(parser)
+    parser.add_argument("--live", action="store_true", help="show it in the Rerun viewer as it runs")
+    parser.add_argument("--viewer", metavar="URL", help="a viewer elsewhere, such as rerun+http://HOST:9876/proxy")
+    parser.add_argument("--speed", metavar="X", help="simulated time to real time, such as 1x; as fast as can be")
     parser.add_argument("--film", type=Path, metavar="FILE", help="write a film (.mp4, .webp or .gif)")
     parser.add_argument(
         "--picture", type=ending(".png"), metavar="FILE", help="write a picture of the last state (.png)"
@@ -49,26 +53,29 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.tools.auditing import Auditing
     from carom.tools.filming import Filming, photograph, shot_of
     from carom.tools.outputs import prepare_outputs
+    from carom.tools.pace import Pace
     from carom.tools.painter import Painter
     from carom.tools.recorder import Recorder
     from carom.tools.session import run
     from carom.tools.vantage import vantage_warnings
+    from carom.tools.viewer import running_viewer
     from carom.worlds.builder import load_world
 
     loaded = load_world(arguments.world, checked=arguments.check or None, **overrides(arguments))
     print_warnings(loaded.warnings)
-    level = detail(arguments, loaded.recording.detail, "record")
+    shown = arguments.live or arguments.viewer
+    level = detail(arguments, loaded.recording.detail, bool(arguments.record or shown), "--record FILE or --live")
     shot = shot_of(loaded, arguments.camera, look(arguments, loaded))
     if arguments.film or arguments.picture:
         print_warnings(vantage_warnings(shot, loaded.simulation))
     observers: list[Observer] = []
-    if arguments.record:
-        title = loaded.name or Path(loaded.path).stem
-        camera, source = shot.camera(loaded.simulation.world), loaded.source_text
-        recorder = Recorder(
-            arguments.record, detail=level, title=title, source=source, files=loaded.contents(), camera=camera
-        )
-        observers.append(recorder)
+    pace = Pace(factor("--speed", arguments.speed)) if arguments.speed else None
+    live = running_viewer(arguments.viewer) if shown else None
+    if arguments.record or live:
+        title, source, files = loaded.name or Path(loaded.path).stem, loaded.source_text, loaded.contents()
+        camera = shot.camera(loaded.simulation.world)
+        place = {"path": arguments.record, "live": live}
+        observers.append(Recorder(**place, detail=level, title=title, source=source, files=files, camera=camera))
     if arguments.film:
         observers.append(Filming(shot, arguments.film))
     prepare_outputs([arguments.record, arguments.film, arguments.picture])
@@ -78,6 +85,8 @@ def execute(arguments: argparse.Namespace) -> int:
     auditing = Auditing()
     if arguments.audit:
         observers.append(auditing)
+    if pace:
+        observers.append(pace)
     ledger = loaded.simulation.keep_ledger() if arguments.ledger else None
     kept = f"; the recording up to there: carom view {arguments.record}" if arguments.record else ""
     try:

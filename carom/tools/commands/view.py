@@ -3,36 +3,40 @@
 from __future__ import annotations
 
 import argparse
-import os
-import subprocess
-import sys
 from pathlib import Path
 
-from carom.tools.commands.options import print_json
-
-DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
-WEB = ("--serve-web", "--bind", "127.0.0.1")
+from carom.tools.commands.options import print_json, whole_number
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
-    """Declare the recording and how to show it."""
+    """Declare the recording, where to look in it, and how to show it."""
     parser.add_argument("file", type=Path, metavar="FILE", help="a recording (.rrd)")
+    parser.add_argument("--frame", type=whole_number, metavar="N", help="open it at this frame")
+    parser.add_argument("--select", metavar="ENTITY", help="select an entity by its name")
     parser.add_argument("--web", action="store_true", help="serve it to a browser instead of opening a window")
 
 
 def execute(arguments: argparse.Namespace) -> int:
-    """Hand the recording to Rerun and wait until the viewer is closed."""
+    """Hand the recording to Rerun and wait until the viewer is closed, or the browser is done with it."""
     from carom.ecs.errors import CaromError
-    from carom.tools.viewer import viewer_binary
+    from carom.tools.showing import Service, show, spot_in
+    from carom.tools.viewer import has_display
 
-    if not arguments.file.is_file():
-        raise CaromError(
-            f"no recording at {arguments.file}; make one with: carom run billiards --record {arguments.file}"
-        )
-    if sys.platform == "linux" and not arguments.web and not any(map(os.environ.get, DISPLAYS)):
-        raise CaromError(f"no display to open a window on; serve it instead: carom view --web {arguments.file}")
-    command = [str(viewer_binary()), str(arguments.file), *(WEB if arguments.web else [])]
+    path, frame, name = arguments.file, arguments.frame, arguments.select
+    if not path.is_file():
+        raise CaromError(f"no recording at {path}; make one with: carom run billiards --record {path}")
+    spot = None if frame is None and name is None else spot_in(path, frame, name)
+    if arguments.web and spot:
+        raise CaromError("--web: a browser opens a recording at its start; --frame and --select need a window")
+    if arguments.web:
+        service = Service(path)
+        if arguments.json:
+            print_json({"command": service.words, "page": service.page})
+            return 0
+        return service.run()
+    if not has_display():
+        raise CaromError(f"no display to open a window on; serve it instead: carom view --web {path}")
     if arguments.json:
-        print_json({"command": command})
+        print_json({"file": str(path), "frame": spot and spot.frame, "selected": spot and spot.selected})
         return 0
-    return subprocess.run(command, check=False).returncode
+    return show(path, spot)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -18,8 +18,13 @@ from carom.tools.recorder.tracks.bodies import ROOT
 BACKGROUND = (44, 50, 60)
 
 
-def blueprint(world: World, camera: Camera, tracks: Iterable[Track]) -> Any:
-    """Return a large view of the world beside the plots and texts of its tracks, on simulated time."""
+def blueprint(
+    world: World, camera: Camera, tracks: Iterable[Track], play: Literal["paused", "following"] = "paused"
+) -> Any:
+    """Return a large view of the world beside the plots and texts of its tracks, on simulated time.
+
+    It opens ``paused`` at the start, or ``following`` what comes.
+    """
     import rerun.blueprint as rrb
 
     layout = Layout()
@@ -40,7 +45,7 @@ def blueprint(world: World, camera: Camera, tracks: Iterable[Track]) -> Any:
         rrb.Horizontal(scene, rrb.Vertical(curves, texts, row_shares=[2, 1]), column_shares=[3, 1]),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
-        rrb.TimePanel(timeline=TIME, state="collapsed", play_state="paused"),
+        rrb.TimePanel(timeline=TIME, state="collapsed", play_state=play),
         auto_views=False,
         auto_layout=False,
     )

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from time import monotonic
 
+from carom.ecs.errors import CaromError
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.recorder import about
@@ -17,31 +18,37 @@ from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.tracks.bodies import ROOT
 
 FLUSH_AFTER = 0.9  # s of real time: a kill then loses less than the last second also of a slow run
+SEND_AFTER = 1 / 30  # s of real time, so that what a viewer shows of a run moves
 
 
 class Recorder:
-    """Record a simulation into an .rrd file.
+    """Record a simulation into an .rrd file at ``path``, into a running viewer at the address ``live``, or both.
 
     Every ``every``-th step is recorded, by default as many as make ``fps`` frames a simulated second; impacts and
     sensors entered are told of every step. Samples are written in blocks and flushed after a second of simulated or of
-    real time, whichever ends first. ``detail`` says how much is recorded: ``light``, ``full`` or ``solver``; no bit of
-    the run depends on it. ``title``, ``source`` (the text of the world file) and ``files`` (the content of
-    those it names, by its words for them) travel in the recording. Raises DeclarationError for an unknown detail.
+    real time, whichever ends first, and to a viewer 30 times a second. ``detail`` says how much is recorded: ``light``,
+    ``full`` or ``solver``; no bit of the run depends on it. ``title``, ``source`` (the text of the world file) and
+    ``files`` (the content of those it names, by its words for them) travel in the recording. Raises DeclarationError
+    for an unknown detail.
     """
 
     def __init__(
         self,
-        path: str | Path,
+        path: str | Path | None = None,
         every: int | None = None,
         fps: int = 60,
         *,
+        live: str | None = None,
         detail: str = "light",
         title: str = "world",
         source: str | None = None,
         files: Mapping[str, bytes] | None = None,
         camera: Camera | None = None,
     ) -> None:
-        self.path = Path(path)
+        if path is None and live is None:
+            raise CaromError("a recorder writes to a file, to a viewer or to both; state its path or live=")
+        self.path = None if path is None else Path(path)
+        self.live = live
         self.frames = 0
         self._every, self._fps = every, fps
         self._title, self._source, self._files, self._camera = title, source, files, camera
@@ -51,6 +58,7 @@ class Recorder:
         self._tracks = {**tracks_of(detail), "snapshots": self._snapshots}
         self._seen = self._waiting = 0
         self._flushed = 0.0
+        self._patience = FLUSH_AFTER if live is None else SEND_AFTER
 
     def begin(self, simulation: Simulation) -> None:
         """Open the file, write what never changes and the first frame."""
@@ -64,7 +72,11 @@ class Recorder:
         camera = self._camera or default_camera(world)
         upright = camera.up[1] >= abs(camera.up[2])
         axes = rerun.ViewCoordinates.RIGHT_HAND_Y_UP if upright else rerun.ViewCoordinates.RIGHT_HAND_Z_UP
-        self._stream = Stream(self.path, self._title, blueprint(world, camera, self._tracks.values()))
+        self._stream, tracks = Stream(self._title), self._tracks.values()
+        if self.path is not None:
+            self._stream.to_file(self.path, blueprint(world, camera, tracks))
+        if self.live is not None:
+            self._stream.to_viewer(self.live, blueprint(world, camera, tracks, "following"))
         self._stream.static(ROOT, axes)
         self._stream.static(about.PATH, *about.about(self._title, simulation, self._source, self._detail))
         if self._files:
@@ -86,7 +98,7 @@ class Recorder:
             self._snapshots.after_edit(simulation, _stamp(simulation))
         if simulation.frame % self._every == 0:
             self._record(simulation, self._stream)
-        if self._waiting >= self._fps or monotonic() - self._flushed > FLUSH_AFTER:
+        if self._waiting >= self._fps or monotonic() - self._flushed > self._patience:
             self._write(self._stream)
 
     def end(self, simulation: Simulation) -> None:

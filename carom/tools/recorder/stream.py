@@ -1,8 +1,9 @@
-"""Stream: one Rerun recording on disk, written in blocks of rows."""
+"""Stream: one Rerun recording, on disk, in a viewer that is running, or both, written in blocks of rows."""
 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -15,6 +16,7 @@ TIME = "sim_time"
 
 
 TITLE_LENGTH = 150  # characters of an application's name; Rerun takes 180 in all
+PATIENCE = 10.0  # s in which a viewer must have taken what it was sent, or else it counts as gone
 
 
 def application_id(title: str) -> str:
@@ -35,29 +37,41 @@ class Stamp(NamedTuple):
 
 
 class Stream:
-    """A recording stream of its own (never Rerun's global one) into one file.
+    """Recording streams of its own (never Rerun's global one): one into a file, one into a viewer, or both.
 
-    Rows are stamped with simulated time only: wall-clock timelines would make equal runs differ.
+    Rows are stamped with simulated time only: wall-clock timelines would make equal runs differ. A viewer that goes
+    away is told of on stderr, and is sent nothing more.
     """
 
-    def __init__(self, path: Path, title: str, blueprint: Any) -> None:
-        import rerun
+    def __init__(self, title: str) -> None:
+        self._title = title
+        self._recordings: list[Any] = []
+        self._viewer: Any = None
+        self._url = ""
 
-        self._recording = rerun.RecordingStream(application_id(title))
-        self._recording.save(path, default_blueprint=blueprint)
-        self._recording.send_recording_name(title)
-        self._recording.set_log_time_enabled(False)
-        self._recording.set_log_tick_enabled(False)
+    def to_file(self, path: Path, blueprint: Any) -> None:
+        """Write what follows into a file too."""
+        recording = self._recording()
+        recording.save(path, default_blueprint=blueprint)
+        self._begin(recording)
+
+    def to_viewer(self, url: str, blueprint: Any) -> None:
+        """Send what follows to a viewer too, which listens there."""
+        self._viewer, self._url = self._recording(), url
+        self._viewer.connect_grpc(url, default_blueprint=blueprint)
+        self._begin(self._viewer)
 
     def static(self, path: str, *archetypes: Any) -> None:
         """Write what holds at all times."""
-        self._recording.log(path, *archetypes, static=True)
+        for recording in self._recordings:
+            recording.log(path, *archetypes, static=True)
 
     def row(self, path: str, stamp: Stamp, *archetypes: Any) -> None:
         """Write one row."""
-        self._recording.set_time(FRAME, sequence=stamp.frame)
-        self._recording.set_time(TIME, duration=stamp.time)
-        self._recording.log(path, *archetypes)
+        for recording in self._recordings:
+            recording.set_time(FRAME, sequence=stamp.frame)
+            recording.set_time(TIME, duration=stamp.time)
+            recording.log(path, *archetypes)
 
     def rows(self, path: str, stamps: Sequence[Stamp], columns: Iterable[Any]) -> None:
         """Write one row per stamp at once, which costs a tenth of writing them singly."""
@@ -66,12 +80,35 @@ class Stream:
         frames, times = zip(*stamps, strict=True)
         nanoseconds = np.rint(1e9 * np.array(times)).astype("timedelta64[ns]")  # an array of these is taken as it is
         indexes = [rerun.TimeColumn(FRAME, sequence=frames), rerun.TimeColumn(TIME, duration=nanoseconds)]
-        self._recording.send_columns(path, indexes=indexes, columns=columns)
+        columns = list(columns)
+        for recording in self._recordings:
+            recording.send_columns(path, indexes=indexes, columns=columns)
 
     def flush(self) -> None:
         """Hand everything written so far to the operating system, where a killed process cannot lose it."""
-        self._recording.flush()
+        for recording in [*self._recordings]:
+            if recording is not self._viewer:
+                recording.flush()
+                continue
+            try:
+                recording.flush(timeout_sec=PATIENCE)
+            except RuntimeError:  # what Rerun raises of a connection that broke, and of one that stalls
+                self._recordings.remove(recording)
+                print(f"warning: the viewer at {self._url} has gone away; the run goes on", file=sys.stderr)
 
     def close(self) -> None:
-        """Finish the file."""
-        self._recording.disconnect()
+        """Finish the file, and send the viewer what is left."""
+        self.flush()
+        for recording in self._recordings:
+            recording.disconnect()
+
+    def _recording(self) -> Any:
+        import rerun
+
+        return rerun.RecordingStream(application_id(self._title))
+
+    def _begin(self, recording: Any) -> None:
+        recording.send_recording_name(self._title)
+        recording.set_log_time_enabled(False)
+        recording.set_log_tick_enabled(False)
+        self._recordings.append(recording)
