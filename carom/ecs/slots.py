@@ -158,12 +158,16 @@ class Slots:
 
     def row(self, entity: int) -> int:
         """Return the row of one living entity; the fast form of `rows`."""
-        index = entity & INDEX_MASK
-        if entity >= 0 and index < self.reached and self.generations[index] == entity >> INDEX_BITS:
-            row = index + int(self.row_shift[index])
-            if self.alive[row]:
-                return row
+        if self.lives(entity):
+            index = entity & INDEX_MASK
+            return index + int(self.row_shift[index])
         raise EntityError(self.fate(entity))
+
+    def lives(self, entity: int) -> bool:
+        """Return whether one handle leads to a living entity; the fast form of `live`."""
+        index = entity & INDEX_MASK
+        known = entity >= 0 and index < self.reached and self.generations[index] == entity >> INDEX_BITS
+        return bool(known and self.alive[index + int(self.row_shift[index])])
 
     def fate(self, entity: int) -> str:
         """Say in words what became of an entity that does not live."""

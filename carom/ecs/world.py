@@ -60,7 +60,7 @@ class World(Structure):
     def __contains__(self, key: object) -> bool:
         """Tell whether a component, relation or resource is here, or whether an entity lives."""
         if isinstance(key, (int, np.integer)):
-            return bool(self.slots.live(key))
+            return self.slots.lives(int(key))
         return key in self.tables or key in self.resources
 
     def _open(self, key: Any) -> Any:
@@ -126,6 +126,11 @@ class World(Structure):
             if table.present[row] and table.arrays["text"][row]:
                 return str(table.arrays["text"][row])
         return f"[{int(entity) & INDEX_MASK}]"
+
+    def names_told(self, entities: Integers) -> list[str]:
+        """Return what `name` returns of each of many entities (n,)."""
+        numbers = (entities & INDEX_MASK).tolist()
+        return [text or f"[{number}]" for text, number in zip(self.names_of(entities).tolist(), numbers, strict=True)]
 
     def names_of(self, entities: Integers) -> Texts:
         """Return the name of each of many entities (n,), empty where one has none or lives no more."""

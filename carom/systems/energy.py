@@ -9,6 +9,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial import quaternion
 from carom.systems.forces.law import Forces
 from carom.systems.forces.mutual_gravitation import MutualGravitation
+from carom.systems.kernels.observing import find_kinetic_energies, find_weights
 from carom.systems.settings import Settings
 
 
@@ -27,10 +28,13 @@ def centers_of_mass(world: World, rows: Integers, poses: Transform | None = None
 
 def kinetic_energies(world: World, rows: Integers) -> Floats:
     """Return each body's energy of motion and rotation (n,) in J."""
-    body, linear = world[RigidBody], world[Motion].linear[rows]
-    spin, _ = _in_principal_axes(world, rows)
-    moving = body.mass[rows] * (linear * linear).sum(axis=1)
-    return np.asarray(0.5 * (moving + (body.inertia[rows] * spin * spin).sum(axis=1)))
+    energies = np.empty(len(rows))
+    with world.faces(None):  # as within a system: else kernels are handed copies of columns
+        body, motion, rotation = world[RigidBody], world[Motion], world[Transform].rotation
+        find_kinetic_energies(
+            rows, body.mass, body.inertia, body.principal_axes, rotation, motion.linear, motion.angular, energies
+        )
+    return energies
 
 
 def kinetic_energy(world: World) -> float:
@@ -43,13 +47,16 @@ def potential_energies(world: World) -> dict[str, float]:
 
     The scale s is what each body makes of gravity.
     """
-    rows = dynamic_rows(world)
-    body, center = world[RigidBody], centers_of_mass(world, rows)
-    weighing = body.mass[rows] * body.gravity_scale[rows]
-    weight = -float((weighing * (center @ np.array(world[Settings].gravity))).sum())
+    rows, gravity = dynamic_rows(world), np.array(world[Settings].gravity, np.float64)
+    weights = np.empty(len(rows))
+    with world.faces(None):
+        body, pose = world[RigidBody], world[Transform]
+        find_weights(
+            rows, body.mass, body.gravity_scale, body.center_of_mass, pose.position, pose.rotation, gravity, weights
+        )
     laws = world[Forces].acting(MutualGravitation, world)
     return {
-        "gravity": weight,
+        "gravity": float(weights.sum()),
         MutualGravitation.key: sum(_attraction_energy(world, acting, law) for law, acting in laws),
     }
 

@@ -85,3 +85,9 @@ def tell_hits(world: World, dt: float) -> None:
         numbers = world[Material].number[world.slots.rows(party[: len(loud)][living])]
         material[: len(loud)] = -1
         material[: len(loud)][living] = numbers
+
+
+def touching_rows(contact: Contact) -> Integers:
+    """Return the rows of a table of contacts that touch; the others only may within a step."""
+    live = slice(0, contact.count)
+    return np.asarray(np.nonzero((contact.depth[live] >= 0.0) | (contact.impulse[live] > 0.0))[0], np.int64)

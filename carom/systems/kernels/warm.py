@@ -116,9 +116,11 @@ def compile_frame() -> None:
 
 def compile_rest() -> None:
     """Let a ball fall asleep and wake, and another, which is not balanced, fly at one that stands."""
+    from carom.systems.kernels.observing import compile_observing
     from carom.systems.simulation import Simulation
     from carom.systems.why_awake import why_awake
 
+    compile_observing()
     simulation, ball = Simulation(checked=False), {"sphere": {"radius": 0.5}}
     simulation.add(collider={"plane": {}})
     sleeper = simulation.add(collider=ball, body={}, transform={"position": (0.0, 0.5, 0.0)})

@@ -7,9 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.ecs.column import Integers
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
+from carom.systems.touching import touching_rows
 from carom.tools.marks import Arrows, Mark, Points, tinted
 from carom.tools.overlays.overlay import Overlay, Scaling, Seen
 
@@ -33,7 +33,7 @@ class ContactMarks(Overlay):
         world = seen.world
         points, impulses, colors = [], [], []
         for kind, color in ((Contact, COLOR), (SleepingContact, ASLEEP)):
-            which = touching(world[kind])
+            which = touching_rows(world[kind])
             points.append(world[kind].point[which])
             impulses.append(world[kind].impulse[which, None] * world[kind].normal[which])
             colors.append(tinted(color, len(which)))
@@ -41,9 +41,3 @@ class ContactMarks(Overlay):
         ends = starts + self._scaling.metres(np.concatenate(impulses), seen)
         key = self._scaling.key("impulse", "N s", COLOR, seen)
         return [Arrows(starts, ends, tints, 2.0), Points(starts, tints, 5.0), *key]
-
-
-def touching(contact: Contact) -> Integers:
-    """Return the rows of a table of contacts that touch; the others only may within a step."""
-    live = slice(0, contact.count)
-    return np.asarray(np.nonzero((contact.depth[live] >= 0.0) | (contact.impulse[live] > 0.0))[0], np.int64)

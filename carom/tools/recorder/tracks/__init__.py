@@ -1,6 +1,6 @@
 """Tracks, one file each; importing this package fills their registry."""
 
 from carom.tools.recorder.track import TRACKS, Track
-from carom.tools.recorder.tracks import bodies, booked, contacts, happenings, impacts, plots
+from carom.tools.recorder.tracks import bodies, booked, contacts, happenings, impacts, normals, plots
 
-__all__ = ["TRACKS", "Track", "bodies", "booked", "contacts", "happenings", "impacts", "plots"]
+__all__ = ["TRACKS", "Track", "bodies", "booked", "contacts", "happenings", "impacts", "normals", "plots"]

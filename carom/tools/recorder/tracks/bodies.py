@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from carom.ecs import Transform, Visual, World
-from carom.ecs.column import Integers
+from carom.ecs.column import Booleans, Integers
+from carom.systems.kernels.observing import note_poses
 from carom.systems.shapes import BY_NUMBER, Shape
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.simulation import Simulation
@@ -20,7 +21,13 @@ from carom.tools.recorder.track import Track
 
 ROOT = "world"
 LOOK = ("shape", "size", "geometry", "position", "rotation", "color")
-Poses = npt.NDArray[np.float32]
+
+
+class Poses(NamedTuple):
+    """Positions (n, 3) and rotations (n, 4)."""
+
+    places: npt.NDArray[np.float32]
+    turns: npt.NDArray[np.float32]
 
 
 @dataclass(frozen=True)
@@ -46,48 +53,48 @@ class Bodies(Track):
         self._paths: dict[bytes, str] = {}
         self._rows: Integers = np.zeros(0, np.int64)
         self._starts: Integers = self._rows
-        self._last: Poses = np.zeros((0, 7), np.float32)
+        self._last = Poses(np.zeros((0, 3), np.float32), np.zeros((0, 4), np.float32))
         self._structure = -1
         self._looks: list[npt.NDArray[np.generic]] = []
-        self._pending: list[tuple[Stamp, list[tuple[str, Poses]]]] = []
+        self._pending: list[tuple[Stamp, Poses, Booleans]] = []
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the poses of this frame; write groups anew where bodies came, went or changed their look."""
         world = simulation.world
         if self._changed(world):
+            self.write(stream)
             self._regroup(world, stamp, stream)
-        transform = world[Transform]
-        poses = np.empty((len(self._rows), 7), np.float32)
-        poses[:, :3] = transform.position[self._rows]
-        poses[:, 3:] = transform.rotation[self._rows]
-        if len(poses):
-            moves = np.logical_or.reduceat((poses != self._last).any(axis=1), self._starts)
-            groups = [group for group, moved in zip(self._groups.values(), moves, strict=True) if moved]
-            self._pending.append((stamp, [(group.path, poses[group.span]) for group in groups]))
-        self._last = poses
+        count = len(self._rows)
+        seen = self._last
+        self._last = Poses(np.empty((count, 3), np.float32), np.empty((count, 4), np.float32))
+        moved = np.empty(len(self._starts), np.bool_)
+        with world.faces(None):  # as within a system: else kernels are handed copies of columns
+            pose = world[Transform]
+            note_poses(self._rows, pose.position, pose.rotation, self._starts, *seen, *self._last, moved)
+        self._pending.append((stamp, self._last, moved))
 
     def write(self, stream: Stream) -> None:
         """Write the kept poses, one block per group."""
         import rerun
 
-        blocks: dict[str, tuple[list[Stamp], list[Poses]]] = defaultdict(lambda: ([], []))
-        for stamp, moved in self._pending:
-            for path, poses in moved:
-                blocks[path][0].append(stamp)
-                blocks[path][1].append(poses)
-        for path, (stamps, parts) in blocks.items():
-            poses = np.concatenate(parts)
-            columns = rerun.InstancePoses3D.columns(translations=poses[:, :3], quaternions=poses[:, 3:])
-            stream.rows(path, stamps, columns.partition([len(part) for part in parts]))
-        self._pending = []
+        pending, self._pending = self._pending, []
+        moved = np.array([moved for _, _, moved in pending]).reshape(len(pending), len(self._groups))
+        for group, moves in zip(self._groups.values(), moved.T, strict=True):
+            kept = [pending[at] for at in np.nonzero(moves)[0].tolist()]
+            if kept:
+                places = np.stack([poses.places[group.span] for _, poses, _ in kept])
+                turns = np.stack([poses.turns[group.span] for _, poses, _ in kept])
+                columns = rerun.InstancePoses3D.columns(translations=places, quaternions=turns)
+                stream.rows(group.path, [stamp for stamp, _, _ in kept], columns)
 
     def _changed(self, world: World) -> bool:
         visual = world[Visual]
         rows = world.rows(Visual, Transform)
         looks = [visual.visible[rows], visual.color[rows]]
-        same = self._structure == world.structure and all(map(np.array_equal, looks, self._looks))
+        if self._structure == world.structure and all(map(np.array_equal, looks, self._looks)):
+            return False
         self._structure, self._looks = world.structure, [look.copy() for look in looks]
-        return not same
+        return True
 
     def _regroup(self, world: World, stamp: Stamp, stream: Stream) -> None:
         import rerun
@@ -95,8 +102,8 @@ class Bodies(Track):
         visual = world[Visual]
         rows = world.row_numbers(Visual, Transform)
         rows = rows[visual.visible[rows]]
-        columns = [np.asarray(getattr(visual, name)[rows], np.float64).reshape(len(rows), -1) for name in LOOK]
-        looks = np.concatenate(columns, axis=1)
+        columns = [np.asarray(getattr(visual, name)[rows], np.float64) for name in LOOK]
+        looks = np.column_stack(columns)
         members: dict[bytes, list[int]] = defaultdict(list)
         for row, look in zip(rows, looks, strict=True):
             members[look.tobytes()].append(int(row))
@@ -104,7 +111,7 @@ class Bodies(Track):
         at = 0
         for look, alike in members.items():
             entities = world.entities(np.array(alike))
-            names = [world.name(entity) for entity in entities]
+            names = world.names_told(entities)
             path = self._paths.setdefault(look, self._path(_shape(world, alike[0]), names[0]))
             if look not in before:
                 drawn = _shape(world, alike[0]), visual.position[alike[0]], visual.rotation[alike[0]]
@@ -117,7 +124,8 @@ class Bodies(Track):
             stream.row(before[look].path, stamp, rerun.Clear(recursive=False))
         self._rows = np.array([row for alike in members.values() for row in alike], np.int64)
         self._starts = np.array([group.span.start for group in self._groups.values()], np.int64)
-        self._last = np.full((len(self._rows), 7), np.nan, np.float32)
+        count = len(self._rows)
+        self._last = Poses(np.full((count, 3), np.nan, np.float32), np.full((count, 4), np.nan, np.float32))
 
     def _path(self, shape: Shape, name: str) -> str:
         """Return a path called after the first entity of a group (``rain[3,0,1]``: ``rain``) that no group has."""

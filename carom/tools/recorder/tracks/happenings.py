@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import ClassVar
 
 from carom.ecs import World
-from carom.ecs.errors import EntityError
 from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
@@ -37,15 +36,17 @@ class Happenings(Track):
         """Keep a line for each impact, and each sensor entered or left in the last step."""
         world = simulation.world
         impact = world[Impact]
-        for row in range(min(impact.count, MOST_LINES)):
-            pair = f"{_name(world, impact.a[row])} and {_name(world, impact.b[row])}"
-            text = f"{pair} strike at {impact.speed[row]:.3g} m/s, {impact.impulse[row]:.3g} N s"
-            self._pending.append((Stamp(stamp.frame, float(impact.time[row])), "DEBUG", text))
+        told = slice(0, min(impact.count, MOST_LINES))
+        names = (world.names_told(handles[told]) for handles in (impact.a, impact.b))
+        numbers = (getattr(impact, name)[told].tolist() for name in ("time", "speed", "impulse"))
+        for a, b, time, speed, impulse in zip(*names, *numbers, strict=True):
+            text = f"{a} and {b} strike at {speed:.3g} m/s, {impulse:.3g} N s"
+            self._pending.append((Stamp(stamp.frame, time), "DEBUG", text))
         if impact.count > MOST_LINES:
             self._pending.append((stamp, "DEBUG", f"{impact.count - MOST_LINES} more impacts in this step"))
         for table, crosses in ((world[Enter], "enters"), (world[Exit], "leaves")):
             for row in range(table.count):
-                text = f"{_name(world, table.entity[row])} {crosses} {_name(world, table.sensor[row])}"
+                text = f"{world.name(int(table.entity[row]))} {crosses} {world.name(int(table.sensor[row]))}"
                 self._pending.append((Stamp(stamp.frame, float(table.time[row])), "INFO", text))
 
     def write(self, stream: Stream) -> None:
@@ -56,10 +57,3 @@ class Happenings(Track):
             stamps, levels, texts = zip(*self._pending, strict=True)
             stream.rows(PATH, stamps, rerun.TextLog.columns(text=texts, level=levels))
             self._pending = []
-
-
-def _name(world: World, entity: int) -> str:
-    try:
-        return world.name(entity)
-    except EntityError:
-        return f"[{entity}]"  # gone in the same step
