@@ -88,6 +88,15 @@ CONTACT_FREQUENCY, CONTACT_DAMPING = 45.0, 10.0
 # the ground lies where it should. Larger: bodies under a pile tremble. Smaller: it takes longer.
 RIGID_RATE = 0.05
 
+# Part of what a joint is off by that goes in a substep; and part of the mass, and of the impulse of the substep before,
+# that counts meanwhile. Smaller: joints under heavy loads stretch, and pendulums lose energy. Larger: straight chains
+# of light links with a heavy end, which a sweep solves in part only, tear themselves apart.
+JOINT_RATE, JOINT_HARDNESS = 0.7, 0.85
+
+# m/s, rad/s. What reaches the limit of a joint more slowly does not bounce. Larger: soft bounces end too early.
+# Smaller: what lies at its limit trembles.
+BOUNCE_SPEED = 0.01
+
 # m/s. Overlap leaves no faster: what begins deep inside another would be shot out.
 PUSH_SPEED = 3.0
 

@@ -24,10 +24,10 @@ from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, WORK, fly
 from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_widths import WIDTH
-from carom.systems.kernels.packing import pack_bodies
 from carom.systems.kernels.reach import may_leave_reach
 from carom.systems.kernels.settling import finish_drift
 from carom.systems.ledger import Ledger
+from carom.systems.linkage import Linkage
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
@@ -57,26 +57,27 @@ def look_ahead(world: World, dt: float) -> None:
         detect_again(world, left)
 
 
-@system(reads=(RigidBody, Transform, Motion, Settings, Threads, Awake), writes=(Contact, Flight, Progress, Resting))
+@system(
+    reads=(RigidBody, Transform, Motion, Settings, Threads, Awake, Linkage),
+    writes=(Contact, Flight, Progress, Resting),
+)
 def sort_out_contacts(world: World, dt: float) -> None:
     """Say which contacts rest in this substep; their bodies count as touching."""
     progress, resting = world[Progress], world[Resting]
     progress.resting = progress.balls_resting = 0
-    if not resting.groups:
-        return
-    flight, motion, body = world[Flight], world[Motion], world[RigidBody]
-    pack_bodies(
-        world[Awake].now(world), flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
-        body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation, resting.bodies,
-    )  # fmt: skip
-    progress.resting, progress.balls_resting = resting.sort(world, dt)
+    if resting.groups or world[Linkage].groups:
+        resting.pack(world)
+    if resting.groups:
+        progress.resting, progress.balls_resting = resting.sort(world, dt)
 
 
-@system(reads=(RigidBody, Settings, Progress, Threads, Awake), writes=(Motion, Contact, Flight, Resting))
+@system(
+    reads=(RigidBody, Transform, Settings, Progress, Threads, Awake), writes=(Motion, Contact, Flight, Resting, Linkage)
+)
 def hold(world: World, dt: float) -> None:
     """Solve the resting contacts: they do not close, stick or slide within the cone, and resist rolling."""
     progress, motion = world[Progress], world[Motion]
-    if not progress.resting:
+    if not (progress.resting or world[Linkage].groups):
         return
     world[Resting].press(world, dt)
     if progress.balls_resting and world[Settings].integrator == "verlet":
@@ -88,10 +89,10 @@ def hold(world: World, dt: float) -> None:
         )  # fmt: skip
 
 
-@system(reads=(RigidBody, Progress, Settings, Threads, Awake), writes=(Motion, Resting))
+@system(reads=(RigidBody, Transform, Flight, Progress, Settings, Threads, Awake), writes=(Motion, Resting, Linkage))
 def relax(world: World, dt: float) -> None:
     """Take the speed by which overlap left out of the velocities again."""
-    if world[Progress].resting:
+    if world[Progress].resting or world[Linkage].groups:
         world[Resting].relax(world, dt)
 
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.ecs import Motion, Transform, World
+from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Booleans, Floats
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
@@ -20,10 +20,11 @@ from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
 from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
-from carom.systems.kernels.packing import BODY_WIDTH, pack_velocities, pack_ways, unpack_velocities
+from carom.systems.kernels.packing import BODY_WIDTH, pack_bodies, pack_velocities, pack_ways, unpack_velocities
 from carom.systems.kernels.resting import press_groups, start_warm, sum_impulses
 from carom.systems.kernels.settling import sink_contacts
 from carom.systems.kernels.sorting import sort_groups
+from carom.systems.linkage import Linkage
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.threads import Threads, parts_for, share_out
@@ -88,6 +89,14 @@ class Resting(Resource):
             contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
         )  # fmt: skip
 
+    def pack(self, world: World) -> None:
+        """Write what the stage needs to know of bodies, as they are now."""
+        flight, motion, body = world[Flight], world[Motion], world[RigidBody]
+        pack_bodies(
+            world[Awake].now(world), flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
+            body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation, self.bodies,
+        )  # fmt: skip
+
     def sort(self, world: World, h: float) -> tuple[int, int]:
         """Find which manifolds rest; return how many do, and how many of those are of balls on exact arcs."""
         contact, flight, settings = world[Contact], world[Flight], world[Settings]
@@ -109,8 +118,11 @@ class Resting(Resource):
 
     def press(self, world: World, h: float) -> None:
         """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
-        rows, motion = world[Awake].now(world), world[Motion]
+        rows, motion, linkage = world[Awake].now(world), world[Motion], world[Linkage]
         pack_velocities(rows, motion.linear, motion.angular, self.bodies)
+        if linkage.groups:
+            linkage.measure(world, self.bodies)
+            linkage.start_warm(self.bodies)
         self._together(
             world, start_warm, self.levels, self.level_ends,
             self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
@@ -149,19 +161,28 @@ class Resting(Resource):
 
     def relax(self, world: World, h: float) -> None:
         """Take the speed by which overlap left out of the velocities, and sum up the impulses."""
-        rows, motion, hard = world[Awake].now(world), world[Motion], (0.0, 1.0)
-        pack_velocities(rows, motion.linear, motion.angular, self.bodies)
+        rows, motion, linkage, hard = world[Awake].now(world), world[Motion], world[Linkage], (0.0, 1.0)
+        if linkage.groups:
+            self.pack(world)
+            linkage.measure(world, self.bodies)
+        else:
+            pack_velocities(rows, motion.linear, motion.angular, self.bodies)
         self._solve(world, Stage("relax", RELAX_SWEEPS, h, hard, hard))
+        if linkage.groups:
+            linkage.finish(self.bodies)
         unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
         share_out(
             world, self.groups, lambda begin, end: sum_impulses(begin, end, self.points, self.row, self.lanes)
         )  # fmt: skip
 
     def _solve(self, world: World, stage: Stage) -> None:
-        """Do all sweeps of a stage, one by one for those who are to hear of each."""
+        """Do all sweeps of a stage, one by one for joints, which come first, and for those who are to hear of each."""
         self._tell(stage, 0)
-        at_once = 1 if self.hearers else stage.sweeps
+        linkage = world[Linkage]
+        at_once = 1 if self.hearers or linkage.groups else stage.sweeps
         for done in range(at_once, stage.sweeps + 1, at_once):
+            if linkage.groups:
+                linkage.solve(stage.h, self.bodies, relaxing=stage.name == "relax")
             self._together(
                 world, press_groups, at_once, stage.h, self.ends, self.levels, self.level_ends, stage.soft, stage.rigid,
                 self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,

@@ -43,6 +43,7 @@ from carom.systems.forces.law import Forces, Law
 from carom.systems.interpolation import EarlierPoses
 from carom.systems.layers import Layers
 from carom.systems.ledger import Ledger
+from carom.systems.linkage import Linkage
 from carom.systems.observer import Observer
 from carom.systems.places import extended
 from carom.systems.progress import Progress
@@ -78,7 +79,7 @@ class Simulation:
         self.hearers: list[Callable[[System], None]] = []
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
         packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
-        caches = (*packed, Resting(), Sensing(), Threads(), Scene(), Awake(), Fast(), Ledger())
+        caches = (*packed, Resting(), Linkage(), Sensing(), Threads(), Scene(), Awake(), Fast(), Ledger())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 

@@ -17,6 +17,7 @@ from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
 from carom.systems.forces.wind import apply_wind
 from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
+from carom.systems.jointing import join_bodies, tell_joints
 from carom.systems.keyframes import follow_keyframes
 from carom.systems.progress import begin_step, begin_substep
 from carom.systems.response import drift, hand_impulses_over, hold, look_ahead, relax, settle, sort_out_contacts
@@ -58,9 +59,10 @@ STEP = Schedule(
         apply_damping,
         apply_constant_push,  # last: leaving its stroke depends on the forces before
         sum_forces,  # accelerations; bodies back at the start of the substep
+        join_bodies,  # which joints hold somebody
         sort_out_contacts,  # which pairs rest
         kick,  # each body's arc
-        hold,  # velocities that respect resting contacts
+        hold,  # velocities that respect joints and resting contacts
         drift,  # the flight along the arcs, with impacts at their exact times
         sense,  # who entered and left sensors on the way
         settle,  # origins placed, and how deep contacts have come to be
@@ -71,6 +73,7 @@ STEP = Schedule(
     Phase(
         "finish",
         hand_impulses_over,  # of resting contacts, into their table
+        tell_joints,  # how joints are loaded, and which break
         tell_contacts,  # who touches whom, who begins and ends to
         tell_hits,  # the impacts that are heard
         fall_asleep,  # islands that have been still for a while

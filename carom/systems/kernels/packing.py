@@ -11,9 +11,10 @@ from carom.systems.kernels.spatial import product
 # The blocks of a body's row. Velocity, and the way since contacts were measured: linear (3), a gap, angular (3), a gap;
 # before it sets out, where its centre is (3).
 # Inverse inertia in the world frame: upper half (6), the largest moment. Inverse mass along the axes (3), acceleration
-# by forces (3), inverse mass without locks.
+# by forces (3), inverse mass without locks. Where joints are measured, the way gives place to the pose: centre (3), a
+# gap, rotation (4).
 VELOCITY, WAY, INVERSE, MASS_AND_FELT = range(BLOCKS)
-CENTER = WAY
+CENTER = POSE = WAY
 BODY_WIDTH, ANGULAR = BLOCKS * BLOCK, 4
 AT_WAY, AT_INVERSE, AT_MASS = WAY * BLOCK, INVERSE * BLOCK, MASS_AND_FELT * BLOCK
 
@@ -61,6 +62,20 @@ def unpack_velocities(rows, bodies, linear, angular):
 @kernel("bodies")
 def pack_ways(rows, start_center, center, turned, bodies):
     """Write how far bodies have moved and turned since their contacts were measured."""
+    for k in range(BLOCK):
+        bodies[-1, AT_WAY + k] = 0.0
     for i in rows:
         for k in range(3):
             bodies[i, AT_WAY + k], bodies[i, AT_WAY + ANGULAR + k] = center[i, k] - start_center[i, k], turned[i, k]
+
+
+@kernel("bodies")
+def pack_poses(rows, center, rotation, bodies):
+    """Write where bodies are; the world is at its origin."""
+    for k in range(BLOCK):
+        bodies[-1, AT_WAY + k] = 1.0 if k == BLOCK - 1 else 0.0
+    for i in rows:
+        for k in range(3):
+            bodies[i, AT_WAY + k] = center[i, k]
+        for k in range(4):
+            bodies[i, AT_WAY + ANGULAR + k] = rotation[i, k]

@@ -92,6 +92,7 @@ def compile_frame() -> None:
     """Step a world in which balls rest and roll in a sensor, one body is on keyframes, and every law of force acts."""
     look_for_vectors(there=False)
 
+    from carom.ecs.components.joint import FREE, LIMITED, LOCKED, Joint
     from carom.systems.simulation import Simulation
     from carom.systems.solving import Solving
 
@@ -104,6 +105,8 @@ def compile_frame() -> None:
     simulation.add(collider={"sphere": {"radius": 1.0}, "sensor": True})
     way = ({"at": 0.0}, {"at": 1.0, "position": (1.0, 0.0, 0.0)})
     simulation.add(body={"type": "kinematic"}, keyframes=way)
+    frame, everything = (LOCKED, LOCKED, LOCKED, LIMITED, FREE, LOCKED), (True, False, False, True, False, False)
+    simulation.world.spawn(Joint(b=int(ball), mode=frame, driven=everything, stiffness=1.0))
     simulation.force("linear_drag", coefficient=1.0)
     simulation.force("quadratic_drag", area=1.0)
     simulation.force("mutual_gravitation")

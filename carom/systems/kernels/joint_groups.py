@@ -1,0 +1,270 @@
+"""Groups of joints: up to eight of one kind that share no moving body, so that they can be solved side by side."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+import numpy as np
+
+from carom.ecs.components.joint import LIMITED, LINE, LOCKED, SLOTS, SWING_TWIST
+from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.lanes import WIDTH, address, spread, store
+from carom.systems.kernels.spatial import turn
+
+# Kinds of groups by the ways that their joints hold: the line between the anchors, the three coordinates of a point,
+# and the six of a frame by either measure of turns; each once without limits, drives and friction, and once with.
+LINES, POINTS, FRAMES, CONES, KINDS = 0, 1, 2, 3, 4
+
+# Rows of eight numbers that a group has, a lane each joint: levers from the centres of mass and frames, as the bodies
+# see them; then where they are: from either centre to the anchor of b.
+LEVER_A, LEVER_B, FRAME_A, FRAME_B, ARM_A, ARM_B, FIRST = 0, 3, 6, 10, 14, 17, 20
+# Rows of each way that may be held: its axis, where b is along it and how fast it goes, where it is locked, 1 where it
+# is, and the impulse that holds it, of the substep and summed over the step.
+AXIS, PLACE, SPEED, AT, HELD, HOLD, SUM, SLOT_ROWS = 0, 3, 4, 5, 6, 7, 8, 9
+# Then the triangle of D and L of the locked ways' L D L^T (the inverse of D on the diagonal), and in a group with
+# limits, drives or friction rows of each way: whether it has limits, which, and with which restitution; whether it is
+# driven, how stiffly and damped, 0 where it yields to nothing, where to and how fast, and the most force; friction; how
+# fast it gives way to a unit impulse while what is locked holds; impulses of drive and friction, and their sums.
+IS_LIMITED, LOWER, UPPER, BOUNCE, IS_DRIVEN, STIFFNESS, DAMPING, YIELDS, TARGET, WANTED, MOST = range(11)
+RUBS, GIVE, DRIVE, DRIVE_SUM, RUB, RUB_SUM, BOUND_ROWS = range(11, 18)
+
+# What a group asks for: a bit for each way with a limit, then with a drive, then with friction.
+LIMIT_BIT, DRIVE_BIT, FRICTION_BIT = 1, 1 << SLOTS, 1 << 2 * SLOTS
+
+
+@woven
+def slot(r, s):
+    """Return the first row of way s of a group that begins at r."""
+    return r + FIRST + SLOT_ROWS * s
+
+
+@woven
+def factor(r, slots, i, j):
+    """Return the row of L D L^T, j <= i, of a group with so many ways."""
+    return r + FIRST + SLOT_ROWS * slots + i * (i + 1) // 2 + j
+
+
+@woven
+def bound(r, slots, s):
+    """Return the first row of what bounds way s."""
+    return factor(r, slots, slots, 0) + BOUND_ROWS * s
+
+
+@woven
+def slots_of(kind):
+    """Return how many ways a joint of a kind may hold."""
+    if kind % KINDS == LINES:
+        return 1
+    return 3 if kind % KINDS == POINTS else SLOTS
+
+
+@inlined
+def kind_of(i, along, about, mode, lower, driven, friction):
+    """Return the kind of the group that joint i belongs into."""
+    bounded, turns, point = False, False, True
+    for s in range(SLOTS):
+        bounds = mode[i, s] == LIMITED or driven[i, s] or friction[i, s] > 0.0
+        bounded |= bounds
+        if s < 3:
+            point &= mode[i, s] == LOCKED and not bounds and lower[i, s] == 0.0
+        else:
+            turns |= mode[i, s] == LOCKED or bounds
+    shift = KINDS if bounded else 0
+    if along[i] == LINE:
+        return LINES + shift
+    if point and not turns:
+        return POINTS
+    return (CONES if about[i] == SWING_TWIST else FRAMES) + shift
+
+
+@kernel("kinds", "index_a", "index_b", "first", "row", "level_ends")
+def group_joints(
+    joints, body_a, body_b, inverse_mass, nobody, along, about, mode, lower, driven, friction,
+    kinds, index_a, index_b, first, row, level_ends,
+):  # fmt: skip
+    """Put joints (rows) into groups that, one after the other, do what the joints would in the order of their rows.
+
+    A joint's level is one more than any level before it of its bodies; those of a level share no moving body. A chain
+    is solved from one end to the other: so what holds one link is felt by all in one sweep. Return (groups, rows of
+    all, levels); ``body_a`` and ``body_b`` are rows of bodies, -1 for none, ``first`` is the joint of each lane.
+    """
+    count = len(joints)
+    reached, level = np.zeros(len(inverse_mass), np.int64), np.empty(count, np.int64)
+    kind = np.empty(count, np.int64)
+    levels = 0
+    for n in range(count):
+        i, a, b = joints[n], body_a[n], body_b[n]
+        kind[n] = kind_of(i, along, about, mode, lower, driven, friction)
+        moving_a, moving_b = a >= 0 and inverse_mass[a] > 0.0, b >= 0 and inverse_mass[b] > 0.0
+        level[n] = max(reached[a] if moving_a else 0, reached[b] if moving_b else 0)
+        if moving_a:
+            reached[a] = level[n] + 1
+        if moving_b:
+            reached[b] = level[n] + 1
+        levels = max(levels, level[n] + 1)
+    begin = np.zeros(2 * KINDS * levels + 1, np.int64)
+    for n in range(count):
+        begin[2 * KINDS * level[n] + kind[n] + 1] += 1
+    for k in range(1, len(begin)):
+        begin[k] += begin[k - 1]
+    order = np.empty(count, np.int64)
+    for n in range(count):
+        k = 2 * KINDS * level[n] + kind[n]
+        order[begin[k]] = n
+        begin[k] += 1
+    group, lane, rows, last = -1, WIDTH, 0, -1
+    for k in range(count):
+        n = order[k]
+        if lane == WIDTH or 2 * KINDS * level[n] + kind[n] != last:
+            group, lane, last = group + 1, 0, 2 * KINDS * level[n] + kind[n]
+            kinds[group], row[group] = kind[n], rows
+            slots = slots_of(kind[n])
+            rows = bound(rows, slots, slots if kind[n] >= KINDS else 0)
+            for other in range(WIDTH):
+                index_a[group, other], index_b[group, other], first[group, other] = nobody, nobody, -1
+        level_ends[level[n]] = group + 1
+        index_a[group, lane] = body_a[n] if body_a[n] >= 0 else nobody
+        index_b[group, lane] = body_b[n] if body_b[n] >= 0 else nobody
+        first[group, lane] = joints[n]
+        lane += 1
+    return group + 1, rows, levels
+
+
+@kernel("asks", "lanes")
+def fill_joints(
+    groups, kinds, index_a, index_b, first, row, nobody, center_of_mass,
+    row_a, row_b, place, turned, anchor_a, anchor_b, frame_a, frame_b, mode, lower, upper, restitution,
+    driven, stiffness, damping, target, speed, most, friction, impulse, drive_impulse, friction_impulse, position,
+    asks, lanes,
+):  # fmt: skip
+    """Write what joints hold into the lanes of their groups; of what stands, anchors and frames are in the world.
+
+    ``row_a`` and ``row_b`` are the rows of whom a joint holds (-1 for the world), ``place`` and ``turned`` their poses.
+    """
+    rows = address(lanes)
+    for g in range(groups):
+        r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
+        for k in range(bound(r, slots, slots if bounded else 0) - r):
+            store(rows, r + k, spread(0.0))
+        asks[g] = 0
+        for lane in range(WIDTH):
+            lanes[r + FRAME_A + 3, lane] = lanes[r + FRAME_B + 3, lane] = 1.0
+            i = first[g, lane]
+            if i < 0:
+                continue
+            a, b = row_a[i], row_b[i]
+            write_side(
+                r + LEVER_A, r + FRAME_A, lane, i, index_a[g, lane] == nobody, a, center_of_mass, place, turned,
+                anchor_a, frame_a, lanes,
+            )  # fmt: skip
+            write_side(
+                r + LEVER_B, r + FRAME_B, lane, i, index_b[g, lane] == nobody, b, center_of_mass, place, turned,
+                anchor_b, frame_b, lanes,
+            )  # fmt: skip
+            for s in range(slots):
+                q = slot(r, s)
+                lanes[q + PLACE, lane], lanes[q + AT, lane] = position[i, s], lower[i, s]
+                lanes[q + HELD, lane] = 1.0 if mode[i, s] == LOCKED else 0.0
+                lanes[q + HOLD, lane] = impulse[i, s]
+                if bounded:
+                    asks[g] |= write_bounds(
+                        bound(r, slots, s), lane, i, s, mode, lower, upper, restitution, driven, stiffness, damping,
+                        target, speed, most, friction, drive_impulse, friction_impulse, lanes,
+                    )  # fmt: skip
+
+
+@inlined
+def write_side(lever, frame, lane, i, stands, body, center_of_mass, place, turned, anchor, frames, lanes):
+    """Write the lever and the frame of joint i on one of the two that it holds."""
+    x, y, z = anchor[i, 0], anchor[i, 1], anchor[i, 2]
+    qx, qy, qz, qw = frames[i, 0], frames[i, 1], frames[i, 2], frames[i, 3]
+    if not stands:
+        x, y, z = x - center_of_mass[body, 0], y - center_of_mass[body, 1], z - center_of_mass[body, 2]
+    elif body >= 0:
+        tx, ty, tz, tw = turned[body, 0], turned[body, 1], turned[body, 2], turned[body, 3]
+        x, y, z = turn(tx, ty, tz, tw, x, y, z)
+        x, y, z = x + place[body, 0], y + place[body, 1], z + place[body, 2]
+        qx, qy, qz, qw = (
+            tw * qx + tx * qw + ty * qz - tz * qy,
+            tw * qy - tx * qz + ty * qw + tz * qx,
+            tw * qz + tx * qy - ty * qx + tz * qw,
+            tw * qw - tx * qx - ty * qy - tz * qz,
+        )
+    for k, value in enumerate((x, y, z)):
+        lanes[lever + k, lane] = value
+    for k, value in enumerate((qx, qy, qz, qw)):
+        lanes[frame + k, lane] = value
+
+
+@inlined
+def write_bounds(
+    q, lane, i, s, mode, lower, upper, restitution, driven, stiffness, damping, target, speed, most, friction,
+    drive_impulse, friction_impulse, lanes,
+):  # fmt: skip
+    """Write what bounds a way; return what it asks for."""
+    asks = 0
+    if mode[i, s] == LIMITED:
+        asks |= LIMIT_BIT << s
+        lanes[q + IS_LIMITED, lane], lanes[q + BOUNCE, lane] = 1.0, restitution[i]
+        lanes[q + LOWER, lane], lanes[q + UPPER, lane] = lower[i, s], upper[i, s]
+    rigid = damping[i, s] == np.inf
+    lanes[q + DAMPING, lane], lanes[q + YIELDS, lane] = 1.0, 0.0
+    if driven[i, s] and (damping[i, s] > 0.0 or stiffness[i, s] > 0.0):
+        asks |= DRIVE_BIT << s
+        lanes[q + IS_DRIVEN, lane] = 1.0
+        if not rigid:
+            lanes[q + STIFFNESS, lane], lanes[q + DAMPING, lane] = stiffness[i, s], damping[i, s]
+            lanes[q + YIELDS, lane] = 1.0
+        lanes[q + TARGET, lane], lanes[q + WANTED, lane] = target[i, s], speed[i, s]
+        lanes[q + MOST, lane], lanes[q + DRIVE, lane] = most[i, s], drive_impulse[i, s]
+    if friction[i, s] > 0.0:
+        asks |= FRICTION_BIT << s
+        lanes[q + RUBS, lane], lanes[q + RUB, lane] = friction[i, s], friction_impulse[i, s]
+    return asks
+
+
+@kernel(
+    "impulse",
+    "drive_impulse",
+    "friction_impulse",
+    "position",
+    "velocity",
+    "held",
+    "driven",
+    "rubbed",
+    "force",
+    "torque",
+)
+def hand_joints_over(
+    groups, kinds, first, row, lanes,
+    impulse, drive_impulse, friction_impulse, position, velocity, held, driven, rubbed, force, torque,
+):  # fmt: skip
+    """Write what the lanes have found of joints into their columns, and add up impulses.
+
+    ``held``, ``driven`` and ``rubbed`` (n, 6) get those of locks and limits, of drives, and of friction; ``force`` and
+    ``torque`` (n, 3) what all of them are in the world, N s and N m s on b at its anchor.
+    """
+    for g in range(groups):
+        r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
+        for lane in range(WIDTH):
+            i = first[g, lane]
+            if i < 0:
+                continue
+            for s in range(slots):
+                q = slot(r, s)
+                impulse[i, s], position[i, s] = lanes[q + HOLD, lane], lanes[q + PLACE, lane]
+                velocity[i, s] = lanes[q + SPEED, lane]
+                whole = lanes[q + SUM, lane]
+                held[i, s] += lanes[q + SUM, lane]
+                lanes[q + SUM, lane] = 0.0
+                if bounded:
+                    p = bound(r, slots, s)
+                    drive_impulse[i, s], friction_impulse[i, s] = lanes[p + DRIVE, lane], lanes[p + RUB, lane]
+                    driven[i, s] += lanes[p + DRIVE_SUM, lane]
+                    rubbed[i, s] += lanes[p + RUB_SUM, lane]
+                    whole += lanes[p + DRIVE_SUM, lane] + lanes[p + RUB_SUM, lane]
+                    lanes[p + DRIVE_SUM, lane], lanes[p + RUB_SUM, lane] = 0.0, 0.0
+                for k in range(3):
+                    if s < 3:
+                        force[i, k] += whole * lanes[q + AXIS + k, lane]
+                    else:
+                        torque[i, k] += whole * lanes[q + AXIS + k, lane]

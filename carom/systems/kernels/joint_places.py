@@ -1,0 +1,238 @@
+"""Where joints are: the axes along and about which they hold, where b is on them, and how bodies yield there."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+import numpy as np
+
+from carom.ecs.components.joint import SLOTS
+from carom.systems.constants import IMMOVABLE
+from carom.systems.kernels import joint_groups as of
+from carom.systems.kernels.joint_groups import CONES, KINDS, LINES, POINTS, bound, factor, slot
+from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lane_angles import arc_tangent, nearest_turn
+from carom.systems.kernels.lane_vectors import TINY, about, dot, keep, three
+from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, root, spread, store
+from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT, POSE
+from carom.systems.kernels.spatial import cross, product, turn
+
+# Rows of the scratch: for each way, its axis by the inverse masses, its lever about a and b, what unit impulses turn
+# them by; then the triangle of how fast each yields to the other, and of what is left of it along the diagonal.
+BY_MASS, ARM, TURNS, OF_EACH = 0, 3, 9, 15
+MATRIX = OF_EACH * SLOTS
+DIAGONAL, COLUMN, SCRATCH_ROWS = MATRIX + SLOTS * (SLOTS + 1) // 2, MATRIX + 27, MATRIX + 33
+
+
+@kernel("lanes")
+def measure_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
+    """Find the axes of joints where their bodies are now, where b is on them, and how bodies yield along them."""
+    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    room = np.empty((SCRATCH_ROWS, WIDTH))
+    scratch = address(room)
+    for g in range(groups):
+        r, kind, bounded = row[g], kinds[g] % KINDS, kinds[g] >= KINDS
+        a, b = gather(bodies, index_a, g, POSE), gather(bodies, index_b, g, POSE)
+        d = between(r, lanes, a, b)
+        if kind == LINES:
+            place_line(r, lanes, a, d)
+            find_yielding(1, g, r, bounded, index_a, index_b, lanes, bodies, scratch)
+        elif kind == POINTS:
+            place_point(r, lanes, a, d)
+            find_yielding(3, g, r, bounded, index_a, index_b, lanes, bodies, scratch)
+        else:
+            place_frame(r, kind, lanes, a, b, d)
+            find_yielding(6, g, r, bounded, index_a, index_b, lanes, bodies, scratch)
+
+
+@woven
+def between(r, lanes, a, b):
+    """Write the arms to the anchor of b, and return how far it is from that of a."""
+    ax, ay, az = three(lanes, r + of.LEVER_A)
+    ax, ay, az = turn(a[4], a[5], a[6], a[7], ax, ay, az)
+    bx, by, bz = three(lanes, r + of.LEVER_B)
+    bx, by, bz = turn(b[4], b[5], b[6], b[7], bx, by, bz)
+    x, y, z = b[0] - a[0] + bx, b[1] - a[1] + by, b[2] - a[2] + bz
+    keep(lanes, r + of.ARM_A, x, y, z)  # so that what b gets a loses about any point
+    keep(lanes, r + of.ARM_B, bx, by, bz)
+    return x - ax, y - ay, z - az
+
+
+@woven
+def place_line(r, lanes, a, d):
+    """Measure along the line between the anchors; where they meet, along the one of before."""
+    q = slot(r, 0)
+    x, y, z = three(lanes, q + of.AXIS)
+    length = root(dot(d, d))
+    there = length - TINY
+    scale = 1.0 / larger(length, spread(TINY))
+    keep(
+        lanes,
+        q + of.AXIS,
+        choose(there, d[0] * scale, x),
+        choose(there, d[1] * scale, y),
+        choose(there, d[2] * scale, z),
+    )
+    store(lanes, q + of.PLACE, length)
+
+
+@woven
+def place_point(r, lanes, a, d):
+    """Measure along the axes of the world, which do for what is locked along all."""
+    zero, one = spread(0.0), spread(1.0)
+    for s in range(3):
+        q = slot(r, s)
+        keep(lanes, q + of.AXIS, one if s == 0 else zero, one if s == 1 else zero, one if s == 2 else zero)
+        store(lanes, q + of.PLACE, d[0] if s == 0 else d[1] if s == 1 else d[2])
+
+
+@woven
+def place_frame(r, kind, lanes, a, b, d):
+    """Measure along the axes of a's frame, and about those of both."""
+    fx, fy, fz = three(lanes, r + of.FRAME_A)
+    px, py, pz, pw = product(a[4], a[5], a[6], a[7], fx, fy, fz, load(lanes, r + of.FRAME_A + 3))
+    fx, fy, fz = three(lanes, r + of.FRAME_B)
+    qx, qy, qz, qw = product(b[4], b[5], b[6], b[7], fx, fy, fz, load(lanes, r + of.FRAME_B + 3))
+    x, y, z = axes_of(px, py, pz, pw)
+    for s in range(3):
+        axis = x if s == 0 else y if s == 1 else z
+        keep(lanes, slot(r, s) + of.AXIS, axis[0], axis[1], axis[2])
+        store(lanes, slot(r, s) + of.PLACE, dot(axis, d))
+    qx, qy, qz, qw = product(-px, -py, -pz, pw, qx, qy, qz, qw)  # from b's frame to a's
+    if kind == CONES:
+        place_cone(r, lanes, x, y, z, qx, qy, qz, qw)
+    else:
+        place_angles(r, lanes, x, y, z, qx, qy, qz, qw)
+
+
+@woven
+def axes_of(x, y, z, w):
+    """Return the axes of a frame that is turned by a unit quaternion."""
+    return (
+        (1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)),
+        (2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)),
+        (2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)),
+    )
+
+
+@woven
+def place_angles(r, lanes, x, y, z, qx, qy, qz, qw):
+    """Measure turns as angles about x, then y, then z; an axis here is that whose angular velocity is the angle's rate.
+
+    They are the basis dual to x of a, y between the turns and z of b (Goldstein, Classical Mechanics, 4.9); within a
+    quarter turn about y, where x and z would be one.
+    """
+    u, v, w = axes_of(qx, qy, qz, qw)
+    level = root(u[0] * u[0] + v[0] * v[0])  # cosine of the second angle
+    store_angle(r, 3, lanes, arc_tangent(-w[1], w[2]))
+    store_angle(r, 4, lanes, arc_tangent(w[0], level))
+    store_angle(r, 5, lanes, arc_tangent(-v[0], u[0]))
+    inverse = 1.0 / larger(level, spread(1e-6))
+    s, c, tangent = -w[1] * inverse, w[2] * inverse, w[0] * inverse
+    keep_turned(r, 3, lanes, x, y, z, spread(1.0), tangent * s, -(tangent * c))
+    keep_turned(r, 4, lanes, x, y, z, spread(0.0), c, s)
+    keep_turned(r, 5, lanes, x, y, z, spread(0.0), -(s * inverse), c * inverse)
+
+
+@woven
+def place_cone(r, lanes, x, y, z, qx, qy, qz, qw):
+    """Measure the twist about x, and the angle between both x axes."""
+    off, along = root(qy * qy + qz * qz), root(qx * qx + qw * qw)
+    store_angle(r, 3, lanes, 2.0 * arc_tangent(qx, qw))
+    store(lanes, slot(r, 4) + of.PLACE, 2.0 * arc_tangent(off, along))
+    store(lanes, slot(r, 5) + of.PLACE, spread(0.0))
+    (ux, uy, uz), _, _ = axes_of(qx, qy, qz, qw)  # x of b, in the frame of a
+    half = 1.0 / larger(1.0 + ux, spread(1e-6))
+    keep_turned(r, 3, lanes, x, y, z, spread(1.0), uy * half, uz * half)
+    sine = root(uy * uy + uz * uz)
+    swings, scale = sine - TINY, 1.0 / larger(sine, spread(TINY))
+    v, w = choose(swings, -(uz * scale), spread(1.0)), choose(swings, uy * scale, spread(0.0))
+    keep_turned(r, 4, lanes, x, y, z, spread(0.0), v, w)
+    keep_turned(r, 5, lanes, x, y, z, spread(0.0), spread(0.0), spread(1.0))
+
+
+@woven
+def store_angle(r, s, lanes, angle):
+    """Write an angle that goes on where it was before."""
+    q = slot(r, s) + of.PLACE
+    store(lanes, q, nearest_turn(angle, load(lanes, q)))
+
+
+@woven
+def keep_turned(r, s, lanes, x, y, z, u, v, w):
+    """Write an axis that is (u, v, w) in the frame x, y, z."""
+    keep(
+        lanes, slot(r, s) + of.AXIS,
+        u * x[0] + v * y[0] + w * z[0], u * x[1] + v * y[1] + w * z[1], u * x[2] + v * y[2] + w * z[2],
+    )  # fmt: skip
+
+
+@woven
+def find_yielding(slots, g, r, bounded, index_a, index_b, lanes, bodies, scratch):
+    """Factor the matrix of how fast locked ways yield to unit impulses, and find what others give while those hold.
+
+    L D L^T (Golub and Van Loan, Matrix Computations, 4.1), of which ways that are not locked have rows of the identity.
+    A pivot that is rounding is one that nothing moves along: it gets no impulse.
+    """
+    mass_a, mass_b = gather(bodies, index_a, g, MASS_AND_FELT), gather(bodies, index_b, g, MASS_AND_FELT)
+    inverse_a, inverse_b = gather(bodies, index_a, g, INVERSE), gather(bodies, index_b, g, INVERSE)
+    arm_a, arm_b = three(lanes, r + of.ARM_A), three(lanes, r + of.ARM_B)
+    for s in range(slots):
+        e, o = three(lanes, slot(r, s) + of.AXIS), OF_EACH * s
+        if s < 3:
+            m = (mass_a[0] + mass_b[0]) * e[0], (mass_a[1] + mass_b[1]) * e[1], (mass_a[2] + mass_b[2]) * e[2]
+            of_a, of_b = (
+                cross(arm_a[0], arm_a[1], arm_a[2], e[0], e[1], e[2]),
+                cross(arm_b[0], arm_b[1], arm_b[2], e[0], e[1], e[2]),
+            )
+        else:
+            m, of_a, of_b = (spread(0.0), spread(0.0), spread(0.0)), e, e
+        keep(scratch, o + BY_MASS, m[0], m[1], m[2])
+        keep(scratch, o + ARM, of_a[0], of_a[1], of_a[2])
+        keep(scratch, o + ARM + 3, of_b[0], of_b[1], of_b[2])
+        x, y, z = about(inverse_a, of_a[0], of_a[1], of_a[2])
+        keep(scratch, o + TURNS, x, y, z)
+        x, y, z = about(inverse_b, of_b[0], of_b[1], of_b[2])
+        keep(scratch, o + TURNS + 3, x, y, z)
+    for i in range(slots):
+        e = three(lanes, slot(r, i) + of.AXIS)
+        of_a, of_b = three(scratch, OF_EACH * i + ARM), three(scratch, OF_EACH * i + ARM + 3)
+        for j in range(i + 1):
+            o = OF_EACH * j
+            total = dot(of_a, three(scratch, o + TURNS)) + dot(of_b, three(scratch, o + TURNS + 3))
+            if i < 3:
+                total = total + dot(e, three(scratch, o + BY_MASS))
+            store(scratch, triangle(i, j), total)
+    for j in range(slots):
+        held = load(lanes, slot(r, j) + of.HELD)
+        whole = load(scratch, triangle(j, j))
+        pivot = whole
+        for k in range(j):
+            low = load(lanes, factor(r, slots, j, k))
+            pivot = pivot - low * low * load(scratch, DIAGONAL + k)
+        solid = choose(pivot - whole * IMMOVABLE, held, spread(0.0))
+        store(scratch, DIAGONAL + j, pivot * solid)
+        inverse = solid / choose(solid, pivot, spread(1.0))
+        store(lanes, factor(r, slots, j, j), inverse)
+        for i in range(j + 1, slots):
+            low = load(scratch, triangle(i, j))
+            for k in range(j):
+                low = low - load(lanes, factor(r, slots, i, k)) * load(lanes, factor(r, slots, j, k)) * load(
+                    scratch, DIAGONAL + k
+                )
+            store(lanes, factor(r, slots, i, j), low * inverse * load(lanes, slot(r, i) + of.HELD))
+    if bounded:
+        for s in range(slots):
+            give = load(scratch, triangle(s, s))
+            for j in range(slots):
+                rest = load(scratch, triangle(max(s, j), min(s, j))) * load(lanes, slot(r, j) + of.HELD)
+                for k in range(j):
+                    rest = rest - load(lanes, factor(r, slots, j, k)) * load(scratch, COLUMN + k)
+                store(scratch, COLUMN + j, rest)
+                give = give - rest * rest * load(lanes, factor(r, slots, j, j))
+            store(lanes, bound(r, slots, s) + of.GIVE, give)
+
+
+@woven
+def triangle(i, j):
+    """Return the row of the scratch that holds how fast way i yields to way j, j <= i."""
+    return MATRIX + i * (i + 1) // 2 + j
