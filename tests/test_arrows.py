@@ -15,7 +15,7 @@ PACKAGE = Path(carom.__file__).parent
 ROOMS = ("ecs", "systems", "worlds", "tools")
 KEPT_IN = {"fcl": "systems", "rerun": "tools", "rerun_cli": "tools", "pyrender": "tools", "OpenGL": "tools"}
 # These derive from pyrender's classes; whoever needs them imports them inside a function.
-DRAWING = {f"carom.tools.{name}" for name in ("instances", "osmesa", "passes")}
+DRAWING = {f"carom.tools.{name}" for name in ("instances", "osmesa", "passes", "surfaceless")}
 COMPARING = ("tools", "bench")  # where carom is measured against any library
 FILES = sorted(PACKAGE.rglob("*.py"))
 
