@@ -13,6 +13,7 @@ from carom.ecs.errors import CaromError, EntityError
 from carom.ecs.spatial import quaternion
 from carom.systems.settings import Settings
 from carom.tools.cameras import Camera, Vector, front
+from carom.worlds.builder import LoadedWorld
 from carom.worlds.camera import Camera as Words
 from carom.worlds.camera import Orbit, along
 
@@ -85,6 +86,11 @@ class Rig:
         if not along(up, sight.tolist()):
             return up
         return _vector(np.copysign(1.0, sight @ np.array(up)) * toward)
+
+
+def rigs_of(loaded: LoadedWorld) -> list[Rig]:
+    """Return the cameras of a world file."""
+    return [Rig(name, words, loaded.up) for name, words in loaded.cameras.items()]
 
 
 def _vector(numbers: Floats) -> Vector:

@@ -32,7 +32,7 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.tools.filming import Filming, photograph, shot_of
     from carom.tools.outputs import prepare_outputs
     from carom.tools.painter import Painter
-    from carom.tools.recorder import Recorder
+    from carom.tools.recorder.of_world import recorder_of
     from carom.tools.replay import Replay
     from carom.tools.retrace import retrace
 
@@ -51,11 +51,8 @@ def execute(arguments: argparse.Namespace) -> int:
     level = detail(arguments, loaded.recording.detail, bool(arguments.out), "--out FILE")
     observers: list[Observer] = []
     if arguments.out:
-        title, source, files, camera = replay.title, replay.source, replay.files, shot.camera(simulation.world)
-        recorder = Recorder(
-            arguments.out, every=1, detail=level, title=title, source=source, files=files, camera=camera
-        )
-        observers.append(recorder)
+        stated = {"title": replay.title, "source": replay.source, "files": replay.files}
+        observers.append(recorder_of(loaded, shot, arguments.out, every=1, detail=level, **stated))
     if arguments.film:
         observers.append(Filming(shot, arguments.film))
     painter = Painter(simulation, shot.look)

@@ -55,7 +55,7 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.tools.outputs import prepare_outputs
     from carom.tools.pace import Pace
     from carom.tools.painter import Painter
-    from carom.tools.recorder import Recorder
+    from carom.tools.recorder.of_world import recorder_of
     from carom.tools.session import run
     from carom.tools.vantage import vantage_warnings
     from carom.tools.viewer import running_viewer
@@ -72,10 +72,7 @@ def execute(arguments: argparse.Namespace) -> int:
     pace = Pace(factor("--speed", arguments.speed)) if arguments.speed else None
     live = running_viewer(arguments.viewer) if shown else None
     if arguments.record or live:
-        title, source, files = loaded.name or Path(loaded.path).stem, loaded.source_text, loaded.contents()
-        camera = shot.camera(loaded.simulation.world)
-        place = {"path": arguments.record, "live": live}
-        observers.append(Recorder(**place, detail=level, title=title, source=source, files=files, camera=camera))
+        observers.append(recorder_of(loaded, shot, arguments.record, live=live, detail=level))
     if arguments.film:
         observers.append(Filming(shot, arguments.film))
     prepare_outputs([arguments.record, arguments.film, arguments.picture])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from time import monotonic
 
@@ -16,6 +16,8 @@ from carom.tools.recorder.edits import Edits
 from carom.tools.recorder.snapshots import Snapshots
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.tracks.bodies import ROOT
+from carom.tools.recorder.tracks.cameras import Cameras
+from carom.tools.rigs import Rig
 
 FLUSH_AFTER = 0.9  # s of real time: a kill then loses less than the last second also of a slow run
 SEND_AFTER = 1 / 30  # s of real time, so that what a viewer shows of a run moves
@@ -29,7 +31,8 @@ class Recorder:
     real time, whichever ends first, and to a viewer 30 times a second. ``detail`` says how much is recorded: ``light``,
     ``full`` or ``solver``; no bit of the run depends on it. ``title``, ``source`` (the text of the world file) and
     ``files`` (the content of those it names, by its words for them) travel in the recording. Raises DeclarationError
-    for an unknown detail.
+    for an unknown detail. The view begins at ``camera``; ``cameras`` are recorded as they
+    move, each with pictures ``aspect`` times as wide as high.
     """
 
     def __init__(
@@ -44,6 +47,8 @@ class Recorder:
         source: str | None = None,
         files: Mapping[str, bytes] | None = None,
         camera: Camera | None = None,
+        cameras: Sequence[Rig] = (),
+        aspect: float = 4 / 3,
     ) -> None:
         if path is None and live is None:
             raise CaromError("a recorder writes to a file, to a viewer or to both; state its path or live=")
@@ -55,7 +60,7 @@ class Recorder:
         self._stream: Stream | None = None
         self._detail = detail
         self._edits, self._snapshots = Edits(), Snapshots()
-        self._tracks = {**tracks_of(detail), "snapshots": self._snapshots}
+        self._tracks = {**tracks_of(detail), "cameras": Cameras(cameras, aspect), "snapshots": self._snapshots}
         self._seen = self._waiting = 0
         self._flushed = 0.0
         self._patience = FLUSH_AFTER if live is None else SEND_AFTER

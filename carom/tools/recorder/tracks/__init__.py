@@ -1,6 +1,26 @@
 """Tracks, one file each; importing this package fills their registry."""
 
 from carom.tools.recorder.track import TRACKS, Track
-from carom.tools.recorder.tracks import bodies, booked, contacts, happenings, impacts, normals, plots
+from carom.tools.recorder.tracks import (
+    bodies,
+    booked,
+    cameras,
+    contacts,
+    happenings,
+    impacts,
+    normals,
+    plots,
+)
 
-__all__ = ["TRACKS", "Track", "bodies", "booked", "contacts", "happenings", "impacts", "normals", "plots"]
+__all__ = [
+    "TRACKS",
+    "Track",
+    "bodies",
+    "booked",
+    "cameras",
+    "contacts",
+    "happenings",
+    "impacts",
+    "normals",
+    "plots",
+]
