@@ -31,7 +31,7 @@ def detail(path: Path) -> str:
 def test_each_level_has_all_of_those_before_it() -> None:
     """In order of the registry."""
     light, full, solver = (list(tracks_of(level)) for level in DETAILS)
-    assert light == ["bodies", "ledger", "contacts", "log", "impacts", "plots"]
+    assert light == ["bodies", "ledger", "cameras", "contacts", "log", "impacts", "plots"]
     assert [key for key in full if key in light] == light
     assert [key for key in solver if key in full] == full
 

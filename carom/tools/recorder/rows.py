@@ -19,12 +19,13 @@ class RowTrack(Track):
     """Rows of declared columns, written below ``path``; `carom query` has them as a table called by the track's key.
 
     A column is written under its own name, but for those ``drawn``, of which Rerun's own component by that name holds
-    the values: ``{"point": "Points3D:positions"}``, float32.
+    the values: ``{"point": "Points3D:positions"}``, float32. One that is ``sparse`` has no table where it has no rows.
     """
 
     path: ClassVar[str]
     columns: ClassVar[Mapping[str, Column]]
     drawn: ClassVar[Mapping[str, str]] = {}
+    sparse: ClassVar[bool] = False
 
     def __init__(self) -> None:
         self._pending: list[tuple[Stamp, Columns]] = []

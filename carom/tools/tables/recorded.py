@@ -11,7 +11,9 @@ from carom.tools.tables.source import Source, flats
 
 def is_there(source: Source, track: type[RowTrack]) -> bool:
     """Tell whether a recording has a track, if only to say that there was nothing."""
-    return track.detail == "light" or any((f"/{track.path}", name) in source.series for name in track.columns)
+    return (track.detail == "light" and not track.sparse) or any(
+        (f"/{track.path}", name) in source.series for name in track.columns
+    )
 
 
 def recorded(source: Source, track: type[RowTrack]) -> list[Flat]:

@@ -73,7 +73,9 @@ class Source:
 def flats(name: str, column: Column, values: npt.NDArray[Any]) -> Iterator[Flat]:
     """Return the columns of what a component or relation declares, one per number."""
     about = {"unit": column.unit, "doc": column.doc}
-    for path, numbers in zip(paths(name, column), values.reshape(len(values), -1).T, strict=True):
+    for path, numbers in zip(
+        paths(name, column), values.reshape(len(values), int(np.prod(values.shape[1:]))).T, strict=True
+    ):
         yield flat(path, about, np.ascontiguousarray(numbers))
 
 

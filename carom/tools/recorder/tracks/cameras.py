@@ -33,6 +33,7 @@ class Cameras(RowTrack):
 
     key: ClassVar[str] = "cameras"
     path: ClassVar[str] = "cameras"
+    sparse: ClassVar[bool] = True
     columns: ClassVar[Mapping[str, Column]] = {
         "camera": text("its name in the world file"),
         "position": Transform.columns["position"],
