@@ -19,12 +19,12 @@ from carom.systems.simulation import Simulation
 class Sweep(NamedTuple):
     """What a sweep over all groups left: residuals of its points (m/s, `find_residuals`), and limits at work.
 
-    ``number`` 0 is before the first sweep of the stage. ``open`` points bear nothing, ``pushed`` ones part with the
-    highest speed at which overlap leaves; of manifolds friction ``sliding``, ``spinning`` and ``rolling`` is all that
-    it may be.
+    ``part`` is the number of the substep in its step, from 1 on, ``time`` (s) its end; ``number`` counts sweeps of the
+    stage, 0 is before the first. ``open`` points bear nothing, ``pushed`` ones part with the highest speed at which
+    overlap leaves; of manifolds friction ``sliding``, ``spinning`` and ``rolling`` is all that it may be.
     """
 
-    substep: int
+    part: int
     time: float
     stage: str
     number: int
@@ -40,7 +40,7 @@ class Sweep(NamedTuple):
 class Level(NamedTuple):
     """What was solved side by side, since no two of its manifolds share a moving body: a colour of the contacts."""
 
-    substep: int
+    part: int
     time: float
     level: int
     groups: int
@@ -86,10 +86,10 @@ class Solving:
         largest, summed = float(rows[:, left.LARGEST].max(initial=0.0)), float(rows[:, left.SUMMED].sum())
         self.sweeps.append(Sweep(*when, stage.name, number, largest, summed, *counts))
 
-    def _look_at_levels(self, substep: int, time: float) -> None:
+    def _look_at_levels(self, part: int, time: float) -> None:
         resting, begin = self._resting, 0
         for level, end in enumerate(resting.level_ends[: resting.levels].tolist()):
             rests = resting.lanes[resting.row[begin:end] + of.RESTS] > 0.0
             points = int(resting.size[begin:end][rests].sum())
-            self.levels.append(Level(substep, time, level, end - begin, int(rests.sum()), points))
+            self.levels.append(Level(part, time, level, end - begin, int(rests.sum()), points))
             begin = end

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from carom.ecs.errors import CaromError
-from carom.tools.recorder.stream import FRAME, TIME
-from carom.tools.recorder.tracks import happenings
+from carom.tools.recorder.stream import FRAME, SUBSTEP, TIME
+from carom.tools.recorder.tracks import bodies, happenings
 
 NANOSECONDS = 1e-9
 ROW_ID = "rerun.controls.RowId"
@@ -42,13 +43,20 @@ class Series:
 
 
 @dataclass
-class Written:
-    """What was written: what holds at all times, the time (s) of each frame, the log, rows by path and component."""
+class Timeline:
+    """Rows by path and component, and the time (s) of each frame, or of each substep."""
+
+    times: dict[int, float] = field(default_factory=dict)
+    series: dict[tuple[str, str], Series] = field(default_factory=lambda: defaultdict(Series))
+
+
+@dataclass
+class Written(Timeline):
+    """What was written: what holds at all times, the log, rows of frames, and poses by substep."""
 
     static: dict[str, dict[str, Any]] = field(default_factory=lambda: defaultdict(dict))
-    times: dict[int, float] = field(default_factory=dict)
     lines: list[Line] = field(default_factory=list)
-    series: dict[tuple[str, str], Series] = field(default_factory=lambda: defaultdict(Series))
+    substeps: Timeline = field(default_factory=Timeline)
 
 
 def read(path: Path) -> Written:
@@ -57,32 +65,44 @@ def read(path: Path) -> Written:
     for chunk in _chunks(path):
         batch = chunk.to_record_batch()
         columns = {name: batch.column(name) for name in batch.schema.names}
-        components = [name for name in columns if name not in (FRAME, TIME, ROW_ID)]
+        components = [name for name in columns if name not in (FRAME, TIME, SUBSTEP, ROW_ID)]
         if chunk.is_static:
             written.static[chunk.entity_path] |= {name: columns[name][0].as_py() for name in components}
             continue
+        if SUBSTEP in columns and chunk.entity_path.startswith(f"/{bodies.ROOT}/"):
+            _take(written.substeps, SUBSTEP, chunk.entity_path, columns, components)
         if FRAME not in columns:
             continue
-        frames = columns[FRAME].to_pylist()
-        times = columns[TIME].cast("int64").to_numpy() * NANOSECONDS
         if chunk.entity_path == f"/{happenings.PATH}":
+            frames, times = columns[FRAME].to_pylist(), _seconds(columns[TIME])
             texts, levels = columns["TextLog:text"].to_pylist(), columns["TextLog:level"].to_pylist()
             for frame, at, level, text in zip(frames, times, levels, texts, strict=True):
                 written.lines.append(Line(float(at), level[0], text[0], frame))
-            continue
-        written.times |= dict(zip(frames, map(float, times), strict=True))
-        for name in components:
-            series = written.series[chunk.entity_path, name]
-            for frame, value in zip(frames, columns[name], strict=True):
-                if value.is_valid:
-                    series.frames.append(frame)
-                    series.values.append(_array(value))
+        else:
+            _take(written, FRAME, chunk.entity_path, columns, components)
     written.lines.sort(key=lambda line: line.frame)
-    for series in written.series.values():
+    for series in (*written.series.values(), *written.substeps.series.values()):
         order = np.argsort(np.array(series.frames), kind="stable")
         series.frames = [series.frames[i] for i in order]
         series.values = [series.values[i] for i in order]
     return written
+
+
+def _take(timeline: Timeline, name: str, path: str, columns: dict[str, Any], components: list[str]) -> None:
+    """Take the rows of a chunk by the numbers they have on a timeline."""
+    numbers = columns[name].to_pylist()
+    timeline.times |= dict(zip(numbers, map(float, _seconds(columns[TIME])), strict=True))
+    for component in components:
+        series = timeline.series[path, component]
+        for number, value in zip(numbers, columns[component], strict=True):
+            if value.is_valid:
+                series.frames.append(number)
+                series.values.append(_array(value))
+
+
+def _seconds(times: Any) -> npt.NDArray[np.float64]:
+    seconds: npt.NDArray[np.float64] = times.cast("int64").to_numpy() * NANOSECONDS
+    return seconds
 
 
 def _chunks(path: Path) -> list[Any]:

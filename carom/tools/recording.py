@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -10,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs.errors import CaromError, did_you_mean
-from carom.tools.reading import read
-from carom.tools.recorder import edits, snapshots
+from carom.tools.reading import Series, read
+from carom.tools.recorder import about, edits, snapshots
 from carom.tools.recorder.tracks import bodies, contacts, plots
 from carom.tools.tables import makers
 from carom.tools.tables.source import RecordedTable, Source
@@ -41,6 +42,7 @@ class Recording:
     def __init__(self, path: str | Path) -> None:
         written = read(Path(path))
         self.static, self.times, self.lines, self._series = written.static, written.times, written.lines, written.series
+        self._substeps = written.substeps
         counts = self._series[f"/{plots.COUNTS}/bodies", "Scalars:scalars"]
         self.frames: list[int] = counts.frames
 
@@ -127,5 +129,16 @@ class Recording:
         return list(makers(self._source()))
 
     def _source(self) -> Source:
-        written = {key: series for key, series in self._series.items() if series.frames}
-        return Source(written, self.frames, self.times, self.lines)
+        source, numbers = (
+            Source(_written(self._series), self.frames, self.times, self.lines),
+            sorted(self._substeps.times),
+        )
+        if not numbers:
+            return source
+        count = int(self.static[f"/{about.PATH}"]["substeps"][0])
+        within = Source(_written(self._substeps.series), numbers, self._substeps.times, [])
+        return replace(source, substeps=within, substep_count=count)
+
+
+def _written(series: dict[tuple[str, str], Series]) -> dict[tuple[str, str], Series]:
+    return {key: rows for key, rows in series.items() if rows.frames}

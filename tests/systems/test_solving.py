@@ -50,7 +50,7 @@ def test_every_sweep_is_told_in_order() -> None:
     simulation.step(3)
     each = [("solve", 0), ("solve", 1), *(("relax", number) for number in range(RELAX_SWEEPS + 1))]
     assert [(sweep.stage, sweep.number) for sweep in solving.sweeps] == 4 * each
-    assert [sweep.substep for sweep in solving.sweeps] == sorted([1, 2, 3, 4] * len(each))
+    assert [sweep.part for sweep in solving.sweeps] == sorted([1, 2, 3, 4] * len(each))
     assert [sweep.time for sweep in solving.sweeps[:: len(each)]] == pytest.approx([0.0225, 0.025, 0.0275, 0.03])
 
 
@@ -142,12 +142,12 @@ def test_levels_hold_what_rests() -> None:
     row.add_many([(2.0 * k, 0.5, 0.0) for k in range(20)], collider={"box": {"size": (1, 1, 1)}}, body={})
     solving = Solving(row)
     row.step(2)
-    assert [level[2:] for level in solving.levels if level.substep == 1] == [(0, 3, 20, 80)]
+    assert [level[2:] for level in solving.levels if level.part == 1] == [(0, 3, 20, 80)]
     tower = stack_of_boxes(sleeping=False)
     tower.step(200)
     solving = Solving(tower)
     tower.step()
-    (*upper, _) = levels = [level for level in solving.levels if level.substep == 4]
+    (*upper, _) = levels = [level for level in solving.levels if level.part == 4]
     assert len(upper) >= 2
     assert sum(level.manifolds for level in levels) == 4
     assert sum(level.points for level in levels) == tower.world[Contact].count

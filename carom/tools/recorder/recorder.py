@@ -110,6 +110,8 @@ class Recorder:
         """Write what is left, with a last snapshot unless the world stands within a step, and close the file."""
         stream, self._stream = self._stream, None
         if stream is not None:
+            for track in self._tracks.values():
+                track.end(simulation)
             if simulation.frame == self._seen:
                 self._snapshots.keep(simulation, _stamp(simulation))
             self._write(stream)

@@ -40,6 +40,9 @@ class Track(ABC):
     def watch(self, simulation: Simulation) -> None:  # noqa: B027
         """See the world at the start and after every step; most tracks only look when a frame is recorded."""
 
+    def end(self, simulation: Simulation) -> None:  # noqa: B027
+        """Let go of the simulation; most tracks hold nothing of it."""
+
     @abstractmethod
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep what the recording needs of this frame."""

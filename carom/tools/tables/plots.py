@@ -5,15 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs.dataframe import Flat, flat
-from carom.tools.recorder.tracks.booked import PATH as LEDGER
+from carom.tools.recorder.curves import Curves
+from carom.tools.recorder.tracks import TRACKS
 from carom.tools.recorder.tracks.plots import PATHS
 from carom.tools.tables.source import Source
 
 ROOT = "/plots/"
 VALUES = "Scalars:scalars"
-ABOUT = {path: {"unit": quantity.unit, "doc": quantity.title} for path, quantity in PATHS.items()} | {
-    LEDGER: {"unit": "J", "doc": "energy given since the ledger was opened"}
-}
+ABOUT = {f"/{path}": {"unit": quantity.unit, "doc": quantity.title} for path, quantity in PATHS.items()}
 
 
 def plots(source: Source) -> dict[str, str]:
@@ -24,7 +23,9 @@ def plots(source: Source) -> dict[str, str]:
 
 def plot(source: Source, path: str) -> list[Flat]:
     """Return a row per frame, a column per curve; NaN in frames without a value, such as before an entry was booked."""
-    about = ABOUT.get(path[1:], {"unit": "1", "doc": path[1:]})
+    track = TRACKS.get(path.removeprefix(ROOT))
+    drawn = {"unit": track.unit, "doc": track.title} if track and issubclass(track, Curves) else ABOUT.get(path)
+    about = drawn or {"unit": "1", "doc": path[1:]}
     curves = [at for at, component in source.series if at.rpartition("/")[0] == path and component == VALUES]
     rows = {curve: source.rows(curve, {"value": VALUES}) for curve in curves}
     frames = np.unique(np.concatenate([row.frame for row in rows.values()]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -28,12 +29,17 @@ class Rows(NamedTuple):
 
 @dataclass(frozen=True)
 class Source:
-    """The rows of every path and component, the recorded frames, the time (s) of each, and the log."""
+    """The rows of every path and component, the recorded frames, the time (s) of each, and the log.
+
+    ``substeps`` are poses by their number instead of that of a frame, which has ``substep_count`` of them.
+    """
 
     series: Mapping[tuple[str, str], Series]
     frames: Sequence[int]
     times: Mapping[int, float]
     lines: Sequence[Line]
+    substeps: Source | None = None
+    substep_count: int = 0
 
     @cached_property
     def names(self) -> dict[int, str]:
@@ -73,9 +79,8 @@ class Source:
 def flats(name: str, column: Column, values: npt.NDArray[Any]) -> Iterator[Flat]:
     """Return the columns of what a component or relation declares, one per number."""
     about = {"unit": column.unit, "doc": column.doc}
-    for path, numbers in zip(
-        paths(name, column), values.reshape(len(values), int(np.prod(values.shape[1:]))).T, strict=True
-    ):
+    split = values.reshape(len(values), math.prod(column.shape)).T
+    for path, numbers in zip(paths(name, column), split, strict=True):
         yield flat(path, about, np.ascontiguousarray(numbers))
 
 

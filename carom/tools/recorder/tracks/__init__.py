@@ -6,10 +6,17 @@ from carom.tools.recorder.tracks import (
     booked,
     cameras,
     contacts,
+    detection,
+    fast,
     happenings,
     impacts,
+    milliseconds,
     normals,
     plots,
+    residual,
+    solver,
+    substeps,
+    sweeps,
 )
 
 __all__ = [
@@ -19,8 +26,15 @@ __all__ = [
     "booked",
     "cameras",
     "contacts",
+    "detection",
+    "fast",
     "happenings",
     "impacts",
+    "milliseconds",
     "normals",
     "plots",
+    "residual",
+    "solver",
+    "substeps",
+    "sweeps",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, NamedTuple
 
@@ -10,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs import Transform, Visual, World
-from carom.ecs.column import Booleans, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.kernels.observing import note_poses
 from carom.systems.shapes import BY_NUMBER, Shape
 from carom.systems.shapes.geometry import Geometries
@@ -28,6 +29,9 @@ class Poses(NamedTuple):
 
     places: npt.NDArray[np.float32]
     turns: npt.NDArray[np.float32]
+
+
+Noted = tuple[Stamp, Poses, Booleans]  # poses at one time, and which groups have moved
 
 
 @dataclass(frozen=True)
@@ -49,14 +53,14 @@ class Bodies(Track):
     key: ClassVar[str] = "bodies"
 
     def __init__(self) -> None:
-        self._groups: dict[bytes, Group] = {}
+        self.groups: dict[bytes, Group] = {}
         self._paths: dict[bytes, str] = {}
         self._rows: Integers = np.zeros(0, np.int64)
         self._starts: Integers = self._rows
         self._last = Poses(np.zeros((0, 3), np.float32), np.zeros((0, 4), np.float32))
-        self._structure = -1
+        self.structure = -1
         self._looks: list[npt.NDArray[np.generic]] = []
-        self._pending: list[tuple[Stamp, Poses, Booleans]] = []
+        self._pending: list[Noted] = []
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the poses of this frame; write groups anew where bodies came, went or changed their look."""
@@ -64,36 +68,35 @@ class Bodies(Track):
         if self._changed(world):
             self.write(stream)
             self._regroup(world, stamp, stream)
-        count = len(self._rows)
-        seen = self._last
-        self._last = Poses(np.empty((count, 3), np.float32), np.empty((count, 4), np.float32))
-        moved = np.empty(len(self._starts), np.bool_)
         with world.faces(None):  # as within a system: else kernels are handed copies of columns
-            pose = world[Transform]
-            note_poses(self._rows, pose.position, pose.rotation, self._starts, *seen, *self._last, moved)
+            self._last, moved = self.noted(world[Transform].position, world[Transform].rotation, self._last)
         self._pending.append((stamp, self._last, moved))
+
+    def noted(self, position: Floats, rotation: Floats, before: Poses) -> tuple[Poses, Booleans]:
+        """Return the poses of all who are seen, and in which groups anybody was elsewhere before."""
+        count = len(self._rows)
+        poses = Poses(np.empty((count, 3), np.float32), np.empty((count, 4), np.float32))
+        moved = np.empty(len(self._starts), np.bool_)
+        note_poses(self._rows, position, rotation, self._starts, *before, *poses, moved)
+        return poses, moved
+
+    def nowhere(self) -> Poses:
+        """Return poses of as many, from which all have moved."""
+        count = len(self._rows)
+        return Poses(np.full((count, 3), np.nan, np.float32), np.full((count, 4), np.nan, np.float32))
 
     def write(self, stream: Stream) -> None:
         """Write the kept poses, one block per group."""
-        import rerun
-
-        pending, self._pending = self._pending, []
-        moved = np.array([moved for _, _, moved in pending]).reshape(len(pending), len(self._groups))
-        for group, moves in zip(self._groups.values(), moved.T, strict=True):
-            kept = [pending[at] for at in np.nonzero(moves)[0].tolist()]
-            if kept:
-                places = np.stack([poses.places[group.span] for _, poses, _ in kept])
-                turns = np.stack([poses.turns[group.span] for _, poses, _ in kept])
-                columns = rerun.InstancePoses3D.columns(translations=places, quaternions=turns)
-                stream.rows(group.path, [stamp for stamp, _, _ in kept], columns)
+        write_poses(self._pending, list(self.groups.values()), stream.rows)
+        self._pending = []
 
     def _changed(self, world: World) -> bool:
         visual = world[Visual]
         rows = world.rows(Visual, Transform)
         looks = [visual.visible[rows], visual.color[rows]]
-        if self._structure == world.structure and all(map(np.array_equal, looks, self._looks)):
+        if self.structure == world.structure and all(map(np.array_equal, looks, self._looks)):
             return False
-        self._structure, self._looks = world.structure, [look.copy() for look in looks]
+        self.structure, self._looks = world.structure, [look.copy() for look in looks]
         return True
 
     def _regroup(self, world: World, stamp: Stamp, stream: Stream) -> None:
@@ -107,7 +110,7 @@ class Bodies(Track):
         members: dict[bytes, list[int]] = defaultdict(list)
         for row, look in zip(rows, looks, strict=True):
             members[look.tobytes()].append(int(row))
-        before, self._groups = self._groups, {}
+        before, self.groups = self.groups, {}
         at = 0
         for look, alike in members.items():
             entities = world.entities(np.array(alike))
@@ -118,14 +121,13 @@ class Bodies(Track):
                 stream.row(path, stamp, mesh_of(*drawn, visual.color[alike[0]]))
             if look not in before or not np.array_equal(before[look].entities, entities):
                 stream.row(path, stamp, rerun.AnyValues(entity=entities, name=names))
-            self._groups[look] = Group(path, entities, slice(at, at + len(alike)))
+            self.groups[look] = Group(path, entities, slice(at, at + len(alike)))
             at += len(alike)
         for look in before.keys() - members.keys():
             stream.row(before[look].path, stamp, rerun.Clear(recursive=False))
         self._rows = np.array([row for alike in members.values() for row in alike], np.int64)
-        self._starts = np.array([group.span.start for group in self._groups.values()], np.int64)
-        count = len(self._rows)
-        self._last = Poses(np.full((count, 3), np.nan, np.float32), np.full((count, 4), np.nan, np.float32))
+        self._starts = np.array([group.span.start for group in self.groups.values()], np.int64)
+        self._last = self.nowhere()
 
     def _path(self, shape: Shape, name: str) -> str:
         """Return a path called after the first entity of a group (``rain[3,0,1]``: ``rain``) that no group has."""
@@ -139,6 +141,20 @@ class Bodies(Track):
             path = rerun.new_entity_path([ROOT, shape.key, f"{stem}-{number}"])
             number += 1
         return str(path)
+
+
+def write_poses(kept: Sequence[Noted], groups: Sequence[Group], rows: Callable[..., None]) -> None:
+    """Write poses that were kept at several times, a block for each group, by a function that writes rows."""
+    import rerun
+
+    moved = np.array([moved for _, _, moved in kept]).reshape(len(kept), len(groups))
+    for group, moves in zip(groups, moved.T, strict=True):
+        held = [kept[at] for at in np.nonzero(moves)[0].tolist()]
+        if held:
+            places = np.stack([poses.places[group.span] for _, poses, _ in held])
+            turns = np.stack([poses.turns[group.span] for _, poses, _ in held])
+            columns = rerun.InstancePoses3D.columns(translations=places, quaternions=turns)
+            rows(group.path, [stamp for stamp, _, _ in held], columns)
 
 
 def _shape(world: World, row: int) -> Shape:
