@@ -13,6 +13,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake
 from carom.systems.energy import centers_of_mass, dynamic_rows
+from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 
 APPLY = "apply_"  # what names of systems begin with, and those of forces do not
@@ -56,6 +57,7 @@ def applied(simulation: Simulation) -> list[Loads]:
     step = simulation.settings.dt / simulation.settings.substeps
     parts = {EXTERNAL: world[ExternalForce].force[rows]}
     before = np.zeros((len(rows), 3))
+    drawn = world[Random].state()
     with world.faces(Instead(world, {Force: sums, Awake: everyone})):
         for _, system in simulation.schedule:
             if Force in system.adds:
@@ -63,6 +65,7 @@ def applied(simulation: Simulation) -> list[Loads]:
                 now = sums.force[rows] + sums.drag_flow[rows] - sums.drag[rows, None] * world[Motion].linear[rows]
                 parts[system.name.removeprefix(APPLY).replace("_", " ")] = now - before
                 before = now
+    world[Random].restore(drawn)  # a force may draw numbers, and who looks on must not change those of the step
     centers = centers_of_mass(world, rows)
     return [Loads(rows, centers, force, [name] * len(rows)) for name, force in parts.items()]
 

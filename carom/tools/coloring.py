@@ -15,6 +15,7 @@ from carom.systems.compound import bodies_of
 from carom.systems.energy import kinetic_energies
 from carom.systems.kernels.islands import find_islands
 from carom.systems.layers import Layers
+from carom.systems.sleep_state import STATES, sleep_states
 from carom.systems.sleeping import joins_islands
 from carom.tools.round_numbers import next_round
 
@@ -22,7 +23,7 @@ GRAY = (0.62, 0.62, 0.62)
 UNSAID = (np.nan, np.nan, np.nan)  # of what a mode says nothing about, which is gray, as light as it looks
 LIGHT = np.array((0.30, 0.59, 0.11))  # how light colours look. Source: ITU-R BT.601
 KINDS = {"static": GRAY, "kinematic": (0.90, 0.62, 0.0), "dynamic": (0.34, 0.71, 0.91)}
-SLEEP = {"static": GRAY, "awake": (0.90, 0.62, 0.0), "asleep": (0.30, 0.42, 0.70)}
+SLEEP = dict(zip(STATES, (GRAY, (0.90, 0.62, 0.0), (0.97, 0.88, 0.42), (0.30, 0.42, 0.70)), strict=True))
 #: Colours of few things that most eyes tell apart, colour-blind ones too. Source: Okabe and Ito, Color universal
 #: design, 2002; yellow is darker here, since it is lit.
 FEW = np.array([
@@ -82,8 +83,8 @@ class Coloring:
         return self._named("body", KINDS, np.where(body < 0, 0, 1 + dynamic))
 
     def sleep(self, world: World, rows: Integers, body: Integers) -> Floats:
-        """Tell bodies that sleep from those that are awake."""
-        return self._named("state", SLEEP, np.where(body < 0, 0, 1 + world[Motion].asleep[body]))
+        """Tell bodies that sleep from those that are awake, and from those slow enough to fall asleep."""
+        return self._named("state", SLEEP, sleep_states(world, body))
 
     def island(self, world: World, rows: Integers, body: Integers) -> Floats:
         """Give those one colour that touch each other, directly or by way of others."""

@@ -66,9 +66,10 @@ def test_kinds_and_sleep_are_named() -> None:
     world = simulation.world
     with world.edit(Motion) as motion:
         motion.asleep[world.row(world.find("alone"))] = True
+        motion.still[[world.row(world.find(name)) for name in ("one", "other")]] = (0.0, 0.2)
     sleep = colored("sleep", simulation)
-    wanted = [SLEEP["static"], SLEEP["awake"], SLEEP["asleep"]]
-    assert [sleep[name][:3] for name in ("ground", "one", "alone")] == [list(color) for color in wanted]
+    wanted = [SLEEP["static"], SLEEP["awake"], SLEEP["eligible"], SLEEP["asleep"]]
+    assert [sleep[name][:3] for name in ("ground", "one", "other", "alone")] == [list(color) for color in wanted]
 
 
 def test_those_of_one_island_have_one_colour() -> None:

@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from carom.ecs import DeclarationError
+from carom.ecs import DeclarationError, Force, RigidBody, World, state_hash, system
+from carom.systems.settings import Random
+from carom.systems.simulation import Simulation
 from carom.tools.cli import main
 from carom.tools.recorder import Recorder
 from carom.tools.recorder.detail import tracks_of
@@ -23,6 +25,13 @@ entities:
 """
 
 
+@system(reads=(RigidBody, Random), adds=(Force,))
+def tremble(world: World, dt: float) -> None:
+    """Push everybody another way in every substep."""
+    rows = world.row_numbers(RigidBody)
+    world[Force].force[rows] += world[Random].generator.normal(size=(len(rows), 3))
+
+
 def detail(path: Path) -> str:
     """Return the detail a recording says it has."""
     return str(Recording(path).static["/about"]["detail"][0])
@@ -32,6 +41,10 @@ def test_each_level_has_all_of_those_before_it() -> None:
     """In order of the registry."""
     light, full, solver = (list(tracks_of(level)) for level in DETAILS)
     assert light == ["bodies", "ledger", "cameras", "contacts", "log", "impacts", "plots"]
+    own = {
+        "bounds", "colliders", "forces", "manifolds", "normals", "shapes", "states", "trails", "velocities"
+    }  # fmt: skip
+    assert own <= set(full) - set(light)
     assert [key for key in full if key in light] == light
     assert [key for key in solver if key in full] == full
 
@@ -64,6 +77,22 @@ def test_no_bit_of_a_run_depends_on_the_detail(tmp_path: Path) -> None:
         hashes.append([saved.hash for saved in Recording(path).saved_states()])
         assert len(hashes[-1]) > 1
     assert hashes[0] == hashes[1] == hashes[2]
+
+
+def test_forces_that_draw_numbers_draw_the_same_whoever_looks_on(tmp_path: Path) -> None:
+    """Forces are told by evaluating them once more."""
+    ends = []
+    for level in DETAILS:
+        simulation = Simulation(seed=7)
+        simulation.add(name="ball", collider={"sphere": {"radius": 0.1}}, body={})
+        simulation.schedule = simulation.schedule.insert(tremble, after="apply_quadratic_drag")
+        recorder = Recorder(tmp_path / f"{level}.rrd", detail=level)
+        simulation.observers.append(recorder)
+        recorder.begin(simulation)
+        simulation.step(10)
+        recorder.end(simulation)
+        ends.append(state_hash(simulation.world))
+    assert ends[0] == ends[1] == ends[2]
 
 
 def test_a_detail_that_is_none_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

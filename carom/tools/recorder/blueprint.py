@@ -10,7 +10,7 @@ import numpy as np
 from carom.ecs import Collider, Motion, Transform, Visual, World
 from carom.tools.cameras import Camera, Vector, front
 from carom.tools.recorder import about
-from carom.tools.recorder.layout import Layout
+from carom.tools.recorder.layout import Layout, Scene
 from carom.tools.recorder.stream import TIME
 from carom.tools.recorder.track import Track
 from carom.tools.recorder.tracks.bodies import ROOT
@@ -21,7 +21,7 @@ BACKGROUND = (44, 50, 60)
 def blueprint(
     world: World, camera: Camera, tracks: Iterable[Track], play: Literal["paused", "following"] = "paused"
 ) -> Any:
-    """Return a large view of the world beside the plots and texts of its tracks, on simulated time.
+    """Return large views of the world, as tabs, beside the plots and texts of its tracks, on simulated time.
 
     It opens ``paused`` at the start, or ``following`` what comes.
     """
@@ -31,18 +31,23 @@ def blueprint(
     for track in tracks:
         track.lay_out(world, layout)
     controls = rrb.EyeControls3D(position=camera.position, look_target=camera.target, eye_up=camera.up)
-    scene = rrb.Spatial3DView(
-        origin=ROOT,
-        overrides={path: [rrb.EntityBehavior(visible=False)] for path in layout.hidden},
-        name="World",
-        eye_controls=controls,
-        line_grid=not has_scenery(world),
-        background=BACKGROUND,
-    )
+    first = Scene("World", [f"{ROOT}/**"], layout.overrides)
+    scenes = [
+        rrb.Spatial3DView(
+            origin=ROOT,
+            contents=[f"/{path}" for path in scene.contents],
+            overrides=scene.overrides,
+            name=scene.name,
+            eye_controls=controls,
+            line_grid=not has_scenery(world),
+            background=BACKGROUND,
+        )
+        for scene in (first, *layout.scenes)
+    ]
     curves = rrb.Vertical(*layout.plots, name="Plots")
     texts = rrb.Tabs(*layout.texts, rrb.TextDocumentView(origin=about.PATH, name="About"))
     return rrb.Blueprint(
-        rrb.Horizontal(scene, rrb.Vertical(curves, texts, row_shares=[2, 1]), column_shares=[3, 1]),
+        rrb.Horizontal(rrb.Tabs(*scenes), rrb.Vertical(curves, texts, row_shares=[2, 1]), column_shares=[3, 1]),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
         rrb.TimePanel(timeline=TIME, state="collapsed", play_state=play),

@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections import defaultdict
+from typing import Any, NamedTuple
+
+from carom.tools.recorder.stream import FRAME, TIME
+
+
+class Scene(NamedTuple):
+    """A view of the world beside the first: its name, what it holds, and how some paths are shown in it."""
+
+    name: str
+    contents: list[str]
+    overrides: dict[str, list[Any]]
 
 
 class Layout:
-    """The plots and texts beside the view of the world, from top to bottom, and what is hidden in it at first."""
+    """The plots and texts beside the views of the world, from top to bottom, and what these show."""
 
     def __init__(self) -> None:
         self.plots: list[Any] = []
         self.texts: list[Any] = []
-        self.hidden: list[str] = []
+        self.scenes: list[Scene] = []
+        self.overrides: defaultdict[str, list[Any]] = defaultdict(list)
 
     def plot(self, path: str, name: str) -> None:
         """Add the curves below a path, in one plot."""
@@ -21,4 +33,21 @@ class Layout:
 
     def hide(self, path: str) -> None:
         """Leave a path to be shown by a click on its eye in the list of what the view of the world holds."""
-        self.hidden.append(path)
+        import rerun.blueprint as rrb
+
+        self.overrides[path].append(rrb.EntityBehavior(visible=False))
+
+    def keep(self, path: str, seconds: float, dt: float) -> None:
+        """Show what was written within the last seconds at once, by steps of ``dt`` (s) or by time."""
+        import rerun.blueprint as rrb
+
+        now = rrb.TimeRangeBoundary.cursor_relative
+        ranges = [
+            rrb.VisibleTimeRange(FRAME, start=now(seq=-round(seconds / dt)), end=now()),
+            rrb.VisibleTimeRange(TIME, start=now(seconds=-seconds), end=now()),
+        ]
+        self.overrides[path].append(rrb.VisibleTimeRanges(ranges))
+
+    def scene(self, name: str, contents: list[str], overrides: dict[str, list[Any]]) -> None:
+        """Add a view beside that of the world, from the same camera."""
+        self.scenes.append(Scene(name, contents, overrides))

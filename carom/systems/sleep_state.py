@@ -1,0 +1,33 @@
+"""Sleep state: who is awake, who might fall asleep, who sleeps, and who keeps whom awake; for observers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs import Motion, RigidBody, World
+from carom.ecs.column import Floats, Integers
+from carom.systems.kernels.islands import find_surface_speeds
+from carom.systems.settings import Settings
+
+#: Eligible is who has been slow enough to fall asleep, once all of its island have been so for long enough.
+STATES = ("static", "awake", "eligible", "asleep")
+
+
+def sleep_states(world: World, bodies: Integers) -> Integers:
+    """Return the place in STATES (n,) of bodies (rows; -1 for what has no body)."""
+    motion, may = world[Motion], world[Settings].sleeping
+    moving = np.where(motion.asleep[bodies], 3, np.where(may & (motion.still[bodies] > 0.0), 2, 1))
+    return np.where(bodies < 0, 0, moving)
+
+
+def most_restless(world: World, rows: Integers, island: Integers) -> Integers:
+    """Return for each body (rows) who of its island has been still for the shortest time, the fastest of several.
+
+    ``island`` (n,) is any number that those of an island share.
+    """
+    body, motion = world[RigidBody], world[Motion]
+    speed: Floats = np.zeros(len(body.mass))
+    find_surface_speeds(rows, body.inverse_mass, body.inertia, motion.linear, motion.angular, speed)
+    order = np.lexsort((-speed[rows], motion.still[rows], island))
+    islands, first = np.unique(island[order], return_index=True)
+    return np.asarray(rows[order[first]][np.searchsorted(islands, island)])
