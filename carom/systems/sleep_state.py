@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Motion, RigidBody, World
+from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
 from carom.systems.kernels.islands import find_surface_speeds
 from carom.systems.settings import Settings
 
 #: Eligible is who has been slow enough to fall asleep, once all of its island have been so for long enough.
 STATES = ("static", "awake", "eligible", "asleep")
+
+
+def pushed_bodies(world: World) -> Integers:
+    """Return the rows of the bodies that can be pushed, which alone fall asleep."""
+    rows = world.row_numbers(Transform, Motion, RigidBody)
+    return np.asarray(rows[world[RigidBody].inverse_mass[rows] > 0.0])
 
 
 def sleep_states(world: World, bodies: Integers) -> Integers:

@@ -38,7 +38,7 @@ def detail(path: Path) -> str:
 
 
 def test_each_level_has_all_of_those_before_it() -> None:
-    """In order of the registry."""
+    """In their order."""
     light, full, solver = (list(tracks_of(level)) for level in DETAILS)
     assert light == ["bodies", "ledger", "cameras", "contacts", "log", "impacts", "plots"]
     own = {

@@ -16,6 +16,7 @@ from carom.tools.recorder.track import Track
 from carom.tools.recorder.tracks.bodies import ROOT
 
 BACKGROUND = (44, 50, 60)
+STACKED = 4  # plots one below the other; there is room for one more, whose tabs are all others
 
 
 def blueprint(
@@ -31,7 +32,7 @@ def blueprint(
     for track in tracks:
         track.lay_out(world, layout)
     controls = rrb.EyeControls3D(position=camera.position, look_target=camera.target, eye_up=camera.up)
-    first = Scene("World", [f"{ROOT}/**"], layout.overrides)
+    first = Scene("World", [f"{ROOT}/**"], layout.overrides, grid=not has_scenery(world))
     scenes = [
         rrb.Spatial3DView(
             origin=ROOT,
@@ -39,12 +40,13 @@ def blueprint(
             overrides=scene.overrides,
             name=scene.name,
             eye_controls=controls,
-            line_grid=not has_scenery(world),
+            line_grid=scene.grid,
             background=BACKGROUND,
         )
         for scene in (first, *layout.scenes)
     ]
-    curves = rrb.Vertical(*layout.plots, name="Plots")
+    further = [rrb.Tabs(*layout.plots[STACKED:])] if layout.plots[STACKED:] else []
+    curves = rrb.Vertical(*layout.plots[:STACKED], *further, name="Plots")
     texts = rrb.Tabs(*layout.texts, rrb.TextDocumentView(origin=about.PATH, name="About"))
     return rrb.Blueprint(
         rrb.Horizontal(rrb.Tabs(*scenes), rrb.Vertical(curves, texts, row_shares=[2, 1]), column_shares=[3, 1]),

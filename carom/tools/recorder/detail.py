@@ -9,7 +9,7 @@ from carom.worlds.sections import DETAILS
 
 
 def tracks_of(detail: str) -> dict[str, Track]:
-    """Return new tracks by their keys: those of a level of detail and of all before it.
+    """Return new tracks by their keys: those of all levels before one, then its own.
 
     Raises DeclarationError for a level that is none.
     """
@@ -19,4 +19,4 @@ def tracks_of(detail: str) -> dict[str, Track]:
         raise DeclarationError("; ".join(filter(None, parts)))
     load_extensions()
     levels = DETAILS[: DETAILS.index(detail) + 1]
-    return {key: kind() for key, kind in TRACKS.items() if kind.detail in levels}
+    return {key: kind() for level in levels for key, kind in TRACKS.items() if kind.detail == level}

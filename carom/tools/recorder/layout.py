@@ -9,11 +9,12 @@ from carom.tools.recorder.stream import FRAME, TIME
 
 
 class Scene(NamedTuple):
-    """A view of the world beside the first: its name, what it holds, and how some paths are shown in it."""
+    """A view of the world: its name, what it holds, how some paths are shown in it, and whether over a grid."""
 
     name: str
     contents: list[str]
     overrides: dict[str, list[Any]]
+    grid: bool
 
 
 class Layout:
@@ -48,6 +49,6 @@ class Layout:
         ]
         self.overrides[path].append(rrb.VisibleTimeRanges(ranges))
 
-    def scene(self, name: str, contents: list[str], overrides: dict[str, list[Any]]) -> None:
+    def scene(self, name: str, contents: list[str], overrides: dict[str, list[Any]], *, grid: bool) -> None:
         """Add a view beside that of the world, from the same camera."""
-        self.scenes.append(Scene(name, contents, overrides))
+        self.scenes.append(Scene(name, contents, overrides, grid))

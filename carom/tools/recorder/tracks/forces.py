@@ -60,7 +60,7 @@ class Forces(RowTrack):
         """Show them in a view of their own, in bodies one sees through."""
         layout.hide(PATH)
         contents = [f"{SHAPES}/**", f"{PATH}/**", f"{POINTS}/**"]
-        layout.scene("Forces", contents, colored("material", fill_mode="majorwireframe"))
+        layout.scene("Forces", contents, colored("material", fill_mode="majorwireframe"), grid=True)
 
     def rows(self, simulation: Simulation) -> Columns:
         """Return the forces as they are now."""

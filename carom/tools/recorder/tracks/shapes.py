@@ -15,11 +15,13 @@ from carom.systems.simulation import Simulation
 from carom.tools.coloring import Coloring
 from carom.tools.recorder.block import Columns, joined
 from carom.tools.recorder.layout import Layout
+from carom.tools.recorder.legend import legend_text
 from carom.tools.recorder.solids import SOLIDS, Fields, by_solid, solid_of
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.track import Track
 
 PATH = "world/shapes"
+LEGEND = "colours"
 SCENES = {
     "material": "Shapes", "sleep": "Sleep", "island": "Islands", "layer": "Layers", "speed": "Speed",
     "energy": "Energy",
@@ -38,6 +40,7 @@ class Shapes(Track):
 
     def __init__(self) -> None:
         self._colorings = {mode: Coloring(mode) for mode in SCENES}
+        self._legend = ""
         self._last: dict[tuple[str, str], Columns] = {}
         self._pending: defaultdict[tuple[str, str], list[tuple[Stamp, Columns]]] = defaultdict(list)
 
@@ -49,19 +52,30 @@ class Shapes(Track):
             stream.static(f"{PATH}/{name}", getattr(rerun, solid.archetype).from_fields(fill_mode=solid.fill))
 
     def lay_out(self, world: World, layout: Layout) -> None:
-        """Add a view for each mode."""
+        """Add a view for each mode, and what their colours mean."""
+        import rerun.blueprint as rrb
+
         layout.hide(PATH)
+        visual, rows = world[Visual], world.row_numbers(Visual)
+        scenery = [SHAPES[key].number for key in LOOKED_AT]
+        layout.texts.append(rrb.TextDocumentView(origin=LEGEND, name="Colours"))
+        bare = not (visual.visible[rows] & np.isin(visual.shape[rows], scenery)).any()
         for mode, name in SCENES.items():
-            layout.scene(name, [f"{PATH}/**", *SCENERY], colored(mode, show_labels=False))
+            layout.scene(name, [f"{PATH}/**", *SCENERY], colored(mode, show_labels=False), grid=bare)
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep where colliders are, and their colours, where these are not as before."""
+        import rerun
+
         world = simulation.world
         rows = world.row_numbers(Collider, Transform)
         rows = rows[~world[Collider].sensor[rows]]
         colors = {mode: coloring.colors(world, rows) for mode, coloring in self._colorings.items()}
         unseen = ~world.table(Visual).present[rows]
         colors["material"][unseen] = world[Material].color[rows[unseen]]
+        if (legend := legend_text(self._colorings, SCENES)) != self._legend:
+            self._legend = legend
+            stream.row(LEGEND, stamp, rerun.TextDocument(legend, media_type="text/markdown"))
         for name, drawn in by_solid(world, rows).items():
             solid, entities = SOLIDS[name], world.entities(drawn)
             if self._changed(name, "who", solid.sizes(world, drawn) | {"collider": entities}):
@@ -102,7 +116,8 @@ class Shapes(Track):
 
 
 #: Shapes that are no solids, as they look.
-SCENERY = [f"world/{key}/**" for key, shape in SHAPES.items() if solid_of(shape) in (None, "bounding_boxes")]
+LOOKED_AT = [key for key, shape in SHAPES.items() if solid_of(shape) in (None, "bounding_boxes")]
+SCENERY = [f"world/{key}/**" for key in LOOKED_AT]
 
 
 def colored(mode: str, **fields: Any) -> dict[str, list[Any]]:
