@@ -11,6 +11,7 @@ import numpy as np
 from carom.ecs import Difference, Transform, Visual, World, first_difference
 from carom.systems.observer import Observer
 from carom.tools.interrupt import deferred_interrupt
+from carom.tools.recorder import about
 from carom.tools.recording import Recording
 from carom.tools.replay import Replay
 from carom.tools.session import progress_bar
@@ -144,6 +145,8 @@ def _elsewhere(recording: Recording, world: World) -> str | None:
     rows = world.row_numbers(Visual, Transform)
     rows = rows[world[Visual].visible[rows]]
     poses = recording.poses(world.frame)
+    if "only" in recording.static.get(f"/{about.PATH}", {}):  # some were chosen, and others not recorded
+        rows = rows[np.isin(world.entities(rows), list(poses))]
     handles = world.entities(rows).tolist()
     if strangers := poses.keys() ^ set(handles):
         stranger, names = min(strangers), recording.names(world.frame)

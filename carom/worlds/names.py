@@ -24,10 +24,15 @@ def matching(pattern: str, names: Sequence[str]) -> list[str]:
 
     Raises WordError when it means none.
     """
-    if pattern in names:
-        return [pattern]
-    form = re.compile(re.escape(pattern).replace(r"\*", ".*") + r"(?:\[[\d,]+\])?")
-    found = [name for name in names if form.fullmatch(name)]
+    found = fitting(pattern, names)
     if not found:
         known("entity", pattern, names)
     return found
+
+
+def fitting(pattern: str, names: Sequence[str]) -> list[str]:
+    """Return the names that a pattern means, which may be none."""
+    if pattern in names:
+        return [pattern]
+    form = re.compile(re.escape(pattern).replace(r"\*", ".*") + r"(?:\[[\d,]+\])?")
+    return [name for name in names if form.fullmatch(name)]

@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carom.tools.commands.options import ending, factor, quantity, seconds, whole_number
+from carom.tools.commands.options import ending, factor, named, quantity, seconds, whole_number
 
 if TYPE_CHECKING:
     from carom.systems.observer import Observer
@@ -77,7 +77,7 @@ def motion(arguments: argparse.Namespace, loaded: LoadedWorld, shot: Shot) -> tu
         found.append(Sheet(shot if arguments.size else small, arguments.sheet, times))
     if arguments.strobe:
         interval = seconds("--every", arguments.every or STROBE_INTERVAL, above=0.0)
-        entities = named(arguments.strobe_of, loaded)
+        entities = named("--strobe-of", arguments.strobe_of, loaded)
         found.append(Strobe(shot, arguments.strobe, every(interval, start, end), entities))
     return found, end
 
@@ -107,18 +107,3 @@ def length(arguments: argparse.Namespace, loaded: LoadedWorld) -> float:
     if not arguments.sheet:
         return math.inf
     return run(load_world(arguments.world, **overrides(arguments))).simulated_seconds
-
-
-def named(patterns: list[str] | None, loaded: LoadedWorld) -> list[int] | None:
-    """Return the entities that patterns of names mean, None for none stated; raise CaromError."""
-    from carom.ecs.errors import CaromError
-    from carom.worlds.errors import WordError
-    from carom.worlds.names import matching
-
-    if patterns is None:
-        return None
-    world = loaded.simulation.world
-    try:
-        return [world.find(name) for pattern in patterns for name in matching(pattern, world.names())]
-    except WordError as fault:
-        raise CaromError(fault.line("--strobe-of")) from None

@@ -8,7 +8,10 @@ import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from carom.worlds.builder import LoadedWorld
 
 
 def declare_overrides(parser: argparse.ArgumentParser) -> None:
@@ -40,6 +43,21 @@ def detail(arguments: argparse.Namespace, stated: str, recorded: bool, how: str)
     if arguments.detail and not recorded:
         raise CaromError(f"--detail: goes with {how}, the recording it is of")
     return arguments.detail or stated
+
+
+def named(option: str, patterns: list[str] | None, loaded: LoadedWorld) -> list[int] | None:
+    """Return the entities that patterns of names mean, None for none stated; raise CaromError, naming the option."""
+    from carom.ecs.errors import CaromError
+    from carom.worlds.errors import WordError
+    from carom.worlds.names import matching
+
+    if patterns is None:
+        return None
+    world = loaded.simulation.world
+    try:
+        return [world.find(name) for pattern in patterns for name in matching(pattern, world.names())]
+    except WordError as fault:
+        raise CaromError(fault.line(option)) from None
 
 
 def seconds(option: str, text: str, **bounds: float) -> float:

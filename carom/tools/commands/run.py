@@ -14,6 +14,7 @@ from carom.tools.commands.options import (
     detail,
     ending,
     factor,
+    named,
     overrides,
     print_json,
     print_warnings,
@@ -26,6 +27,10 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("world", metavar="WORLD", help="a world file, or the name of a library world")
     parser.add_argument("--record", type=Path, metavar="FILE", help="write a Rerun recording (.rrd)")
     declare_detail(parser)
+    parser.add_argument("--only", nargs="+", metavar="NAME", help="record nobody but these, such as 'crate*'")
+    parser.add_argument(
+        "--promote", nargs="+", metavar="NAME", help="record these with a path, a label, plots and a lane of their own"
+    )
     parser.add_argument("--live", action="store_true", help="show it in the Rerun viewer as it runs")
     parser.add_argument("--viewer", metavar="URL", help="a viewer elsewhere, such as rerun+http://HOST:9876/proxy")
     parser.add_argument("--speed", metavar="X", help="simulated time to real time, such as 1x; as fast as can be")
@@ -69,10 +74,13 @@ def execute(arguments: argparse.Namespace) -> int:
     if arguments.film or arguments.picture:
         print_warnings(vantage_warnings(shot, loaded.simulation))
     observers: list[Observer] = []
+    for option, patterns in {"--only": arguments.only, "--promote": arguments.promote}.items():
+        named(option, patterns, loaded)
     pace = Pace(factor("--speed", arguments.speed)) if arguments.speed else None
     live = running_viewer(arguments.viewer) if shown else None
     if arguments.record or live:
-        observers.append(recorder_of(loaded, shot, arguments.record, live=live, detail=level))
+        chosen = {"only": arguments.only, "promote": arguments.promote or ()}
+        observers.append(recorder_of(loaded, shot, arguments.record, live=live, detail=level, **chosen))
     if arguments.film:
         observers.append(Filming(shot, arguments.film))
     prepare_outputs([arguments.record, arguments.film, arguments.picture])

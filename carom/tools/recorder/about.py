@@ -32,7 +32,7 @@ def versions_here() -> dict[str, str]:
     return tagged | {"processor": this_machine().processor}
 
 
-def about(title: str, simulation: Simulation, source: str | None, detail: str) -> list[Any]:
+def about(title: str, simulation: Simulation, source: str | None, detail: str, only: list[str]) -> list[Any]:
     """Return a text to read and the same as values: settings with the seed, versions, the world file as it was."""
     import rerun
 
@@ -44,7 +44,9 @@ def about(title: str, simulation: Simulation, source: str | None, detail: str) -
         lines += ["", "```yaml", source.rstrip(), "```"]
     document = rerun.TextDocument("\n".join(lines), media_type="text/markdown")
     frame = explain(simulation.schedule)
-    own = {"title": title, "world_file": source or "", "schedule": frame, "detail": detail}
+    own: dict[str, Any] = {"title": title, "world_file": source or "", "schedule": frame, "detail": detail}
+    if only:
+        own["only"] = only
     values = rerun.AnyValues(**own, **stated, **versions_here())
     return [document, values]
 

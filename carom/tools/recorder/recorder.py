@@ -11,12 +11,14 @@ from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.recorder import about
 from carom.tools.recorder.blueprint import blueprint, default_camera
+from carom.tools.recorder.choice import Choice
 from carom.tools.recorder.detail import tracks_of
 from carom.tools.recorder.edits import Edits
 from carom.tools.recorder.snapshots import Snapshots
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.tracks.bodies import ROOT
 from carom.tools.recorder.tracks.cameras import Cameras
+from carom.tools.recorder.tracks.promoted import Promoted
 from carom.tools.rigs import Rig
 
 FLUSH_AFTER = 0.9  # s of real time: a kill then loses less than the last second also of a slow run
@@ -31,8 +33,9 @@ class Recorder:
     real time, whichever ends first, and to a viewer 30 times a second. ``detail`` says how much is recorded: ``light``,
     ``full`` or ``solver``; no bit of the run depends on it. ``title``, ``source`` (the text of the world file) and
     ``files`` (the content of those it names, by its words for them) travel in the recording. Raises DeclarationError
-    for an unknown detail. The view begins at ``camera``; ``cameras`` are recorded as they
-    move, each with pictures ``aspect`` times as wide as high.
+    for an unknown detail. The view begins at ``camera``; ``cameras`` are recorded as they move, each with pictures
+    ``aspect`` times as wide as high. Patterns of names choose ``only`` whom a recording tells of, and whom to
+    ``promote`` to a path, plots and a lane of their own.
     """
 
     def __init__(
@@ -49,6 +52,8 @@ class Recorder:
         camera: Camera | None = None,
         cameras: Sequence[Rig] = (),
         aspect: float = 4 / 3,
+        only: Sequence[str] | None = None,
+        promote: Sequence[str] = (),
     ) -> None:
         if path is None and live is None:
             raise CaromError("a recorder writes to a file, to a viewer or to both; state its path or live=")
@@ -60,7 +65,15 @@ class Recorder:
         self._stream: Stream | None = None
         self._detail = detail
         self._edits, self._snapshots = Edits(), Snapshots()
-        self._tracks = {**tracks_of(detail), "cameras": Cameras(cameras, aspect), "snapshots": self._snapshots}
+        self._tracks = {
+            **tracks_of(detail),
+            "cameras": Cameras(cameras, aspect),
+            "promoted": Promoted(promote),
+            "snapshots": self._snapshots,
+        }
+        self._only = None if only is None else Choice(only)
+        for track in self._tracks.values():
+            track.only = self._only
         self._seen = self._waiting = 0
         self._flushed = 0.0
         self._patience = FLUSH_AFTER if live is None else SEND_AFTER
@@ -77,13 +90,14 @@ class Recorder:
         camera = self._camera or default_camera(world)
         upright = camera.up[1] >= abs(camera.up[2])
         axes = rerun.ViewCoordinates.RIGHT_HAND_Y_UP if upright else rerun.ViewCoordinates.RIGHT_HAND_Z_UP
+        only = [] if self._only is None else list(self._only.patterns)
         self._stream, tracks = Stream(self._title), self._tracks.values()
         if self.path is not None:
             self._stream.to_file(self.path, blueprint(world, camera, tracks))
         if self.live is not None:
             self._stream.to_viewer(self.live, blueprint(world, camera, tracks, "following"))
         self._stream.static(ROOT, axes)
-        self._stream.static(about.PATH, *about.about(self._title, simulation, self._source, self._detail))
+        self._stream.static(about.PATH, *about.about(self._title, simulation, self._source, self._detail, only))
         if self._files:
             self._stream.static(about.FILES, about.files(self._files))
         for track in self._tracks.values():

@@ -8,9 +8,11 @@ from typing import ClassVar
 
 import numpy as np
 
+from carom.ecs import World
 from carom.ecs.column import Column
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Block, Columns, joined
+from carom.tools.recorder.choice import Choice
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.track import Track
 
@@ -40,8 +42,18 @@ class RowTrack(Track):
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the rows of this frame."""
         rows = self.rows(simulation)
+        if rows is not None and self.only is not None:
+            rows = self._chosen(simulation.world, rows, self.only)
         if rows is not None:
             self.keep(stamp, rows)
+
+    def _chosen(self, world: World, rows: Columns, only: Choice) -> Columns:
+        """Return the rows of which any entity is chosen; all of a table without entities."""
+        handles = [rows[name] for name, column in self.columns.items() if column.holds == "entities"]
+        if not handles:
+            return rows
+        kept = np.logical_or.reduce([only.has(world, column) for column in handles])
+        return {name: values[kept] for name, values in rows.items()}
 
     def keep(self, stamp: Stamp, rows: Columns) -> None:
         """Keep rows, by the names of their columns."""

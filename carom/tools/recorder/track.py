@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 from carom.ecs import World
 from carom.systems.registry import enter
 from carom.systems.simulation import Simulation
+from carom.tools.recorder.choice import Choice
 from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.stream import Stamp, Stream
 
@@ -19,12 +20,13 @@ class Track(ABC):
     """What samples the world cheaply in recorded frames, and writes its samples in blocks about once a second.
 
     ``key`` is its name and ``detail`` the least level that has it. One with ``every_step`` sees every step, recorded
-    frame or not. An instance belongs to one recording.
+    frame or not. An instance belongs to one recording, and tells of ``only`` these entities where some are chosen.
     """
 
     key: ClassVar[str] = ""
     detail: ClassVar[str] = "light"
     every_step: ClassVar[bool] = False
+    only: Choice | None = None
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)

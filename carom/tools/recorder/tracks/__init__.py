@@ -17,6 +17,7 @@ from carom.tools.recorder.tracks import (
     milliseconds,
     normals,
     plots,
+    promoted,
     residual,
     shapes,
     sleep,
@@ -25,6 +26,7 @@ from carom.tools.recorder.tracks import (
     substeps,
     sweeps,
     trails,
+    triggers,
     velocities,
 )
 
@@ -46,6 +48,7 @@ __all__ = [
     "milliseconds",
     "normals",
     "plots",
+    "promoted",
     "residual",
     "shapes",
     "sleep",
@@ -54,5 +57,6 @@ __all__ = [
     "substeps",
     "sweeps",
     "trails",
+    "triggers",
     "velocities",
 ]

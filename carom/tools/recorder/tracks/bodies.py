@@ -16,6 +16,7 @@ from carom.systems.kernels.observing import note_poses
 from carom.systems.shapes import BY_NUMBER, Shape
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.simulation import Simulation
+from carom.tools.recorder.choice import Choice
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.surfaces import mesh_of
 from carom.tools.recorder.track import Track
@@ -47,12 +48,13 @@ class Bodies(Track):
     """Poses of all visible entities, float32 as Rerun keeps them; a group's are written only where they changed.
 
     Bodies may come and go: which entity is which instance is written whenever it changes, and a group that loses its
-    last entity is cleared.
+    last entity is cleared. Those ``alone`` are never drawn as one with others.
     """
 
     key: ClassVar[str] = "bodies"
 
     def __init__(self) -> None:
+        self.alone = Choice(())
         self.groups: dict[bytes, Group] = {}
         self._paths: dict[bytes, str] = {}
         self._rows: Integers = np.zeros(0, np.int64)
@@ -105,17 +107,21 @@ class Bodies(Track):
         visual = world[Visual]
         rows = world.row_numbers(Visual, Transform)
         rows = rows[visual.visible[rows]]
+        if self.only is not None:
+            rows = rows[self.only.rows(world)[rows]]
+        alone = self.alone.rows(world)
         columns = [np.asarray(getattr(visual, name)[rows], np.float64) for name in LOOK]
         looks = np.column_stack(columns)
         members: dict[bytes, list[int]] = defaultdict(list)
         for row, look in zip(rows, looks, strict=True):
-            members[look.tobytes()].append(int(row))
+            own = world.name(int(world.entities(row)[()])).encode() if alone[row] else b""
+            members[look.tobytes() + own].append(int(row))
         before, self.groups = self.groups, {}
         at = 0
         for look, alike in members.items():
             entities = world.entities(np.array(alike))
             names = world.names_told(entities)
-            path = self._paths.setdefault(look, self._path(_shape(world, alike[0]), names[0]))
+            path = self._paths.setdefault(look, self._path(_shape(world, alike[0]), names[0], bool(alone[alike[0]])))
             if look not in before:
                 drawn = _shape(world, alike[0]), visual.position[alike[0]], visual.rotation[alike[0]]
                 stream.row(path, stamp, mesh_of(*drawn, visual.color[alike[0]]))
@@ -129,11 +135,11 @@ class Bodies(Track):
         self._starts = np.array([group.span.start for group in self.groups.values()], np.int64)
         self._last = self.nowhere()
 
-    def _path(self, shape: Shape, name: str) -> str:
-        """Return a path called after the first entity of a group (``rain[3,0,1]``: ``rain``) that no group has."""
+    def _path(self, shape: Shape, name: str, alone: bool) -> str:
+        """Return a path that no group has, called after its first entity, and in full (not ``rain``) for one alone."""
         import rerun
 
-        stem = name.partition("[")[0] or shape.key
+        stem = name if alone else name.partition("[")[0] or shape.key
         path = rerun.new_entity_path([ROOT, shape.key, stem])
         taken = set(self._paths.values())
         number = 2

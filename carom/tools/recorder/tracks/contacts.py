@@ -74,12 +74,14 @@ class Contacts(RowTrack):
         stream.rows(POINTS, block.stamps, columns.partition(block.counts))
 
     def _name_unseen(self, world: World, stamp: Stamp, stream: Stream) -> None:
-        """Write the names of bodies and colliders that nobody sees, which are not among those that are drawn."""
+        """Write the names of bodies and colliders that are not among those that are drawn."""
         import rerun
 
         drawn = world.row_numbers(Visual)
+        drawn = drawn[world[Visual].visible[drawn]]
+        drawn = drawn if self.only is None else drawn[self.only.rows(world)[drawn]]
         named = np.union1d(world.row_numbers(Collider), world.row_numbers(RigidBody))
-        rows = np.setdiff1d(named, drawn[world[Visual].visible[drawn]])
+        rows = np.setdiff1d(named, drawn)
         entities = world.entities(rows)
         if not np.array_equal(entities, self._unseen):
             self._unseen = entities

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+import numpy as np
+
 from carom.ecs import World
+from carom.ecs.column import Integers
 from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
@@ -36,18 +39,25 @@ class Happenings(Track):
         """Keep a line for each impact, and each sensor entered or left in the last step."""
         world = simulation.world
         impact = world[Impact]
-        told = slice(0, min(impact.count, MOST_LINES))
+        rows = self._kept(world, impact.a[: impact.count], impact.b[: impact.count])
+        told = rows[:MOST_LINES]
         names = (world.names_told(handles[told]) for handles in (impact.a, impact.b))
         numbers = (getattr(impact, name)[told].tolist() for name in ("time", "speed", "impulse"))
         for a, b, time, speed, impulse in zip(*names, *numbers, strict=True):
             text = f"{a} and {b} strike at {speed:.3g} m/s, {impulse:.3g} N s"
             self._pending.append((Stamp(stamp.frame, time), "DEBUG", text))
-        if impact.count > MOST_LINES:
-            self._pending.append((stamp, "DEBUG", f"{impact.count - MOST_LINES} more impacts in this step"))
+        if len(rows) > MOST_LINES:
+            self._pending.append((stamp, "DEBUG", f"{len(rows) - MOST_LINES} more impacts in this step"))
         for table, crosses in ((world[Enter], "enters"), (world[Exit], "leaves")):
-            for row in range(table.count):
+            for row in self._kept(world, table.entity[: table.count], table.sensor[: table.count]).tolist():
                 text = f"{world.name(int(table.entity[row]))} {crosses} {world.name(int(table.sensor[row]))}"
                 self._pending.append((Stamp(stamp.frame, float(table.time[row])), "INFO", text))
+
+    def _kept(self, world: World, a: Integers, b: Integers) -> Integers:
+        """Return the rows of a table of pairs in which somebody is chosen."""
+        if self.only is None:
+            return np.arange(len(a))
+        return np.nonzero(self.only.has(world, a) | self.only.has(world, b))[0]
 
     def write(self, stream: Stream) -> None:
         """Write the kept lines."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Column, Floats, Integers
-from carom.systems.energy import centers_of_mass, kinetic_energies
+from carom.systems.energy import centers_of_mass, dynamic_rows, kinetic_energies
 from carom.systems.free_body import FRICTION, NORMAL, loads
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
@@ -19,9 +19,13 @@ from carom.tools.recorder.lanes import Lanes
 from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.rows import RowTrack, handle, number
 from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.track import Track
+from carom.tools.recorder.tracks.bodies import Bodies
 
 ROOT = "promoted"
-LABELS = "world/promoted"
+LABELS = "world/labels"
+LABEL_RADIUS = -2.0  # negative: points of the screen
+LABEL_COLOR = (240, 240, 240)
 SLEEP = {"awake": (120, 210, 130), "asleep": (90, 110, 170)}
 PLOTS = {
     "position": ("position (m)", "xyz"),
@@ -56,11 +60,19 @@ class Promoted(RowTrack):
         self.choice = Choice(patterns)
         self._lanes = Lanes("sleep", SLEEP)
         self._there: dict[int, str] = {}
+        self._names: dict[int, str] = {}
+
+    def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:
+        """Have each drawn by itself, so that it is outlined and hidden by itself."""
+        bodies = tracks["bodies"]
+        assert isinstance(bodies, Bodies)
+        bodies.alone = self.choice
 
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the plots of each that is there, and the lanes."""
         for name in world.names_told(world.entities(self._bodies(world))):
-            layout.body(f"{ROOT}/{name}", name, {f"{key}": title for key, (title, _) in PLOTS.items()})
+            plots = {f"{own_path(ROOT, name)}/{key}": f"{name}: {title}" for key, (title, _) in PLOTS.items()}
+            layout.plot_tabs(plots)
             layout.lanes()
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
@@ -74,10 +86,74 @@ class Promoted(RowTrack):
         entities = world.entities(rows)
         names = dict(zip(entities.tolist(), world.names_told(entities), strict=True))
         for entity in names.keys() - self._there.keys():
-            stream.row(_path(LABELS, names[entity]), stamp, rerun.Points3D.from_fields(labels=[names[entity]], radii=-2.0))
+            label = rerun.Points3D.from_fields(
+                labels=[names[entity]], show_labels=True, radii=[LABEL_RADIUS], colors=[LABEL_COLOR]
+            )
+            stream.row(own_path(LABELS, names[entity]), stamp, label)
         for entity in self._there.keys() - names.keys():
-            stream.row(_path(LABELS, self._there[entity]), stamp, rerun.Clear(recursive=False))
-        self._there |= names
+            stream.row(own_path(LABELS, self._there[entity]), stamp, rerun.Clear(recursive=False))
+        self._there = names
+        self._names |= names
         states = np.where(world[Motion].asleep[rows], "asleep", "awake").tolist()
         self._lanes.note_all(stamp, dict(zip(names.values(), states, strict=True)))
         super().sample(simulation, stamp, stream)
+
+    def rows(self, simulation: Simulation) -> Columns:
+        """Return a row for each body."""
+        world = simulation.world
+        rows = self._bodies(world)
+        body, centers = world[RigidBody], centers_of_mass(world, rows)
+        weighing = body.mass[rows] * body.gravity_scale[rows]
+        found = loads(simulation)
+        names = np.array(found.name, np.str_)
+        touches = np.isin(names, (NORMAL, FRICTION))
+        forces = {"applied": ~touches, "normal": names == NORMAL, "friction": names == FRICTION}
+        return {
+            "entity": world.entities(rows),
+            "position": world[Transform].position[rows],
+            "speed": np.linalg.norm(world[Motion].linear[rows], axis=1),
+            "kinetic": kinetic_energies(world, rows),
+            "potential": -weighing * (centers @ np.array(world[Settings].gravity)),
+            **{name: _summed(found.body[kept], found.force[kept], rows) for name, kept in forces.items()},
+        }
+
+    def draw(self, block: Block, stream: Stream) -> None:
+        """Write labels and curves, of forces their sizes."""
+        import rerun
+
+        stamps = np.repeat(np.arange(len(block.stamps)), block.counts)
+        for entity in np.unique(block.columns["entity"]).tolist():
+            rows = np.nonzero(block.columns["entity"] == entity)[0]
+            name, when = self._names[entity], [block.stamps[stamp] for stamp in stamps[rows]]
+            position = block.columns["position"][rows]
+            stream.rows(own_path(LABELS, name), when, rerun.Points3D.columns(positions=position))
+            for key, (_, curves) in PLOTS.items():
+                values = position.T if key == "position" else [block.columns[curve][rows] for curve in curves]
+                for curve, numbers in zip(curves, values, strict=True):
+                    sizes = np.linalg.norm(numbers, axis=1) if numbers.ndim == 2 else numbers
+                    columns = rerun.Scalars.columns(scalars=sizes)
+                    stream.rows(f"{own_path(ROOT, name)}/{key}/{curve}", when, columns)
+
+    def write(self, stream: Stream) -> None:
+        """Write rows, labels, curves and lanes."""
+        super().write(stream)
+        self._lanes.write(stream)
+
+    def _bodies(self, world: World) -> Integers:
+        """Return the rows of those chosen that obey forces."""
+        rows = dynamic_rows(world)
+        return rows[self.choice.rows(world)[rows]]
+
+
+def own_path(root: str, name: str) -> str:
+    """Return the path of a body of this name."""
+    import rerun
+
+    return str(rerun.new_entity_path([*root.split("/"), name]))
+
+
+def _summed(body: Integers, force: Floats, rows: Integers) -> Floats:
+    """Return the sum of forces (n, 3) on each of ``rows``."""
+    sums = np.zeros((int(max(body.max(initial=-1), rows.max(initial=-1))) + 1, 3))
+    np.add.at(sums, body, force)
+    return np.asarray(sums[rows])

@@ -6,8 +6,10 @@ from collections import defaultdict
 from collections.abc import Mapping
 from typing import ClassVar
 
+import numpy as np
+
 from carom.ecs import Collider, World
-from carom.ecs.column import Column
+from carom.ecs.column import Column, Integers
 from carom.ecs.relations.enter import Inside
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Columns
