@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from carom.ecs.component import Record
+from carom.ecs.component import Record, Resource
 from carom.systems.awake import Awake
 from carom.systems.simulation import Simulation
 
 LIVES, RESTORED = "who lives", "a snapshot restored"
+
+
+class Retelling(Resource):
+    """What was done before a frame that is shown again, where it is not done again; None where nothing is."""
+
+    done: list[str] | None = None
 
 
 class EditWatch:
@@ -23,7 +29,9 @@ class EditWatch:
 
     def done(self, simulation: Simulation) -> list[str]:
         """Return what was done between the step that has just been taken and the one before."""
-        awake = simulation.world[Awake]
+        awake, retelling = simulation.world[Awake], simulation.world.resources.get(Retelling)
+        if isinstance(retelling, Retelling) and retelling.done is not None:
+            return retelling.done
         done = sorted(kind.__name__ for kind in awake.edited - self._own)
         if awake.restored != self._counts[1]:
             done.append(RESTORED)

@@ -7,7 +7,7 @@ from collections import deque
 
 from carom.ecs import DeclarationError, Schedule, Snapshot, SnapshotError, restore_snapshot, take_snapshot
 from carom.systems.detection.answered import uncounted
-from carom.systems.edits import EditWatch
+from carom.systems.edits import EditWatch, Retelling
 from carom.systems.forces.law import Forces
 from carom.systems.observer import Observer, unobserved
 from carom.systems.settings import Settings
@@ -33,6 +33,7 @@ class Ring:
         self._kept: deque[Snapshot] = deque()
         self._spare: list[Snapshot] = []
         self._edits = EditWatch()
+        self._done: dict[int, list[str]] = {}  # from outside, by the frame it led to
         self._rules: tuple[Settings, int, Schedule] | None = None
         self._seen = -1
         self._showing = False
@@ -65,12 +66,14 @@ class Ring:
         if self._showing:
             return
         frame = simulation.frame
-        edited = bool(self._edits.done(simulation))
+        done = self._edits.done(simulation)
         if self._rules != _rules(simulation):
             self._forget_from(0)
         self._forget_from(frame)  # somebody restored an earlier state: what was kept of later ones is no past
-        if edited or not self._kept or frame % self.every == 0:
+        if done or not self._kept or frame % self.every == 0:
             self._keep(simulation)
+        if done:
+            self._done[frame] = done
         self._rules, self._seen = _rules(simulation), frame
 
     def end(self, simulation: Simulation) -> None:
@@ -111,7 +114,8 @@ class Ring:
         known = {snapshot.frame: snapshot for snapshot in self._kept if snapshot.frame <= last}
         if last == now.frame:
             known[last] = now
-        tell, self._showing = observer.begin, True
+        tell, self._showing, retelling = observer.begin, True, Retelling()
+        world.add(retelling)
         with unobserved(simulation), uncounted(world):
             try:
                 for frame in range(min(known), last + 1):
@@ -119,13 +123,14 @@ class Ring:
                         restore_snapshot(world, known[frame])
                     else:
                         simulation.step()
+                    retelling.done = self._done.get(frame, [])
                     tell(simulation)
                     tell = observer.observe
             finally:
                 observer.end(simulation)
                 restore_snapshot(world, now)
                 self._edits.begin(simulation)
-                self._showing = False
+                self._showing, retelling.done = False, None
 
     def _keep(self, simulation: Simulation) -> None:
         world, reach = simulation.world, (self.count - 1) * self.every
@@ -133,6 +138,7 @@ class Ring:
         while len(self._kept) > 1 and self._kept[1].frame <= world.frame - reach:
             self._spare.append(self._kept.popleft())
         self._kept.append(take_snapshot(world, reuse=self._spare.pop() if self._spare else None))
+        self._done = {frame: done for frame, done in self._done.items() if self._kept[0].frame < frame < world.frame}
 
     def _forget_from(self, frame: int) -> None:
         while self._kept and self._kept[-1].frame >= frame:

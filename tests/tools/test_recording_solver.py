@@ -11,6 +11,7 @@ import polars
 import pytest
 
 from carom.ecs import System, Transform
+from carom.ecs.components.joint import Joint
 from carom.ecs.timings import Timings
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
@@ -190,3 +191,20 @@ def test_every_system_that_ran_has_its_milliseconds(tmp_path: Path) -> None:
     assert rows["frame"].to_list() == [1, 2, 3]
     assert rows.row(2, named=True) == {"frame": 3, "time": 0.05} | spent
     assert table.arrow().schema.field("lambda").metadata[b"unit"] == b"ms"
+
+
+def test_joints_alone_leave_no_contact_open(tmp_path: Path) -> None:
+    """Where nothing touches but a joint is solved there are sweeps, without levels and with nothing left."""
+    simulation, path = Simulation(), tmp_path / "a.rrd"
+    bob = simulation.add(collider={"sphere": {"radius": 0.1}}, body={}, transform={"position": (1.0, 0.0, 0.0)})
+    simulation.world.spawn(Joint(b=bob, a=-1, anchor_b=(-1.0, 0.0, 0.0), mode=(1, 1, 1, 0, 0, 0)))
+    recorder = Recorder(path, every=1, detail="solver")
+    simulation.observers.append(recorder)
+    recorder.begin(simulation)
+    simulation.step(3)
+    recorder.end(simulation)
+    table = Recording(path).table("solver").polars()
+    assert table.height == 12
+    for name in ("levels", "groups", "manifolds", "points", "warm", "solved", "relaxed", "open"):
+        assert table[name].sum() == 0
+    assert "levels" not in Recording(path).tables()

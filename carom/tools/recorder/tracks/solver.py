@@ -83,7 +83,7 @@ class Solver(RowTrack):
         """Return the substeps of the last step."""
         levels = {key: list(held) for key, held in groupby(self.solving.levels, lambda level: level.part)}
         sweeps = groupby(self.solving.sweeps, lambda sweep: sweep.part)
-        return columns_of(self.columns, [_substep(list(held), levels[part]) for part, held in sweeps])
+        return columns_of(self.columns, [_substep(list(held), levels.get(part, [])) for part, held in sweeps])
 
 
 def _substep(sweeps: list[Sweep], levels: list[Level]) -> Substep:
