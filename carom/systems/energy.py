@@ -9,6 +9,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial import quaternion
 from carom.systems.forces.law import Forces
 from carom.systems.forces.mutual_gravitation import MutualGravitation
+from carom.systems.forces.springs import spring_energy
 from carom.systems.kernels.observing import find_kinetic_energies, find_weights
 from carom.systems.settings import Settings
 
@@ -43,7 +44,7 @@ def kinetic_energy(world: World) -> float:
 
 
 def potential_energies(world: World) -> dict[str, float]:
-    """Return -s m g.x summed, and -G m1 m2 / r (softened as the force is), in J, by the force they are of.
+    """Return -s m g.x summed, -G m1 m2 / r (softened as the force is) and k (l - l0)^2 / 2, in J, by their forces.
 
     The scale s is what each body makes of gravity.
     """
@@ -58,6 +59,7 @@ def potential_energies(world: World) -> dict[str, float]:
     return {
         "gravity": float(weights.sum()),
         MutualGravitation.key: sum(_attraction_energy(world, acting, law) for law, acting in laws),
+        "springs": spring_energy(world),
     }
 
 

@@ -1,4 +1,4 @@
-"""Components stated column by column under their key, in Python and in files: a user's own, and Parent."""
+"""Components stated column by column under their key, in Python and in files: a user's own, and some of carom."""
 
 from __future__ import annotations
 
@@ -7,8 +7,11 @@ from typing import Any
 
 from carom.ecs.component import Component, Record
 from carom.ecs.components.parent import Parent
+from carom.ecs.components.spring import Spring
 from carom.ecs.errors import DeclarationError
 from carom.systems.extensions import load_extensions
+
+OF_CAROM = (Parent, Spring)
 
 
 def is_own(kind: type[Record]) -> bool:
@@ -17,7 +20,7 @@ def is_own(kind: type[Record]) -> bool:
 
 
 def components_of_files() -> dict[str, type[Component]]:
-    """Return by key what world files may state: Parent, and what extensions declare with state or without columns.
+    """Return by key what files may state: those of carom, and what extensions declare with state or without columns.
 
     Those a script declares are not among them, so that a file means the same to every command.
     """
@@ -25,7 +28,8 @@ def components_of_files() -> dict[str, type[Component]]:
     return {
         key: kind
         for key, kind in sorted(Record.registry.items())
-        if issubclass(kind, Component) and (kind is Parent or kind.__module__.partition(".")[0] in packages)
+        if issubclass(kind, Component)
+        if kind in OF_CAROM or kind.__module__.partition(".")[0] in packages
         if not kind.columns or any(column.role == "state" for column in kind.columns.values())
     }
 
@@ -38,7 +42,7 @@ def own_component(key: str, words: Any, others: Iterable[str]) -> Component:
     own = {
         key: kind
         for key, kind in Record.registry.items()
-        if issubclass(kind, Component) and (kind is Parent or is_own(kind))
+        if issubclass(kind, Component) and (kind in OF_CAROM or is_own(kind))
     }
     if key not in own:
         raise DeclarationError(f"an entity has no word '{key}'; its words are {', '.join([*others, *sorted(own)])}")

@@ -22,6 +22,7 @@ from carom.ecs import (
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.path import Path
+from carom.ecs.components.spring import Spring
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake, stirs
@@ -29,6 +30,7 @@ from carom.systems.compound import bodies_of
 from carom.systems.detection.bounds import reach_within
 from carom.systems.energy import centers_of_mass
 from carom.systems.forces.law import Forces
+from carom.systems.forces.springs import bodies_on_springs
 from carom.systems.kernels.islands import find_islands, find_sleepers, time_stillness
 from carom.systems.settings import Settings
 from carom.systems.sleeping_contacts import left_alone, locate_contacts, move_contacts
@@ -41,7 +43,7 @@ PLACED = {Transform, Motion, ExternalForce}
 
 
 @system(
-    reads=(RigidBody, Collider, ExternalForce, Parent, Path, Settings, Forces),
+    reads=(RigidBody, Collider, ExternalForce, Parent, Path, Settings, Forces, Spring),
     writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake),
 )
 def wake_disturbed(world: World, dt: float) -> None:
@@ -61,7 +63,7 @@ def wake_disturbed(world: World, dt: float) -> None:
         else:
             asked = [world.row(entity) for entity in awake.asked if entity in world]
             bodies = bodies_of(world)[asked] if asked else np.zeros(0, np.int64)
-            disturbed = [bodies[bodies >= 0]]
+            disturbed = [bodies[bodies >= 0], bodies_on_springs(world)]  # springs may be new
             if awake.strangers or changes.edited & PLACED:
                 disturbed.append(_changed(world, awake.sleepers))
             if changes.structure:
@@ -72,7 +74,7 @@ def wake_disturbed(world: World, dt: float) -> None:
 
 
 @system(
-    reads=(RigidBody, Collider, Parent, Force, Forces, Settings),
+    reads=(RigidBody, Collider, Parent, Force, Forces, Settings, Spring),
     writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake),
     when=stirs,
 )
@@ -88,6 +90,7 @@ def fall_asleep(world: World, dt: float) -> None:
     for law in world[Forces].entries:
         for _, rows in () if law.steady else world[Forces].acting(law, world):
             motion.still[rows] = -dt  # who is pushed another way in every step
+    motion.still[bodies_on_springs(world)] = -dt  # and who is pulled another way as soon as the other end moves
     time_stillness(
         awake.rows, dt, body.inverse_mass, body.inertia, body.sleeps, motion.linear, motion.angular, motion.still
     )

@@ -14,6 +14,7 @@ from carom.systems.forces.damping import apply_damping
 from carom.systems.forces.drag import apply_linear_drag, apply_quadratic_drag
 from carom.systems.forces.gravity import apply_gravity
 from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
+from carom.systems.forces.springs import apply_springs
 from carom.systems.forces.wind import apply_wind
 from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
@@ -54,6 +55,7 @@ STEP = Schedule(
         apply_wind,  # before drags, which are relative to the medium
         apply_gravity,
         apply_mutual_gravitation,
+        apply_springs,
         apply_linear_drag,
         apply_quadratic_drag,
         apply_damping,

@@ -12,6 +12,7 @@ from carom.ecs.relations.contact import Contact
 from carom.systems.compound import bodies_of
 from carom.systems.constants import SLEEP_SPEED, SLEEP_TIME
 from carom.systems.forces.law import Forces
+from carom.systems.forces.springs import bodies_on_springs
 from carom.systems.kernels.islands import find_islands, find_surface_speeds
 from carom.systems.settings import Settings
 from carom.systems.sleeping import joins_islands
@@ -57,6 +58,8 @@ def why_awake(of: World | Simulation, entity: int | str) -> str:
         for _, rows in () if law.steady else world[Forces].acting(law, world):
             for pulled in island[np.isin(island, rows)]:
                 return told(pulled, f"is pushed another way in every step, by {law.key}")
+    for pulled in island[np.isin(island, bodies_on_springs(world))]:
+        return told(pulled, "is pulled by a spring, so another way as soon as its other end moves")
     moving, held = _supports_of(world, island)
     for support in moving:
         return f"{name} is awake since '{world.name(world.entity(support))}', which moves, touches it{others}"

@@ -231,7 +231,7 @@ def drive(s, g, r, p, relaxing, h, a, b, index_a, index_b, lanes, bodies):
     (Catto, Soft Constraints, GDC 2011). Springs have acted before the way; ``relaxing`` is none of theirs.
     """
     before, stiff, damping = load(lanes, p + of.DRIVE), load(lanes, p + of.STIFFNESS), load(lanes, p + of.DAMPING)
-    soft = damping + stiff * h
+    soft = larger(damping + stiff * h, spread(TINY))  # 0 in lanes without a joint
     off = load(lanes, slot(r, s) + of.PLACE) - load(lanes, p + of.TARGET)
     wanted = (damping * load(lanes, p + of.WANTED) - stiff * off) / soft
     give = load(lanes, p + of.GIVE)

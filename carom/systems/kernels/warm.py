@@ -107,6 +107,7 @@ def compile_frame() -> None:
     simulation.add(body={"type": "kinematic"}, keyframes=way)
     frame, everything = (LOCKED, LOCKED, LOCKED, LIMITED, FREE, LOCKED), (True, False, False, True, False, False)
     simulation.world.spawn(Joint(b=int(ball), mode=frame, driven=everything, stiffness=1.0))
+    simulation.add(spring={"a": int(ball)})
     simulation.force("linear_drag", coefficient=1.0)
     simulation.force("quadratic_drag", area=1.0)
     simulation.force("mutual_gravitation")

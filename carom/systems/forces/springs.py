@@ -1,0 +1,60 @@
+"""Springs: two bodies, or a body and a point, pulled towards each other along a line."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs import Force, Motion, RigidBody, Transform, World, system
+from carom.ecs.column import Integers
+from carom.ecs.components.spring import Spring
+from carom.ecs.spatial import quaternion
+from carom.systems.kernels.springs import add_springs
+from carom.systems.linkage import held, rows_of
+
+
+@system(reads=(Transform, Motion, RigidBody), writes=(Spring,), adds=(Force,))
+def apply_springs(world: World, dt: float) -> None:
+    """Add what springs and their dampers pull, equal and opposite, with its torque about the centres of mass."""
+    rows, row_a, row_b = springs_there(world)
+    if not len(rows):
+        return
+    spring, force = world[Spring], world[Force]
+    transform, motion, body = world[Transform], world[Motion], world[RigidBody]
+    add_springs(
+        rows, row_a, row_b, spring.anchor_a, spring.anchor_b, spring.rest_length, spring.stiffness, spring.damping,
+        transform.position, transform.rotation, motion.linear, motion.angular, body.center_of_mass, body.inverse_mass,
+        spring.length, spring.tension, force.force, force.torque,
+    )  # fmt: skip
+
+
+def springs_there(world: World) -> tuple[Integers, Integers, Integers]:
+    """Return the rows (n,) of springs whose ends are there, and those of their a and b, -1 for the world."""
+    rows = world.row_numbers(Spring)
+    if not len(rows):
+        return rows, rows, rows
+    spring = world[Spring]
+    row_a, row_b = rows_of(world, spring.a), rows_of(world, spring.b)
+    rows = rows[held(spring.a, row_a, rows) & held(spring.b, row_b, rows)]
+    return rows, row_a[rows], row_b[rows]
+
+
+def bodies_on_springs(world: World) -> Integers:
+    """Return the rows of the bodies that springs pull; they are pulled another way as soon as anybody moves."""
+    _, row_a, row_b = springs_there(world)
+    ends = np.unique(np.concatenate([row_a, row_b]))
+    return np.asarray(ends[(ends >= 0) & (world[RigidBody].inverse_mass[ends] > 0.0)])
+
+
+def spring_energy(world: World) -> float:
+    """Return k (l - l0)^2 / 2 of all springs in J."""
+    rows, row_a, row_b = springs_there(world)
+    if not len(rows):
+        return 0.0
+    spring, transform = world[Spring], world[Transform]
+    ends = []
+    for anchors, of in ((spring.anchor_a[rows], row_a), (spring.anchor_b[rows], row_b)):
+        turned = transform.position[of] + quaternion.rotate(transform.rotation[of], anchors)
+        ends.append(np.where((of >= 0)[:, None], turned, anchors))
+    apart = ends[1] - ends[0]
+    stretch = np.sqrt((apart * apart).sum(axis=1)) - spring.rest_length[rows]
+    return 0.5 * float((spring.stiffness[rows] * stretch * stretch).sum())
