@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,16 @@ entities:
     transform: {position: [-14, 2, 1.5]}
     motion: {linear: [60, 0, 0], angular: [0, 0, 100]}
 """
+
+
+@pytest.fixture(autouse=True, scope="module")
+def strict_rerun() -> Iterator[None]:
+    """Let Rerun raise on bad data instead of warning."""
+    import rerun
+
+    rerun.set_strict_mode(True)
+    yield
+    rerun.set_strict_mode(False)
 
 
 class Truth:

@@ -105,12 +105,13 @@ class Shapes(Track):
 
     def _introduce(self, name: str, stamp: Stamp, stream: Stream, names: npt.NDArray[np.str_]) -> None:
         """Write who is which instance, and their sizes; poses and colours of them all follow."""
+        import pyarrow
         import rerun
 
         who = dict(self._last[name, "who"])
         entities, archetype = who.pop("collider"), getattr(rerun, SOLIDS[name].archetype)
         sizes = archetype.from_fields(**who, labels=names.tolist())
-        stream.row(f"{PATH}/{name}", stamp, sizes, rerun.AnyValues(collider=entities))
+        stream.row(f"{PATH}/{name}", stamp, sizes, rerun.AnyValues(collider=pyarrow.array(entities)))
         for what in ("pose", *SCENES):
             self._last.pop((name, what), None)
 
