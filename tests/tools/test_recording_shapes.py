@@ -134,3 +134,20 @@ def test_every_mode_of_colour_is_recorded(run: tuple[Written, dict[int, dict[str
             for mode in SCENES:
                 assert at(written, solid, mode, frame).tolist() == [known[handle][mode] for handle in handles]
     assert len({told["speed"] for _, _, _, told in seen[5].values()}) > 4
+
+
+def test_a_legend_tells_what_colours_mean(run: tuple[Written, dict[int, dict[str, Any]]]) -> None:
+    """Names with words for their colours, ends of scales, and when these change."""
+    texts = run[0].series["/colours", "TextDocument:text"]
+    first, last = (texts.at(frame) for frame in (0, 5))
+    assert first is not None
+    assert last is not None
+    assert first[1][0].splitlines() == [
+        "- **Shapes**: each its own, as it looks",
+        "- **Sleep**: static gray, awake orange, eligible pale yellow, asleep slate blue",
+        "- **Islands**: one for those that touch, directly or by way of others; gray for what cannot be pushed",
+        "- **Layers**: none blue, default orange",
+        "- **Speed**: speed from 0, dark blue, by green to 5 m/s, yellow",
+        "- **Energy**: kinetic energy from 0, dark blue, by green to 200 J, yellow",
+    ]
+    assert last[0] == 0  # nobody is faster later on

@@ -14,6 +14,7 @@ from carom.ecs.relations.contact import Contact
 from carom.systems.energy import centers_of_mass
 from carom.systems.free_body import loads
 from carom.systems.simulation import Simulation
+from carom.tools.reading import read
 from carom.tools.recorder import Recorder
 from carom.tools.recorder.persistence import both
 from carom.tools.recording import Recording
@@ -40,7 +41,7 @@ class Tracked:
             simulation.step()
             self.worlds[frame] = held(simulation)
         recorder.end(simulation)
-        self.recording = Recording(path)
+        self.recording_path, self.recording = path, Recording(path)
         self.tables = {name: self.recording.table(name).polars() for name in self.recording.tables()}
 
     def rows(self, table: str, frame: int) -> Any:
@@ -220,3 +221,16 @@ def test_colliders_are_told_when_they_change(tracked: Tracked) -> None:
     }  # fmt: skip
     floor = table.filter((polars.col("frame") == 30) & (polars.col("collider.name") == "floor")).to_dicts()[0]
     assert (floor["body"], floor["body.name"], floor["shape"], floor["material"]) == (-1, None, "plane", "")
+
+
+def test_trails_go_from_frame_to_frame(tracked: Tracked) -> None:
+    """Of those who were there in both and moved, from where they were to where they are."""
+    strips = read(tracked.recording_path).series["/world/trails", "LineStrips3D:strips"]
+    assert strips.frames == list(range(FRAMES + 1))
+    assert len(strips.values[0]) == 0
+    for frame in range(1, FRAMES + 1):
+        before, now = tracked.worlds[frame - 1], tracked.worlds[frame]
+        both_there = [entity for entity in sorted(before["bodies"].tolist()) if entity in now["bodies"]]
+        ways = [[one["center"][one["bodies"].tolist().index(entity)] for one in (before, now)] for entity in both_there]
+        expected = [way for way in ways if (way[0] != way[1]).any()]
+        assert np.array_equal(np.array(strips.values[frame], np.float32), np.array(expected, np.float32))

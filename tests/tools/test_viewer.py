@@ -13,6 +13,7 @@ import numpy.typing as npt
 import pytest
 
 from carom.systems.simulation import Simulation
+from carom.tools import coloring
 from carom.tools.cameras import Camera
 from carom.tools.cli import main
 from carom.tools.filming import shot_of
@@ -104,6 +105,40 @@ def test_the_viewer_shows_the_balls_where_they_are_at_each_time(tmp_path: Path, 
         assert across[1] > 100.0, f"{name} moved by {across} px"
         assert abs(across[0]) < 5.0
     heights = [middles[0][name][0] for name in COLORS]
+    assert heights == sorted(heights), "red above green above blue"
+
+
+def test_the_viewer_colours_instances_by_what_a_mode_tells(
+    tmp_path: Path, viewer: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Balls that look alike are told apart by their layers, over the poses that all modes share."""
+    import rerun.blueprint
+
+    class OpenedAtLayers(rerun.blueprint.Tabs):  # type: ignore[misc]
+        """Tabs with that of the layers in front, where there is one."""
+
+        def __init__(self, *views: Any) -> None:
+            names = [getattr(view, "name", None) for view in views]
+            super().__init__(*views, active_tab=names.index("Layers") if "Layers" in names else 0)
+
+    monkeypatch.setattr(rerun.blueprint, "Tabs", OpenedAtLayers)
+    monkeypatch.setattr(coloring, "FEW", np.array([(0.5, 0.5, 0.5), (0.5, 0.5, 0.5), *COLORS.values()]))
+    simulation = Simulation(dt=1 / 60, gravity=(0.0, 0.0, 0.0))
+    simulation.layers(dict.fromkeys(COLORS))
+    for k, name in enumerate(COLORS):
+        collider, place = {"sphere": {"radius": 0.3}, "layer": name}, {"position": (-1.0, 1.0 - k, 0.0)}
+        simulation.add(name=name, transform=place, collider=collider, body={})
+    recorder = Recorder(tmp_path / "layers.rrd", camera=Camera((0.0, 0.0, 6.0)), detail="full")
+    recorder.begin(simulation)
+    simulation.step(10)
+    recorder.observe(simulation)
+    recorder.end(simulation)
+    viewer.open(str(tmp_path / "layers.rrd"))
+    picture = screenshot(viewer, 10, tmp_path / "layers.png")
+    places = {name: pixels_of(picture, color) for name, color in COLORS.items()}
+    counts = {name: len(found) for name, found in places.items()}
+    assert min(counts.values()) > LEAST_PIXELS, counts
+    heights = [places[name][:, 0].mean() for name in COLORS]
     assert heights == sorted(heights), "red above green above blue"
 
 

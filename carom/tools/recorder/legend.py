@@ -18,7 +18,7 @@ WORDS = dict(
 ) | {"gray": GRAY, "pale yellow": SLEEP["eligible"], "slate blue": SLEEP["asleep"]}
 OTHERWISE = {
     "material": "each its own, as it looks",
-    "island": "one for those that touch each other, directly or by way of others; gray for what cannot be pushed",
+    "island": "one for those that touch, directly or by way of others; gray for what cannot be pushed",
 }
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from typing import Any
 
 import numpy as np
@@ -49,14 +48,17 @@ class Persistence:
         wholes = (np.ascontiguousarray(columns).view("V24").ravel() for columns in (keys, self._keys))
         _, now, before = np.intersect1d(next(wholes), next(wholes), return_indices=True)
         match[now] = before
-        left: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
-        for old in np.setdiff1d(np.arange(len(self._keys)), before).tolist():
-            left[self._keys[old, 0], self._keys[old, 1]].append(old)
-        for new in np.nonzero(match < 0)[0].tolist():
-            olds = left.get((keys[new, 0], keys[new, 1]), [])
-            away = np.linalg.norm(self._points[olds] - points[new], axis=1)
-            if len(olds) and away.min() < SAME_POINT * _smaller_reach(world, keys[new, :2]):
-                match[new] = olds.pop(int(away.argmin()))
+        new, old = np.nonzero(match < 0)[0], np.setdiff1d(np.arange(len(self._keys)), before)
+        one, other = _of_one_pair(keys[new], self._keys[old])
+        new, old = new[one], old[other]
+        away = np.linalg.norm(points[new] - self._points[old], axis=1)
+        near = away < SAME_POINT * _smaller_reaches(world, keys[new, :2])
+        order = np.nonzero(near)[0][np.lexsort((away[near], new[near]))]
+        taken: set[int] = set()
+        for one_new, one_old in zip(new[order].tolist(), old[order].tolist(), strict=True):
+            if match[one_new] < 0 and one_old not in taken:
+                match[one_new] = one_old
+                taken.add(one_old)
         return match
 
 
@@ -65,9 +67,22 @@ def both(world: World, name: str) -> npt.NDArray[Any]:
     return np.concatenate([getattr(world[kind], name)[: world[kind].count] for kind in (Contact, SleepingContact)])
 
 
-def _smaller_reach(world: World, pair: Integers) -> float:
-    """Return the longest half extent (m) of the smaller of two shapes; 0 where one is gone."""
-    if not world.slots.live(pair).all():
-        return 0.0
-    rows, collider = world.slots.rows(pair), world[Collider]
-    return float((collider.bound_half[rows].max(axis=1) + collider.bound_radius[rows]).min())
+def _of_one_pair(some: Integers, others: Integers) -> tuple[Integers, Integers]:
+    """Return the places of every two points, one of each list (n, 3) and (m, 3), that are of the same two colliders."""
+    pairs = np.ascontiguousarray(np.concatenate([some, others])[:, :2]).view("V16").ravel()
+    pair = np.unique(pairs, return_inverse=True)[1].ravel()
+    here, there = pair[: len(some)], pair[len(some) :]
+    order = np.argsort(there, kind="stable")
+    first, last = (np.searchsorted(there[order], here, side) for side in ("left", "right"))
+    counts = last - first
+    within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    return np.repeat(np.arange(len(some)), counts), order[np.repeat(first, counts) + within]
+
+
+def _smaller_reaches(world: World, pairs: Integers) -> Floats:
+    """Return the longest half extent (m) of the smaller of two shapes (n, 2), handles; 0 where one is gone."""
+    live, collider = world.slots.live(pairs.ravel()), world[Collider]
+    rows = world.slots.rows(pairs.ravel()[live])
+    reach = np.zeros(pairs.size)
+    reach[live] = collider.bound_half[rows].max(axis=1) + collider.bound_radius[rows]
+    return np.asarray(reach.reshape(pairs.shape).min(axis=1))
