@@ -47,6 +47,7 @@ from carom.systems.linkage import Linkage
 from carom.systems.observer import Observer
 from carom.systems.places import extended
 from carom.systems.progress import Progress
+from carom.systems.queries.asked import Asked
 from carom.systems.queries.scene import Scene
 from carom.systems.queries.space import Space
 from carom.systems.resting import Resting
@@ -79,7 +80,7 @@ class Simulation:
         self.hearers: list[Callable[[System], None]] = []
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
         packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
-        caches = (*packed, Resting(), Linkage(), Sensing(), Threads(), Scene(), Awake(), Fast(), Ledger())
+        caches = (*packed, Resting(), Linkage(), Sensing(), Threads(), Scene(), Asked(), Awake(), Fast(), Ledger())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 

@@ -15,6 +15,8 @@ from carom.systems.layers import Layers
 class Filters(TypedDict, total=False):
     """What narrows a query: names of ``layers``, ``only`` these entities, ``without`` those, and with ``sensors``.
 
+    ``tag`` narrows nothing; it is what the query is called in a recording.
+
     An entity stands for its own collider and, where it is a body, for all that belong to it. Colliders on layer
     ``none`` are never seen, sensors where they are asked for.
     """
@@ -23,6 +25,7 @@ class Filters(TypedDict, total=False):
     only: Iterable[int] | int
     without: Iterable[int] | int
     sensors: bool
+    tag: str
 
 
 def seen(world: World, rows: Integers, body: Integers, filters: Filters) -> Booleans:

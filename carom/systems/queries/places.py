@@ -16,6 +16,7 @@ from carom.systems.assembly import shape_of
 from carom.systems.kernels.rays import ALL
 from carom.systems.queries.answers import Closest, Insides, Overlaps
 from carom.systems.queries.arguments import Arguments, QueryError
+from carom.systems.queries.asked import note
 from carom.systems.queries.filters import Filters, seen
 from carom.systems.queries.rays import meet
 from carom.systems.queries.scene import Scene
@@ -35,7 +36,7 @@ def closest_points(
     given = Arguments("closest_points")
     position, limit = given.vectors("points", points), given.lengths("reach", reach)
     position, limit = given.settle(position, limit)
-    return _closest(world, Placed(Point(), position, _level(len(position))), limit, filters)
+    return _closest("closest_points", world, Placed(Point(), position, _level(len(position))), limit, filters)
 
 
 def closest_to_shapes(
@@ -50,7 +51,7 @@ def closest_to_shapes(
     given, form = Arguments("closest_to_shapes"), movable("closest_to_shapes", shape)
     position, rotation = given.vectors("positions", positions), given.directions("rotations", rotations, 4)
     position, rotation, limit = given.settle(position, rotation, given.lengths("reach", reach))
-    return _closest(world, Placed(form, position, rotation), limit, filters)
+    return _closest("closest_to_shapes", world, Placed(form, position, rotation), limit, filters)
 
 
 def find_overlaps(
@@ -68,6 +69,7 @@ def find_overlaps(
     takes = seen(world, scene.rows, scene.body, filters)
     found = within(world, scene, Placed(form, position, rotation), np.zeros(len(position)), takes)
     entity, collider = scene.entities(world, found.row)
+    _note("find_overlaps", world, position, found.query, entity, found.middle, filters)
     return Overlaps(found.query, entity, collider, -found.gap, found.middle, found.normal)
 
 
@@ -77,7 +79,9 @@ def points_inside(world: World, points: npt.ArrayLike, **filters: Unpack[Filters
     (position,) = given.settle(given.vectors("points", points))
     scene = world[Scene].of_now(world)
     point, row = _inside(scene, position, seen(world, scene.rows, scene.body, filters))
-    return Insides(point, *scene.entities(world, row))
+    entity, collider = scene.entities(world, row)
+    _note("points_inside", world, position, point, entity, position[point], filters)
+    return Insides(point, entity, collider)
 
 
 def movable(query: str, shape: Shape | Mapping[str, Any]) -> Shape:
@@ -88,16 +92,23 @@ def movable(query: str, shape: Shape | Mapping[str, Any]) -> Shape:
     return form
 
 
+def _note(
+    query: str, world: World, origin: Floats, which: Integers, entity: Integers, point: Floats, filters: Filters
+) -> None:
+    note(world, query, filters.get("tag", ""), origin, np.zeros_like(origin), which, entity, point)
+
+
 def _level(count: int) -> Floats:
     return np.tile(np.asarray(quaternion.IDENTITY), (count, 1))
 
 
-def _closest(world: World, placed: Placed, reach: Floats, filters: Filters) -> Closest:
+def _closest(query: str, world: World, placed: Placed, reach: Floats, filters: Filters) -> Closest:
     scene = world[Scene].of_now(world)
     found = within(world, scene, placed, reach, seen(world, scene.rows, scene.body, filters))
     half = (0.5 * found.gap)[:, None] * found.normal
     entity, collider = scene.entities(world, found.row)
     point, own = found.middle - half, found.middle + half
+    _note(query, world, placed.position, found.query, entity, point, filters)
     return Closest(found.query, entity, collider, found.gap, point, own, found.normal)
 
 

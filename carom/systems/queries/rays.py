@@ -12,6 +12,7 @@ from carom.ecs import Entity, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.kernels.rays import ALL, ANY, FIRST, cast, face_hits
 from carom.systems.queries.arguments import Arguments
+from carom.systems.queries.asked import REACH, note
 from carom.systems.queries.filters import Filters, seen
 from carom.systems.queries.scene import Scene
 
@@ -133,7 +134,10 @@ def _cast(
     normal = np.empty((len(ray), 3))
     face_hits(origin, direction, ray, row, distance, *scene.colliders, face, normal)
     point = origin[ray] + distance[:, None] * direction[ray]
-    return len(origin), AllHits(ray, *scene.entities(world, row), point, normal, distance, face)
+    entity, collider = scene.entities(world, row)
+    way = np.minimum(limit, REACH)[:, None] * direction
+    note(world, query, filters.get("tag", ""), origin, way, ray, entity, point)
+    return len(origin), AllHits(ray, entity, collider, point, normal, distance, face)
 
 
 def meet(

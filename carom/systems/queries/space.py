@@ -16,6 +16,7 @@ from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.layers import Layers
 from carom.systems.queries import places, rays, shape_casts
 from carom.systems.queries.answers import Closest, Insides, Nearest, Overlap, Overlaps, deepest, nearest
+from carom.systems.queries.asked import Asked
 from carom.systems.queries.filters import Filters
 from carom.systems.queries.rays import AllHits, Hit, Hits
 from carom.systems.queries.scene import Scene
@@ -24,7 +25,7 @@ from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import Shape
 
 #: What a system declares to read that asks.
-ASKED = (Transform, Parent, Collider, Layers, Settings, Geometries, PackedHulls, PackedMeshes, Scene)
+ASKED = (Transform, Parent, Collider, Layers, Settings, Geometries, PackedHulls, PackedMeshes, Scene, Asked)
 
 
 class Space:
