@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from killed import record_until_killed
 
 from carom.ecs import (
     Entity,
@@ -22,6 +21,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.systems.ledger import Ledger
 from carom.systems.simulation import Simulation
+from carom.tools.bench.killed import record_until_killed
 from carom.tools.recorder import Recorder
 from carom.tools.recorder.stream import application_id
 from carom.tools.recorder.tracks.contacts import closing_speeds
@@ -306,7 +306,7 @@ def test_a_kill_loses_at_most_the_last_second(tmp_path: Path) -> None:
         recording = Recording(path)
     newest = recording.frames[-1]
     assert newest > 0
-    assert killed.lost_at_most_a_second(newest)
+    assert killed.lost(newest) <= 1.0
     simulation = falling_world()
     seen = {0: poses(simulation)}
     for _ in range(newest):

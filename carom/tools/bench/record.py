@@ -1,9 +1,9 @@
-"""Record: how fast a recording is read and answers."""
+"""Record: what a recording costs, what of it outlives a kill, and how fast it is read and answers."""
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from math import inf
 from pathlib import Path
@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 
 from carom.tools.asking import ask
+from carom.tools.bench.killed import killed
 from carom.tools.bench.measure import Figure, figure, timed
+from carom.tools.bench.recorder_rows import light, memory
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.tracks.contacts import Contacts
 from carom.tools.recording import Recording
@@ -23,6 +25,12 @@ QUESTION = "contacts where depth > 0.01 and speed > 5"
 
 
 def figures() -> Iterator[Figure]:
+    """Measure all parts."""
+    for part in PARTS.values():
+        yield from part()
+
+
+def answers() -> Iterator[Figure]:
     """Time reading and asking; the table is made anew by each question."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "million.rrd"
@@ -49,3 +57,11 @@ def write_contacts(path: Path, frames: int, count: int) -> None:
             contacts.write(stream)
     contacts.write(stream)
     stream.close()
+
+
+PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
+    "light": light,
+    "memory": memory,
+    "killed": killed,
+    "answers": answers,
+}

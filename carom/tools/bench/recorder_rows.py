@@ -1,0 +1,92 @@
+"""Recorder rows: what a recording in `light` adds to a step, to the disk and to memory."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from carom.ecs import Motion
+from carom.systems.simulation import Simulation
+from carom.tools.bench.killed import lone_ball
+from carom.tools.bench.measure import Figure, Timing, figure, timed
+from carom.tools.reading import read
+from carom.tools.recorder import Recorder
+from carom.tools.recorder.tracks.bodies import ROOT
+
+COUNTS = (1000, 10_000)
+SECONDS, RATE = 9, 60
+EACH, ALWAYS = 0.1e-3, 0.3  # ms a body and frame, ms a frame
+FRAMES, WARM = 100_000, 20_000
+FLAT = 4.0  # MiB: what an allocator may hold back
+
+
+def rolling(count: int) -> Simulation:
+    """Return balls that roll about on the ground, and now and then into each other."""
+    simulation, chance = Simulation(checked=False, sleeping=False), np.random.default_rng(1)
+    simulation.add(collider={"plane": {}})
+    side = int(np.ceil(np.sqrt(count)))
+    k = np.arange(count)
+    places = np.column_stack([1.25 * (k % side), np.full(count, 0.5), 1.25 * (k // side)])
+    simulation.add_many(places, collider={"sphere": {"radius": 0.5}}, body={})
+    with simulation.world.edit(Motion) as motion:
+        rows = simulation.world.row_numbers(Motion)
+        motion.linear[rows] = chance.uniform(-1.0, 1.0, (count, 3)) * [1.0, 0.0, 1.0]
+    return simulation
+
+
+def light() -> Iterator[Figure]:
+    """Step and observe in turns; the CPU time is that of all threads, and of a second's frames with what ends it."""
+    for count in COUNTS:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "light.rrd"
+            simulation, recorder = rolling(count), Recorder(path)
+            recorder.begin(simulation)
+            taken = [observed(simulation, recorder) for _ in range(SECONDS)]
+            recorder.end(simulation)
+            wall, cpu = (float(np.median([getattr(one, clock) for one in taken])) for clock in ("wall", "cpu"))
+            bound = ALWAYS + EACH * count
+            yield figure(f"light, {count} bodies that touch", "ms", Timing(wall, cpu, SECONDS), bound, 1e3 / RATE)
+            yield from _bytes(path, count)
+
+
+def observed(simulation: Simulation, recorder: Recorder) -> Timing:
+    """Return what recording a second takes."""
+    taken = []
+    for _ in range(RATE):
+        simulation.step()
+        taken.append(timed(partial(recorder.observe, simulation), 1))
+    return Timing(sum(one.wall for one in taken), sum(one.cpu for one in taken), 1)
+
+
+def _bytes(path: Path, count: int) -> Iterator[Figure]:
+    series = [rows for (at, name), rows in read(path).series.items() if at.startswith(f"/{ROOT}/") and "Pose" in name]
+    frames = max(len(rows.frames) for rows in series)
+    size = sum(value.nbytes for rows in series for value in rows.values) / (frames * count)
+    yield Figure(f"a pose of {count} bodies, uncompressed", "B", size, size, 28.0, "value")
+    on_disk = path.stat().st_size / (frames * count)
+    yield Figure("all of the recording on disk", "B", on_disk, on_disk, float("inf"), "value")
+
+
+def memory() -> Iterator[Figure]:
+    """Record a small world for long; what is held then and was not when all was warm."""
+    with tempfile.TemporaryDirectory() as folder:
+        simulation, recorder = lone_ball(), Recorder(Path(folder) / "long.rrd", every=1)
+        simulation.observers.append(recorder)
+        recorder.begin(simulation)
+        simulation.step(WARM)
+        before = resident()
+        simulation.step(FRAMES - WARM)
+        grown = resident() - before
+        recorder.end(simulation)
+        yield Figure(f"memory grown in {FRAMES} frames, warm", "MiB", grown, grown, FLAT, "value")
+
+
+def resident() -> float:
+    """Return the memory (MiB) of this process, as Linux counts it."""
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
