@@ -77,10 +77,10 @@ def lone_ball() -> Simulation:
 def killed() -> Iterator[Figure]:
     """Kill a recorded run at random moments, salvage each file and read it."""
     chance, lost = random.Random(1), []
-    for number in range(MOMENTS):
+    for _ in range(MOMENTS):
         with tempfile.TemporaryDirectory() as folder:
             path, mended = Path(folder) / "killed.rrd", Path(folder) / "mended.rrd"
             ended = record_until_killed(lone_ball, path, chance.uniform(0.0, LONGEST))
             salvage(path, mended)
             lost.append(ended.lost(Recording(mended).frames[-1]))
-    yield Figure(f"most lost by kill -9 at {number + 1} moments", "s", max(lost), max(lost), 1.0, "value")
+    yield Figure(f"most lost by kill -9 at {MOMENTS} moments", "s", max(lost), max(lost), 1.0, "value")

@@ -6,6 +6,7 @@ import os
 import tempfile
 from collections.abc import Iterator
 from functools import partial
+from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -65,11 +66,11 @@ def observed(simulation: Simulation, recorder: Recorder) -> Timing:
 
 def _bytes(path: Path, count: int) -> Iterator[Figure]:
     series = [rows for (at, name), rows in read(path).series.items() if at.startswith(f"/{ROOT}/") and "Pose" in name]
-    frames = max(len(rows.frames) for rows in series)
-    size = sum(value.nbytes for rows in series for value in rows.values) / (frames * count)
+    values = [value for rows in series for value in rows.values]
+    size = 2.0 * sum(value.nbytes for value in values) / sum(len(value) for value in values)  # place and turn
     yield Figure(f"a pose of {count} bodies, uncompressed", "B", size, size, 28.0, "value")
-    on_disk = path.stat().st_size / (frames * count)
-    yield Figure("all of the recording on disk", "B", on_disk, on_disk, float("inf"), "value")
+    on_disk = path.stat().st_size / (count * (1 + SECONDS * RATE))
+    yield Figure(f"all on disk, a frame and one of {count} bodies", "B", on_disk, on_disk, inf, "value")
 
 
 def memory() -> Iterator[Figure]:

@@ -13,7 +13,7 @@ from carom.tools.commands.options import print_json
 def declare(parser: argparse.ArgumentParser) -> None:
     """Declare the name, and parts of it."""
     parser.add_argument("name", choices=BENCHES, metavar="NAME", help=", ".join(BENCHES))
-    parser.add_argument("parts", nargs="*", metavar="PART", help="parts of detect or contacts; all unless stated")
+    parser.add_argument("parts", nargs="*", metavar="PART", help="parts of benches such as detect; all unless stated")
 
 
 def execute(arguments: argparse.Namespace) -> int:

@@ -21,7 +21,8 @@ from carom.tools.recorder.tracks.cameras import Cameras
 from carom.tools.recorder.tracks.promoted import Promoted
 from carom.tools.rigs import Rig
 
-FLUSH_AFTER = 0.9  # s of real time: a kill then loses less than the last second also of a slow run
+FLUSH_AFTER = 0.9  # s of real time: a kill then loses less than the last second
+BLOCKS = 10  # of a second of simulated time: each as many more make blocks a second longer, as Rerun holds kB of each
 SEND_AFTER = 1 / 30  # s of real time, so that what a viewer shows of a run moves
 
 
@@ -29,13 +30,13 @@ class Recorder:
     """Record a simulation into an .rrd file at ``path``, into a running viewer at the address ``live``, or both.
 
     Every ``every``-th step is recorded, by default as many as make ``fps`` frames a simulated second; impacts and
-    sensors entered are told of every step. Samples are written in blocks and flushed after a second of simulated or of
-    real time, whichever ends first, and to a viewer 30 times a second. ``detail`` says how much is recorded: ``light``,
-    ``full`` or ``solver``; no bit of the run depends on it. ``title``, ``source`` (the text of the world file) and
-    ``files`` (the content of those it names, by its words for them) travel in the recording. Raises DeclarationError
-    for an unknown detail. The view begins at ``camera``; ``cameras`` are recorded as they move, each with pictures
-    ``aspect`` times as wide as high. Patterns of names choose ``only`` whom a recording tells of, and whom to
-    ``promote`` to a path, plots and a lane of their own.
+    sensors entered are told of every step. Samples are written in blocks and flushed after a second of real time, or
+    sooner after one of simulated time (more, the longer the run), and to a viewer 30 times a second. ``detail`` says
+    how much is recorded: ``light``, ``full`` or ``solver``; no bit of the run depends on it. ``title``, ``source`` (the
+    text of the world file) and ``files`` (the content of those it names, by its words for them) travel in the
+    recording. Raises DeclarationError for an unknown detail. The view begins at ``camera``; ``cameras`` are recorded as
+    they move, each with pictures ``aspect`` times as wide as high. Patterns of names choose ``only`` whom a recording
+    tells of, and whom to ``promote`` to a path, plots and a lane of their own.
     """
 
     def __init__(
@@ -74,7 +75,7 @@ class Recorder:
         self._only = None if only is None else Choice(only)
         for track in self._tracks.values():
             track.only = self._only
-        self._seen = self._waiting = 0
+        self._seen = self._waiting = self._blocks = 0
         self._flushed = 0.0
         self._patience = FLUSH_AFTER if live is None else SEND_AFTER
 
@@ -117,7 +118,8 @@ class Recorder:
             self._snapshots.after_edit(simulation, _stamp(simulation))
         if simulation.frame % self._every == 0:
             self._record(simulation, self._stream)
-        if self._waiting >= self._fps or monotonic() - self._flushed > self._patience:
+        enough = self._fps * (1.0 + self._blocks / BLOCKS)
+        if self._waiting >= enough or monotonic() - self._flushed > self._patience:
             self._write(self._stream)
 
     def end(self, simulation: Simulation) -> None:
@@ -147,6 +149,7 @@ class Recorder:
         self._edits.write(stream)
         stream.flush()
         self._waiting, self._flushed = 0, monotonic()
+        self._blocks += 1
 
 
 def _stamp(simulation: Simulation) -> Stamp:
