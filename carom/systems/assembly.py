@@ -27,11 +27,13 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Component, Resource
 from carom.ecs.components.collider import ColliderPose
 from carom.ecs.components.flight import Flight
+from carom.ecs.components.joint import Joint
 from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import compose
 from carom.ecs.spatial import quaternion
 from carom.systems.compound import StatedBodies, joining, weigh
 from carom.systems.freedom import refuse_locked_motion
+from carom.systems.joints.stating import joint_of
 from carom.systems.layers import EVERYTHING, Layers
 from carom.systems.mass import Part, rigid_body
 from carom.systems.own_components import own_component
@@ -44,7 +46,7 @@ from carom.systems.shapes.shape import Bounds
 Words = Mapping[str, Any]
 COMBINE_QUANTITIES = ("friction", "restitution")
 COLLIDER_COLUMNS = ("position", "rotation", "sensor", "surface_velocity")
-ENTITY_WORDS = ("name", "transform", "motion", "body", "keyframes", "collider", "material", "visual", "tags")
+ENTITY_WORDS = ("name", "transform", "motion", "body", "keyframes", "collider", "material", "visual", "joint", "tags")
 
 
 class Materials(Resource):
@@ -64,9 +66,9 @@ def add_entity(world: World, *, name: str | None = None, **words: Any) -> Entity
     ``body`` makes it move (an empty mapping takes its mass from the shape's volume and the material's density); without
     one it is static. ``keyframes``, each with ``at`` (s), ``position`` and ``rotation``, are what a kinematic one goes
     along. ``visual`` False hides it, ``tags`` are names, and ``parent`` names who carries it: a collider that is
-    carried belongs to the nearest body above it, whose mass grows by it unless stated. Further words are the keys of a
-    user's own components, each with its columns: ``health={"points": 3}``. Raises DeclarationError for anything a file
-    would be refused for.
+    carried belongs to the nearest body above it, whose mass grows by it unless stated. ``joint`` makes it one, which
+    holds two others and is at no place of its own. Further words are the keys of a user's own components, each with its
+    columns: ``health={"points": 3}``. Raises DeclarationError for anything a file would be refused for.
     """
     entity = world.spawn(*bundles_of(world, **words), name=name)
     _settle(world, np.array([entity]), words)
@@ -76,6 +78,10 @@ def add_entity(world: World, *, name: str | None = None, **words: Any) -> Entity
 def add_entities(world: World, positions: npt.ArrayLike, *, names: list[str] | None = None, **words: Any) -> Integers:
     """Add an entity at each position (n, 3), m, all alike otherwise; ``words`` are those of `add_entity`."""
     places = np.asarray(positions, np.float64).reshape(-1, 3)
+    if words.get("joint") is not None:
+        if len(places) != 1:
+            raise DeclarationError("joint: all copies would hold the same; add them one by one")
+        return np.array([add_entity(world, name=None if names is None else names[0], **words)])
     if words.get("keyframes") is not None:
         if len(places) != 1:
             raise DeclarationError("keyframes: all copies would go the same way; add them one by one")
@@ -113,10 +119,25 @@ def bundles_of(
     collider: Words | None = None,
     material: str | Words | None = None,
     visual: Words | bool | None = None,
+    joint: Words | Joint | None = None,
     tags: Iterable[str] = (),
     **own: Words,
 ) -> list[Component]:
     """Return the components that the words of an entity stand for."""
+    further = [tag(label)() for label in tags] + [own_component(key, words, ENTITY_WORDS) for key, words in own.items()]
+    if joint is not None:
+        beside: dict[str, Any] = {
+            "transform": transform,
+            "motion": motion,
+            "body": body,
+            "keyframes": keyframes,
+            "collider": collider,
+        }
+        beside |= {"material": material, "visual": visual, "parent": own.get("parent")}
+        surplus = [key for key, words in beside.items() if words]
+        if surplus:
+            raise DeclarationError(f"joint: is at no place of its own; remove {', '.join(surplus)}")
+        return [joint if isinstance(joint, Joint) else joint_of(world, joint), *further]
     surface = material_of(world, material)
     bundles: list[Component] = [surface]
     if keyframes is None:
@@ -145,9 +166,7 @@ def bundles_of(
         bundles.append(seen)
     if body is not None and "parent" in own:
         raise DeclarationError("parent: a body moves by forces, not with who carries it; remove body or parent")
-    bundles += [tag(label)() for label in tags]
-    bundles += [own_component(key, words, ENTITY_WORDS) for key, words in own.items()]
-    return bundles
+    return bundles + further
 
 
 def shape_of(words: Words, *, seen: bool = False) -> Shape:

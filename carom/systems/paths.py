@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from carom.ecs.errors import DeclarationError
 from carom.ecs.relations.keyframe import Keyframe
 from carom.ecs.spatial import quaternion
 from carom.systems.keyframes import poses_at
+from carom.systems.parameters import WordFault
 from carom.systems.settings import Settings
 
 Words = Mapping[str, Any]
@@ -23,55 +24,42 @@ REPEATS = tuple(repeat.name.lower() for repeat in Repeat)
 SAME_TURN = 1e-12  # how far from 1 the product of two quaternions may be that are the same rotation: rounding
 
 
-class PathFault(NamedTuple):
-    """What is wrong with the words of an entity on keyframes, and where among them."""
-
-    steps: tuple[str | int, ...]
-    what: str
-    received: str = ""
-
-    def __str__(self) -> str:
-        """Return the fault as one line."""
-        received = f"; received {self.received}" if self.received else ""
-        return f"{'.'.join(map(str, self.steps))}: {self.what}{received}"
-
-
-def faults_of_path(words: Words) -> Iterator[PathFault]:
+def faults_of_path(words: Words) -> Iterator[WordFault]:
     """Yield what is wrong with the ``keyframes`` among the words of an entity, and with the words beside them."""
     frames, repeat, place = stated(words["keyframes"])
     body = words.get("body")
     if body is None:
-        yield PathFault(("keyframes",), "only a kinematic body follows keyframes; give it body: {type: kinematic}")
+        yield WordFault(("keyframes",), "only a kinematic body follows keyframes; give it body: {type: kinematic}")
     elif body.get("type", "dynamic") != "kinematic":
-        yield PathFault(("body", "type"), "only a kinematic body follows keyframes", body.get("type", "dynamic"))
+        yield WordFault(("body", "type"), "only a kinematic body follows keyframes", body.get("type", "dynamic"))
     if words.get("motion") is not None:
-        yield PathFault(("motion",), "keyframes say how it moves; remove motion or keyframes")
+        yield WordFault(("motion",), "keyframes say how it moves; remove motion or keyframes")
     if (body or {}).get("locked"):
-        yield PathFault(("body", "locked"), "keyframes say how it moves; remove locked or keyframes")
+        yield WordFault(("body", "locked"), "keyframes say how it moves; remove locked or keyframes")
     for name in (*POSE, "jitter"):
         first = frames[0] if frames else {}
         if name in (words.get("transform") or {}) and ("position" if name == "jitter" else name) in first:
-            yield PathFault(("transform", name), "the first keyframe says where it is; remove one of the two")
+            yield WordFault(("transform", name), "the first keyframe says where it is; remove one of the two")
     unknown = [(n, key) for n, frame in enumerate(frames) for key in frame if key not in FRAME]
     for n, key in unknown:
-        yield PathFault((*place, n, key), f"unknown key; a keyframe has {', '.join(FRAME)}")
+        yield WordFault((*place, n, key), f"unknown key; a keyframe has {', '.join(FRAME)}")
     if repeat not in REPEATS:
-        yield PathFault(("keyframes", "repeat"), f"must be one of {', '.join(REPEATS)}", repr(repeat))
+        yield WordFault(("keyframes", "repeat"), f"must be one of {', '.join(REPEATS)}", repr(repeat))
     if len(frames) < 2:
-        yield PathFault(("keyframes",), "must be two or more", str(len(frames)))
+        yield WordFault(("keyframes",), "must be two or more", str(len(frames)))
     untimed = [n for n, frame in enumerate(frames) if not np.isfinite(frame.get("at", np.nan))]
     for n in untimed:
-        yield PathFault((*place, n, "at"), "must be a time in s")
+        yield WordFault((*place, n, "at"), "must be a time in s")
     for n in range(1, len(frames)):
         if not {n - 1, n} & set(untimed) and not frames[n]["at"] > frames[n - 1]["at"]:
             what = f"must be later than the keyframe before, {frames[n - 1]['at']:g} s"
-            yield PathFault((*place, n, "at"), what, f"{frames[n]['at']:g} s")
+            yield WordFault((*place, n, "at"), what, f"{frames[n]['at']:g} s")
     if repeat == "loop" and frames:
         position, rotation = poses(frames, words.get("transform") or {})
         same_turn = abs(float((rotation[0] * rotation[-1]).sum())) >= 1.0 - SAME_TURN
         if not ((position[0] == position[-1]).all() and same_turn):
             what = "must have the pose of the first, for the path to begin anew there; close it, or state ping_pong"
-            yield PathFault((*place, len(frames) - 1), what)
+            yield WordFault((*place, len(frames) - 1), what)
 
 
 def stated(keyframes: Words | Sequence[Words]) -> tuple[Sequence[Words], str, tuple[str, ...]]:

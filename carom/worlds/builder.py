@@ -98,6 +98,7 @@ def load_text(
             populator.weigh_all()
     except EntityError as fault:
         source.report(("entities",), str(fault))
+    populator.join_all()
     _forces(source, simulation, values["forces"])
     simulation.world.add(Pictures(values["cameras"]))
     expectations = read_expectations(source, simulation, values["expect"])

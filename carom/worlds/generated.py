@@ -16,6 +16,7 @@ from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import COMBINE_QUANTITIES
 from carom.systems.extensions import origin
 from carom.systems.forces import LAWS
+from carom.systems.joints import JOINTS
 from carom.systems.own_components import components_of_files, is_own
 from carom.systems.settings import MOST_THREADS, Settings
 from carom.systems.shapes import SHAPES
@@ -123,7 +124,7 @@ def own_fields(taken: Iterable[str]) -> Fields:
 
 
 def parameter_model(kind: type[Any]) -> type[Words]:
-    """Return the model of a dataclass whose fields are declared by `parameter`: a shape or a force law."""
+    """Return the model of a dataclass whose fields are declared: a shape, a force law or a joint, or a part of one."""
     if kind.__dict__.get("key") in GEOMETRY_WORDS:
         return GEOMETRY_WORDS[kind.key]
     hints = get_type_hints(kind)
@@ -131,24 +132,40 @@ def parameter_model(kind: type[Any]) -> type[Words]:
     for field in dataclasses.fields(kind):
         unit, doc = field.metadata.get("unit", "1"), field.metadata.get("doc", field.name)
         kept = ... if field.default is dataclasses.MISSING else field.default
-        kind_of_value = _hinted(hints[field.name], unit, field.metadata.get("above"))
-        fields[field.name] = (kind_of_value, Field(kept, description=_description(doc, unit)))
+        fields[field.name] = (_field_type(hints[field.name], field), Field(kept, description=_description(doc, unit)))
     return create_model(kind.__name__, __base__=Words, __doc__=kind.__doc__, **fields)
 
 
-def _hinted(hint: Any, unit: str, above: float | None = None, whole: tuple[int, int | None] = (0, None)) -> Any:
+def _field_type(hint: Any, field: dataclasses.Field[Any]) -> Any:
+    declared = field.metadata
+    if "entity" in declared:
+        return str
+    if "part" in declared:
+        model = parameter_model(declared["part"])
+        return either(word_of(*declared["words"]), model) if declared["words"] else model
+    bounds: dict[str, Any] = {key: declared.get(key) for key in ("above", "least", "most")}
+    return _hinted(hint, declared.get("unit", "1"), width=declared.get("width", 1), **bounds)
+
+
+def _hinted(hint: Any, unit: str, *, width: int = 1, whole: tuple[int, int | None] = (0, None), **bounds: Any) -> Any:
     if get_origin(hint) is Literal:
         return word_of(*get_args(hint))
     if hint is bool:
         return Flag
     if hint is int:
         return Annotated[int, Whole(*whole)]
-    return numbers(len(get_args(hint)) or 1, In(unit, above=above))
+    return numbers(width, In(unit, **bounds))
 
 
 def shape_fields() -> Fields:
     """Return one optional field per shape."""
     kinds = sorted(SHAPES.items())
+    return {key: (parameter_model(kind), Field(None, description=_first_line(kind))) for key, kind in kinds}
+
+
+def joint_fields() -> Fields:
+    """Return one optional field per kind of joint."""
+    kinds = sorted(JOINTS.items())
     return {key: (parameter_model(kind), Field(None, description=_first_line(kind))) for key, kind in kinds}
 
 
@@ -168,7 +185,8 @@ def setting_fields(*, in_step: bool) -> Fields:
     for field in dataclasses.fields(Settings):
         if (field.name in STEP_WORDS) is in_step:
             unit, bounds = SETTING_UNITS.get(field.name, "1"), SETTING_BOUNDS.get(field.name, {})
-            kind = _hinted(hints[field.name], unit, bounds.get("above"), SETTING_WHOLE.get(field.name, (0, None)))
+            width, whole = len(get_args(hints[field.name])) or 1, SETTING_WHOLE.get(field.name, (0, None))
+            kind = _hinted(hints[field.name], unit, width=width, whole=whole, **bounds)
             fields[field.name] = (kind, Field(field.default, description=f"default {field.default}"))
     return fields
 

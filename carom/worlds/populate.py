@@ -11,14 +11,17 @@ import numpy as np
 
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Component
+from carom.ecs.components.joint import Joint
 from carom.ecs.components.name import NAME_LENGTH
 from carom.ecs.components.parent import Parent
 from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import Materials
 from carom.systems.compound import StatedBodies, joining, weigh
+from carom.systems.joints.stating import read_joint
 from carom.systems.layers import Layers
 from carom.systems.own_components import components_of_files
-from carom.systems.paths import PathFault, faults_of_path
+from carom.systems.parameters import WordFault
+from carom.systems.paths import faults_of_path
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import Path, WordError
@@ -52,6 +55,7 @@ class Populator:
         self.places_in_file: dict[int, Path] = {}
         self.carriers: set[str] = set()
         self.unweighed: list[int] = []  # bodies whose mass depends on what they carry
+        self.joints: list[tuple[int, Path, dict[str, Any]]] = []
 
     def add_all(self, entities: list[Any]) -> None:
         """Add the entities of a file in its order; None stands for one already reported."""
@@ -78,6 +82,9 @@ class Populator:
         transform = words.pop("transform", {})
         jitter = transform.pop("jitter", None)
         pointers = self.take_pointers(path, words)
+        joint = words.get("joint")
+        if joint is not None:
+            words["joint"] = Joint()
         body = words.get("body")
         waits = name in self.carriers and body is not None and "mass" not in body
         if body is not None and waits:
@@ -94,6 +101,8 @@ class Populator:
             entities = self.simulation.add_many(positions, names=names, transform=transform, **words)
             self.pointers += [(entities, pointer) for pointer in pointers]
             self.places_in_file.update(dict.fromkeys(entities.tolist(), path))
+            if joint is not None:
+                self.joints.append((int(entities[0]), path, joint))
             if waits:
                 self.simulation.world[StatedBodies].words.update(dict.fromkeys(entities.tolist(), body))
                 self.unweighed += entities.tolist()
@@ -134,6 +143,22 @@ class Populator:
         joined = self.each(world.row_numbers(Parent), lambda rows: joining(world, rows))
         if joined is not None:
             self.each(np.union1d(bodies, joined), lambda rows: weigh(world, rows))
+
+    def join_all(self) -> None:
+        """Let joints hold whom they name, at the poses where all are now; report everything that is wrong with them."""
+        world = self.simulation.world
+        for entity, path, words in self.joints:
+            faults: list[WordFault] = []
+            made = read_joint(world, words, faults)
+            for fault in faults:
+                told = WordError(
+                    fault.what, received=fault.received, accepted=fault.accepted, hint=fault.hint, name=fault.name
+                )
+                self.source.report_value((*path, *fault.steps), told)
+            if made is not None:
+                with world.edit(Joint) as table:
+                    for name, value in vars(made).items():
+                        getattr(table, name)[world.row(entity)] = value
 
     def each(self, rows: Integers, act: Callable[[Integers], Any]) -> Any:
         """Return what ``act`` makes of all rows; where it refuses, try one by one to report whom."""
@@ -199,7 +224,7 @@ class Populator:
             return True
         faults = list(faults_of_path(words))
         if grid is not None:
-            faults.append(PathFault(("grid",), "all copies would go the same way; remove grid or keyframes"))
+            faults.append(WordFault(("grid",), "all copies would go the same way; remove grid or keyframes"))
         for fault in faults:
             self.source.report((*path, *fault.steps), fault.what, received=fault.received)
         return not faults

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from carom.systems.joints import JOINTS
 from carom.systems.shapes import SHAPES
 from carom.worlds.errors import Path, WordError
 from carom.worlds.names import known
@@ -36,11 +37,13 @@ def _without_prefab(words: dict[str, Any]) -> dict[str, Any]:
 
 
 def merged(under: Any, over: Any) -> Any:
-    """Return mappings merged to the depth; a rotation is taken whole, and a shape takes the place of another shape."""
+    """Return mappings merged to the depth; a rotation is taken whole, a shape or joint takes the place of another."""
     if not (isinstance(under, dict) and isinstance(over, dict)):
         return over
-    instead = any(key in SHAPES for key in over)
-    result = {key: value for key, value in under.items() if not (instead and key in SHAPES and key not in over)}
+    result = dict(under)
+    for kinds in (SHAPES, JOINTS):
+        if any(key in kinds for key in over):
+            result = {key: value for key, value in result.items() if key not in kinds or key in over}
     for key, value in over.items():
         result[key] = merged(result[key], value) if key in result and key != "rotation" else value
     return result

@@ -17,6 +17,7 @@ from carom.systems.mass import PASSED_ON
 from carom.worlds.camera import Camera
 from carom.worlds.generated import (
     column_fields,
+    joint_fields,
     law_fields,
     material_model,
     own_fields,
@@ -79,6 +80,7 @@ def document() -> type[Words]:
     visual = _model(
         "Visual", "What is seen.", **shape_fields(), **column_fields(Visual, "position", "rotation", "color", "visible")
     )
+    joint = _model("Joint", "What holds two others together: exactly one kind.", **joint_fields())
     words: dict[str, Any] = {
         "prefab": (str, Field(None, description="prefab whose words these extend")),
         "transform": (transform, Field(None, description="where it is")),
@@ -90,6 +92,7 @@ def document() -> type[Words]:
         "collider": (collider, Field(None, description="the shape by which it touches others")),
         "material": (either(str, material), Field(None, description="name of a material, or its words")),
         "visual": (either(Flag, visual), Field(None, description="what is seen; false hides it")),
+        "joint": (joint, Field(None, description="makes it a joint, which holds two others")),
         "tags": (names, Field([], description="what it is, for queries")),
     }  # fmt: skip
     grid = (Grid, Field(None, description="copies on a grid"))

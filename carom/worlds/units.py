@@ -147,7 +147,9 @@ def _unknown(name: str) -> WordError:
 
 
 def kind_of(unit: str) -> str:
-    """Return what a unit measures, in words: ``a length``."""
+    """Return what a unit measures, in words: ``a length``; a torque has the dimension of an energy."""
+    if unit == "N m":
+        return "a torque"
     dimension = parse_unit(unit).dimension
     return next((word for word, (known, _) in BASE.items() if known == dimension), f"a value in {unit}")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import MISSING, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -13,18 +13,13 @@ from carom.ecs.component import Resource
 from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.errors import EntityError
 from carom.ecs.world import World
+from carom.systems.parameters import parameter, vector
 from carom.systems.registry import enter
-from carom.systems.shapes.shape import parameter
 
 LAWS: dict[str, type[Law]] = {}
 L = TypeVar("L", bound="Law")
 
 __all__ = ["LAWS", "Forces", "Law", "parameter", "vector"]
-
-
-def vector(*, unit: str, doc: str, default: Any = MISSING) -> Any:
-    """Declare a parameter that is a vector of three numbers."""
-    return field(default=default, metadata={"unit": unit, "doc": doc, "width": 3})
 
 
 @dataclass(frozen=True)

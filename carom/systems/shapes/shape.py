@@ -15,7 +15,10 @@ import numpy as np
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.errors import DeclarationError
+from carom.systems.parameters import number_fault, parameter
 from carom.systems.registry import enter
+
+__all__ = ["BY_NUMBER", "NO_AXES", "SHAPES", "Bounds", "MassProperties", "Shape", "Surface", "parameter"]
 
 
 class Bounds(NamedTuple):
@@ -50,11 +53,6 @@ class MassProperties(NamedTuple):
     center: tuple[float, float, float]
     inertia: tuple[float, float, float]
     axes: tuple[float, float, float, float]
-
-
-def parameter(*, unit: str, doc: str, default: Any = dataclasses.MISSING, above: float | None = None) -> Any:
-    """Declare a parameter of a shape or force: its unit, meaning and, if any, the value it must lie above."""
-    return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, "above": above})
 
 
 SHAPES: dict[str, type[Shape]] = {}
@@ -123,23 +121,8 @@ class Shape(ABC):
 
     def faults(self) -> list[tuple[str, str]]:
         """Return (parameter, what is wrong) for every parameter that is no number or out of bounds."""
-        found = []
-        for field in self.parameters():
-            unit, above, width = (field.metadata.get(key) for key in ("unit", "above", "width"))
-            received = getattr(self, field.name)
-            try:
-                values = np.asarray(received)
-            except ValueError:  # lists of different lengths
-                values = np.asarray(None)
-            if values.dtype.kind not in "fiu" or values.shape != (() if width is None else (width,)):
-                wanted = "a number" if width is None else f"{width} numbers"
-                found.append((field.name, f"must be {wanted}, received {received!r}"))
-                continue
-            wrong = ~np.isfinite(values) | (False if above is None else ~(values > above))
-            if wrong.any():
-                wanted = "finite" if above is None else f"finite and above {above:g} {unit}"
-                found.append((field.name, f"must be {wanted}, received {values[wrong].flat[0]:g}"))
-        return found
+        checked = [(field.name, number_fault(field.metadata, getattr(self, field.name))) for field in self.parameters()]
+        return [(name, fault) for name, fault in checked if fault]
 
     def packed(self) -> tuple[float, ...]:
         """Return the parameters as the numbers of the size column, padded with zeros."""

@@ -1,0 +1,28 @@
+"""Rope: two points are at most so far from each other."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+from carom.systems.joints.held import Held
+from carom.systems.joints.kind import LineJoint
+from carom.systems.joints.ways import Ways
+from carom.systems.parameters import parameter
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rope(LineJoint):
+    """The anchors are at most its length from each other; it does nothing while it is slack."""
+
+    key: ClassVar[str] = "rope"
+    restitution: float = parameter(unit="1", doc="when it becomes taut", default=0.0, least=0.0, most=1.0)
+
+    def hold(self, ways: Ways, a: Held, b: Held) -> None:
+        """Limit the length; anchors that meet have reached no limit."""
+        ways.limit(0, (-math.inf, self.rest(a, b)))
+
+    def columns(self, a: Held, b: Held) -> dict[str, Any]:
+        """Return the same as of a line, and how it bounces."""
+        return super().columns(a, b) | {"restitution": self.restitution}

@@ -1,0 +1,68 @@
+"""Parameters: how shapes, force laws and joints declare the words they take, and what is wrong with values for them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+class WordFault(NamedTuple):
+    """What is wrong with the words of an entity, and where among them; ``name`` is one that nothing is called."""
+
+    steps: tuple[str | int, ...]
+    what: str
+    received: str = ""
+    accepted: str = ""
+    hint: str = ""
+    name: str = ""
+
+    def __str__(self) -> str:
+        """Return the fault as one line."""
+        parts = [self.what]
+        parts += [f"received {self.received}"] if self.received else []
+        parts += [f"accepted: {self.accepted}"] if self.accepted else []
+        parts += [self.hint] if self.hint else []
+        return f"{'.'.join(map(str, self.steps))}: {'; '.join(parts)}"
+
+
+def parameter(
+    *,
+    unit: str,
+    doc: str,
+    default: Any = dataclasses.MISSING,
+    above: float | None = None,
+    least: float | None = None,
+    most: float | None = None,
+) -> Any:
+    """Declare a parameter: its unit, meaning and, if any, the value it must lie above and its least and greatest."""
+    bounds = {"above": above, "least": least, "most": most}
+    return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, **bounds})
+
+
+def vector(*, unit: str, doc: str, default: Any = dataclasses.MISSING) -> Any:
+    """Declare a parameter that is a vector of three numbers."""
+    return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, "width": 3})
+
+
+def number_fault(metadata: Mapping[str, Any], received: Any) -> str:
+    """Return what is wrong with the value received for a declared parameter; nothing where it is in its bounds."""
+    unit, width = metadata["unit"], metadata.get("width")
+    above, least, most = (metadata.get(key) for key in ("above", "least", "most"))
+    try:
+        values = np.asarray(received)
+    except ValueError:  # lists of different lengths
+        values = np.asarray(None)
+    if values.dtype.kind not in "fiu" or values.shape != (() if width is None else (width,)):
+        return f"must be {'a number' if width is None else f'{width} numbers'}, received {received!r}"
+    wrong, wanted = ~np.isfinite(values), ["finite"]
+    for bound, word, fits in ((above, "above", np.greater), (least, "at least", np.greater_equal)):
+        if bound is not None:
+            wrong |= ~fits(values, bound)
+            wanted.append(f"{word} {bound:g} {unit}")
+    if most is not None:
+        wrong |= ~(values <= most)
+        wanted.append(f"at most {most:g} {unit}")
+    return f"must be {' and '.join(wanted)}, received {values[wrong].flat[0]:g}" if wrong.any() else ""
