@@ -137,6 +137,7 @@ class Ring:
         self._forget_from(world.frame)
         while len(self._kept) > 1 and self._kept[1].frame <= world.frame - reach:
             self._spare.append(self._kept.popleft())
+        del self._spare[self.count :]
         self._kept.append(take_snapshot(world, reuse=self._spare.pop() if self._spare else None))
         self._done = {frame: done for frame, done in self._done.items() if self._kept[0].frame < frame < world.frame}
 

@@ -9,8 +9,9 @@ import pytest
 from carom.ecs import state_hash
 from carom.systems.ring import Ring
 from carom.systems.simulation import Simulation
+from carom.tools import viewer
 from carom.tools.cli import main
-from carom.tools.recorder import Recorder
+from carom.tools.recorder import Recorder, of_world
 from carom.tools.recording import Recording
 from carom.tools.replay import Replay
 from carom.tools.retrace import Verdict, retrace
@@ -36,6 +37,15 @@ FAILS = {
         300,
     ),
 }
+
+
+class Seen:
+    """An observer that does nothing."""
+
+    def begin(self, simulation: Simulation) -> None:
+        """Do nothing."""
+
+    observe = end = begin
 
 
 def verdict(path: Path) -> Verdict:
@@ -164,6 +174,22 @@ def test_what_was_done_by_hand_is_told_in_what_a_ring_shows(tmp_path: Path) -> N
     assert Recording(path).edits() == {131: "Motion"}
     (parting,) = verdict(path).partings
     assert (parting.first, parting.last, parting.edits) == (100, 131, {131: "Motion"})
+
+
+def test_a_viewer_is_sent_all_of_a_run(world: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever part of it the file holds."""
+    made, path = [], tmp_path / "rec.rrd"
+
+    def recorder(loaded: object, shot: object, path: Path | None, *, live: str | None, **chosen: object) -> Seen:
+        """Note where a recorder writes to."""
+        made.append((path, live))
+        return Seen()
+
+    monkeypatch.setattr(of_world, "recorder_of", recorder)
+    monkeypatch.setattr(viewer, "running_viewer", lambda url: "there")
+    for part in ([], ["--ring", "1s"], ["--record-from", "50 ms"]):
+        assert main(["run", str(world), "--frames", "9", "--record", str(path), "--live", *part]) == 0
+    assert made == [(path, "there"), *2 * [(None, "there"), (path, None)]]
 
 
 @pytest.mark.parametrize(
