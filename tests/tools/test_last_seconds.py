@@ -131,7 +131,7 @@ def test_what_led_to_a_number_that_is_none_is_recorded(
 def test_a_recording_may_begin_later(world: Path, tmp_path: Path) -> None:
     """The rest of the run is the same, and is replayed from there; from Python too."""
     path, whole = tmp_path / "late.rrd", tmp_path / "whole.rrd"
-    assert main(["run", str(world), "--record", str(path), "--record-from", "1.25 s", "--detail", "solver"]) == 0
+    assert main(["run", str(world), "--record", str(path), "--record-from", "1.25 s"]) == 0
     assert main(["run", str(world), "--record", str(whole)]) == 0
     assert Recording(path).frames[:3] == [125, 126, 128]
     assert (Replay(path).first, Replay(path).last) == (125, 300)
