@@ -7,10 +7,11 @@ from carom.ecs.component import Resource
 from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.hit import Hit
 from carom.ecs.relations.impact import Impact
+from carom.ecs.relations.joint_break import JointBreak
 from carom.ecs.relations.touching import ContactBegin, ContactEnd
 from carom.systems.settings import Settings
 
-EVENTS = (Impact, Hit, Enter, Exit, ContactBegin, ContactEnd)
+EVENTS = (Impact, Hit, Enter, Exit, ContactBegin, ContactEnd, JointBreak)
 
 
 class Progress(Resource):

@@ -6,6 +6,7 @@ from math import inf
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
 from carom.ecs.components.flight import Flight
+from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.sleeping_contact import SleepingContact
@@ -33,13 +34,14 @@ from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.threads import Threads, share_out
+from carom.systems.ties import Ties
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Joint),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, ColliderPose, Answered, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast,
+        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ties,
     ),
 )  # fmt: skip
 def look_ahead(world: World, dt: float) -> None:
@@ -103,10 +105,10 @@ def hand_impulses_over(world: World, dt: float) -> None:
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads, Joint),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ledger,
+        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ledger, Ties,
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:

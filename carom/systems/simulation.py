@@ -55,6 +55,7 @@ from carom.systems.settings import Random, Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.step import STEP, has_strangers
 from carom.systems.threads import Threads
+from carom.systems.ties import Ties
 
 CHECK_VARIABLE = "CAROM_CHECK"
 
@@ -80,7 +81,8 @@ class Simulation:
         self.hearers: list[Callable[[System], None]] = []
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
         packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
-        caches = (*packed, Resting(), Linkage(), Sensing(), Threads(), Scene(), Asked(), Awake(), Fast(), Ledger())
+        solving = (Resting(), Ties(), Linkage(), Sensing(), Awake(), Fast(), Ledger())
+        caches = (*packed, *solving, Threads(), Scene(), Asked())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 

@@ -21,19 +21,23 @@ from carom.ecs import (
 )
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.components.flight import Flight
+from carom.ecs.components.joint import Joint
 from carom.ecs.components.path import Path
 from carom.ecs.components.spring import Spring
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake, stirs
 from carom.systems.compound import bodies_of
+from carom.systems.constants import SLEEP_TIME
 from carom.systems.detection.bounds import reach_within
 from carom.systems.energy import centers_of_mass
 from carom.systems.forces.law import Forces
 from carom.systems.forces.springs import bodies_on_springs
-from carom.systems.kernels.islands import find_islands, find_sleepers, time_stillness
+from carom.systems.kernels.islands import find_sleepers, time_stillness
+from carom.systems.links import islands, joins_islands, links
 from carom.systems.settings import Settings
 from carom.systems.sleeping_contacts import left_alone, locate_contacts, move_contacts
+from carom.systems.ties import Ties
 
 if TYPE_CHECKING:
     from carom.systems.detection.narrow import Found
@@ -43,8 +47,8 @@ PLACED = {Transform, Motion, ExternalForce}
 
 
 @system(
-    reads=(RigidBody, Collider, ExternalForce, Parent, Path, Settings, Forces, Spring),
-    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake),
+    reads=(RigidBody, Collider, ExternalForce, Parent, Path, Settings, Forces, Joint, Spring),
+    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake, Ties),
 )
 def wake_disturbed(world: World, dt: float) -> None:
     """Wake who was changed from outside since the last step, and see whether there is anything to do."""
@@ -53,6 +57,10 @@ def wake_disturbed(world: World, dt: float) -> None:
     if not changes and not awake.asked and awake.idle:
         return
     awake.find(world)
+    ties, held = world[Ties], world[Ties].bodies
+    joined = Joint in changes.edited
+    if (joined or changes.structure or changes.restored) and ties.find(world):
+        joined |= not changes.restored
     if changes.restored:  # what snapshots do not keep
         place_frozen(world, awake.sleepers)
         locate_contacts(world)
@@ -68,14 +76,16 @@ def wake_disturbed(world: World, dt: float) -> None:
                 disturbed.append(_changed(world, awake.sleepers))
             if changes.structure:
                 disturbed.append(left_alone(world))
+            if joined:
+                disturbed += [held, ties.bodies]
             wake(world, np.concatenate(disturbed))
     awake.asked.clear()
     awake.idle = not changes and awake.nobody_moves(world)
 
 
 @system(
-    reads=(RigidBody, Collider, Parent, Force, Forces, Settings, Spring),
-    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake),
+    reads=(RigidBody, Collider, Parent, Force, Forces, Settings, Joint, Spring),
+    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake, Ties),
     when=stirs,
 )
 def fall_asleep(world: World, dt: float) -> None:
@@ -87,6 +97,7 @@ def fall_asleep(world: World, dt: float) -> None:
         force = world[Force]
         pushed = (force.force[awake.sleepers] != 0.0) | (force.torque[awake.sleepers] != 0.0)
         awake.asked += world.entities(awake.sleepers[pushed.any(axis=1)]).tolist()
+    motion.still[world[Ties].now(world).restless] = -dt  # who is turned by a motor
     for law in world[Forces].entries:
         for _, rows in () if law.steady else world[Forces].acting(law, world):
             motion.still[rows] = -dt  # who is pushed another way in every step
@@ -95,24 +106,18 @@ def fall_asleep(world: World, dt: float) -> None:
         awake.rows, dt, body.inverse_mass, body.inertia, body.sleeps, motion.linear, motion.angular, motion.still
     )
     falls: Booleans = np.zeros(len(motion.asleep), np.bool_)
-    count = contact.count
-    touches = joins_islands(contact)
+    if not (motion.still[awake.rows] >= SLEEP_TIME).any():
+        return
     if find_sleepers(
-        awake.rows, count, contact.body_a, contact.body_b, touches, body.inverse_mass,
+        awake.rows, *links(world, Contact), body.inverse_mass,
         motion.linear, motion.angular, world[Flight].felt, motion.still, falls,
     ):  # fmt: skip
         rows = np.nonzero(falls)[0]
         motion.asleep[rows] = True
         freeze(world, rows)
-        a, b = contact.body_a[:count], contact.body_b[:count]
-        move_contacts(world, Contact, SleepingContact, touches & (_among(a, falls) | _among(b, falls)))
+        a, b = contact.body_a[: contact.count], contact.body_b[: contact.count]
+        move_contacts(world, Contact, SleepingContact, joins_islands(contact) & (_among(a, falls) | _among(b, falls)))
         awake.find(world)
-
-
-def joins_islands(contact: Contact) -> Booleans:
-    """Tell which contacts (count,) join islands."""
-    found: Booleans = contact.resting[: contact.count] | (contact.depth[: contact.count] >= 0.0)
-    return found
 
 
 def wake(world: World, rows: Integers) -> None:
@@ -121,9 +126,8 @@ def wake(world: World, rows: Integers) -> None:
     if not len(rows):
         return
     motion, sleeping, awake = world[Motion], world[SleepingContact], world[Awake]
-    island, count = np.zeros(len(motion.asleep), np.int64), sleeping.count
-    a, b, inverse_mass = sleeping.body_a[:count], sleeping.body_b[:count], world[RigidBody].inverse_mass
-    find_islands(awake.sleepers, count, a, b, np.ones(count, np.bool_), inverse_mass, island)
+    island, count = islands(world, awake.sleepers, SleepingContact), sleeping.count
+    a, b = sleeping.body_a[:count], sleeping.body_b[:count]
     woken: Booleans = np.zeros(len(island), np.bool_)
     woken[awake.sleepers] = np.isin(island[awake.sleepers], island[rows])
     motion.asleep[woken], motion.still[woken] = False, 0.0

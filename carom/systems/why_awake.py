@@ -13,9 +13,9 @@ from carom.systems.compound import bodies_of
 from carom.systems.constants import SLEEP_SPEED, SLEEP_TIME
 from carom.systems.forces.law import Forces
 from carom.systems.forces.springs import bodies_on_springs
-from carom.systems.kernels.islands import find_islands, find_surface_speeds
+from carom.systems.kernels.islands import find_surface_speeds
+from carom.systems.links import islands, links
 from carom.systems.settings import Settings
-from carom.systems.sleeping import joins_islands
 
 if TYPE_CHECKING:
     from carom.systems.simulation import Simulation
@@ -62,24 +62,23 @@ def why_awake(of: World | Simulation, entity: int | str) -> str:
         return told(pulled, "is pulled by a spring, so another way as soon as its other end moves")
     moving, held = _supports_of(world, island)
     for support in moving:
-        return f"{name} is awake since '{world.name(world.entity(support))}', which moves, touches it{others}"
+        return f"{name} is awake since '{world.name(world.entity(support))}', which moves, touches or holds it{others}"
     if not held:
-        return f"{name} is awake since it touches nothing that stands{others}: what drifts slowly goes on doing so"
+        return f"{name} is awake since nothing that stands touches or holds it{others}: what drifts slowly goes on"
     newest = island[np.argmin(motion.still[island])]
     return told(newest, f"has been still for {motion.still[newest]:.3g} s; after {SLEEP_TIME:g} s it falls asleep")
 
 
 def _island_of(world: World, row: int) -> Integers:
-    rows, contact, inverse_mass = world.row_numbers(RigidBody), world[Contact], world[RigidBody].inverse_mass
-    island = np.zeros(len(inverse_mass), np.int64)
-    find_islands(rows, contact.count, contact.body_a, contact.body_b, joins_islands(contact), inverse_mass, island)
+    rows, inverse_mass = world.row_numbers(RigidBody), world[RigidBody].inverse_mass
+    island = islands(world, rows, Contact)
     return np.asarray(rows[(island[rows] == island[row]) & (inverse_mass[rows] > 0.0)])
 
 
 def _supports_of(world: World, island: Integers) -> tuple[list[int], bool]:
     """Return the kinematic bodies that touch an island and move, and whether anything that stands touches it."""
-    contact, motion, inverse_mass = world[Contact], world[Motion], world[RigidBody].inverse_mass
-    pairs = np.stack([contact.body_a[: contact.count], contact.body_b[: contact.count]], axis=1)[joins_islands(contact)]
+    motion, inverse_mass = world[Motion], world[RigidBody].inverse_mass
+    pairs = np.stack(links(world, Contact), axis=1)
     of_island = np.isin(pairs, island) & (pairs >= 0)
     supports = pairs[:, ::-1][of_island]
     supports = supports[(supports < 0) | (inverse_mass[supports] == 0.0)]

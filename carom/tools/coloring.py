@@ -9,14 +9,11 @@ import numpy as np
 
 from carom.ecs import BodyType, Collider, Motion, RigidBody, Visual, World
 from carom.ecs.column import Booleans, Floats, Integers
-from carom.ecs.relations.contact import Contact
-from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.compound import bodies_of
 from carom.systems.energy import kinetic_energies
-from carom.systems.kernels.islands import find_islands
 from carom.systems.layers import Layers
+from carom.systems.links import all_islands
 from carom.systems.sleep_state import STATES, sleep_states
-from carom.systems.sleeping import joins_islands
 from carom.tools.round_numbers import next_round
 
 GRAY = (0.62, 0.62, 0.62)
@@ -88,7 +85,8 @@ class Coloring:
 
     def island(self, world: World, rows: Integers, body: Integers) -> Floats:
         """Give those one colour that touch each other, directly or by way of others."""
-        return np.where(_pushed(world, body)[:, None], hues(islands(world)[body]), UNSAID)
+        island = all_islands(world)
+        return np.where(_pushed(world, body)[:, None], hues(island[body]), UNSAID)
 
     def layer(self, world: World, rows: Integers, body: Integers) -> Floats:
         """Tell the layers of colliders apart."""
@@ -137,17 +135,6 @@ def hues(numbers: Integers) -> Floats:
     """Return colours (n, 3) of numbers, each always the same and far from those of its neighbours."""
     turn = (numbers * GOLDEN % 1.0)[:, None] - [0.0, 1.0 / 3.0, 2.0 / 3.0]
     return 0.55 + 0.35 * np.cos(2.0 * np.pi * turn)
-
-
-def islands(world: World) -> Integers:
-    """Return for each row that is a body the lowest row of its island, of those that sleep too."""
-    inverse_mass = world[RigidBody].inverse_mass
-    island: Integers = np.arange(len(inverse_mass))
-    tables = world[Contact], world[SleepingContact]
-    a, b = (np.concatenate([getattr(one, side)[: one.count] for one in tables]) for side in ("body_a", "body_b"))
-    touches = np.concatenate([joins_islands(tables[0]), np.ones(tables[1].count, np.bool_)])
-    find_islands(world.row_numbers(RigidBody), len(a), a, b, touches, inverse_mass, island)
-    return island
 
 
 def _pushed(world: World, body: Integers) -> Booleans:

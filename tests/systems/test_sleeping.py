@@ -244,7 +244,7 @@ def test_a_support_that_sets_out_wakes_whom_it_carries() -> None:
     simulation["lift"].motion.linear = (0.0, 0.005, 0.0)  # slower than what may fall asleep
     simulation.step(60)
     assert asleep(simulation, "crate") == [False]
-    assert why_awake(simulation, "crate") == "'crate' is awake since 'lift', which moves, touches it"
+    assert why_awake(simulation, "crate") == "'crate' is awake since 'lift', which moves, touches or holds it"
     assert simulation["crate"].transform.position[1] == pytest.approx(0.505, abs=1e-4)
 
 
@@ -369,7 +369,7 @@ def test_why_a_body_is_awake() -> None:
     simulation.add(name="lift", collider=BOX, body={"type": "kinematic"}, transform={"position": (9.0, 0.0, 0.0)})
     simulation.step(60)
     assert why_awake(simulation, "drifter") == (
-        "'drifter' is awake since it touches nothing that stands: what drifts slowly goes on doing so"
+        "'drifter' is awake since nothing that stands touches or holds it: what drifts slowly goes on"
     )
     assert why_awake(simulation, "restless") == (
         "'restless' is awake since it may not fall asleep: its body says so (sleeps)"

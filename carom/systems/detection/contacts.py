@@ -6,6 +6,7 @@ import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
 from carom.ecs.components.flight import Flight
+from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake
@@ -27,13 +28,14 @@ from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.sleeping import rouse
+from carom.systems.ties import Ties
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Joint),
     writes=(
         Transform, Motion, ColliderPose, Contact, SleepingContact, Answered, Flight, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast,
+        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ties,
     ),
 )  # fmt: skip
 def find_contacts(world: World, dt: float) -> None:
@@ -58,7 +60,7 @@ def detect(world: World, left: float) -> None:
     """
     world[Answered].detections += 1
     while True:
-        pairs = without_sensors(world, overlapping(world))
+        pairs = world[Ties].without_joined(world, without_sensors(world, overlapping(world)))
         reaches = np.empty(len(pairs))
         reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
         found = measure_what_moved(world, pairs, reaches)

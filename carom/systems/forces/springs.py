@@ -8,14 +8,14 @@ from carom.ecs import Force, Motion, RigidBody, Transform, World, system
 from carom.ecs.column import Integers
 from carom.ecs.components.spring import Spring
 from carom.ecs.spatial import quaternion
+from carom.systems.ends import ends_there
 from carom.systems.kernels.springs import add_springs
-from carom.systems.linkage import held, rows_of
 
 
 @system(reads=(Transform, Motion, RigidBody), writes=(Spring,), adds=(Force,))
 def apply_springs(world: World, dt: float) -> None:
     """Add what springs and their dampers pull, equal and opposite, with its torque about the centres of mass."""
-    rows, row_a, row_b = springs_there(world)
+    rows, row_a, row_b = ends_there(world, Spring)
     if not len(rows):
         return
     spring, force = world[Spring], world[Force]
@@ -27,27 +27,16 @@ def apply_springs(world: World, dt: float) -> None:
     )  # fmt: skip
 
 
-def springs_there(world: World) -> tuple[Integers, Integers, Integers]:
-    """Return the rows (n,) of springs whose ends are there, and those of their a and b, -1 for the world."""
-    rows = world.row_numbers(Spring)
-    if not len(rows):
-        return rows, rows, rows
-    spring = world[Spring]
-    row_a, row_b = rows_of(world, spring.a), rows_of(world, spring.b)
-    rows = rows[held(spring.a, row_a, rows) & held(spring.b, row_b, rows)]
-    return rows, row_a[rows], row_b[rows]
-
-
 def bodies_on_springs(world: World) -> Integers:
     """Return the rows of the bodies that springs pull; they are pulled another way as soon as anybody moves."""
-    _, row_a, row_b = springs_there(world)
+    _, row_a, row_b = ends_there(world, Spring)
     ends = np.unique(np.concatenate([row_a, row_b]))
     return np.asarray(ends[(ends >= 0) & (world[RigidBody].inverse_mass[ends] > 0.0)])
 
 
 def spring_energy(world: World) -> float:
     """Return k (l - l0)^2 / 2 of all springs in J."""
-    rows, row_a, row_b = springs_there(world)
+    rows, row_a, row_b = ends_there(world, Spring)
     if not len(rows):
         return 0.0
     spring, transform = world[Spring], world[Transform]

@@ -47,47 +47,42 @@ def lowest_of(i, island):
 
 
 @inlined
-def join(rows, count, body_a, body_b, touches, inverse_mass, island):
-    """Join the islands of every two bodies that can be pushed and touch; at first each body is one of its own."""
+def join(rows, body_a, body_b, inverse_mass, island):
+    """Join the islands of every two linked bodies that can be pushed; at first each body is one of its own."""
     for i in rows:
         island[i] = i
-    for c in range(count):
+    for c in range(len(body_a)):
         a, b = body_a[c], body_b[c]
-        if touches[c] and a >= 0 and b >= 0 and inverse_mass[a] > 0.0 and inverse_mass[b] > 0.0:
+        if a >= 0 and b >= 0 and inverse_mass[a] > 0.0 and inverse_mass[b] > 0.0:
             a, b = lowest_of(a, island), lowest_of(b, island)
             island[max(a, b)] = min(a, b)
 
 
 @kernel("island")
-def find_islands(rows, count, body_a, body_b, touches, inverse_mass, island):
+def find_islands(rows, body_a, body_b, inverse_mass, island):
     """Write for each body the lowest row of its island."""
-    join(rows, count, body_a, body_b, touches, inverse_mass, island)
+    join(rows, body_a, body_b, inverse_mass, island)
     for i in rows:
         island[i] = lowest_of(i, island)
 
 
 @kernel("falls")
-def find_sleepers(rows, count, body_a, body_b, touches, inverse_mass, linear, angular, felt, still, falls):
+def find_sleepers(rows, body_a, body_b, inverse_mass, linear, angular, felt, still, falls):
     """Tell who falls asleep: all bodies of an island that has been still for SLEEP_TIME and is held.
 
-    Held is an island that touches what stands, or of which no body moves or feels a force at all: what only drifts
-    slowly goes on doing so. What a moving kinematic body touches stays awake. Returns how many fall asleep.
+    Held is an island that is linked to what stands, or of which no body moves or feels a force at all: what only drifts
+    slowly goes on doing so. What is linked to a moving kinematic body stays awake. Returns how many fall asleep.
     """
-    ripe = False
-    for i in rows:
-        ripe |= still[i] >= SLEEP_TIME
-    if not ripe:
-        return 0
     island = np.empty(len(falls), np.int64)
-    join(rows, count, body_a, body_b, touches, inverse_mass, island)
+    join(rows, body_a, body_b, inverse_mass, island)
     stays, held, drifts = np.zeros(len(falls), np.bool_), np.zeros(len(falls), np.bool_), np.zeros(len(falls), np.bool_)
     for i in rows:
         low = lowest_of(i, island)
         stays[low] |= still[i] < SLEEP_TIME
         drifts[low] |= feels(i, linear, angular, felt)
-    for c in range(count):
+    for c in range(len(body_a)):
         for i, o in ((body_a[c], body_b[c]), (body_b[c], body_a[c])):
-            if touches[c] and i >= 0 and inverse_mass[i] > 0.0 and (o < 0 or inverse_mass[o] == 0.0):
+            if i >= 0 and inverse_mass[i] > 0.0 and (o < 0 or inverse_mass[o] == 0.0):
                 low = lowest_of(i, island)
                 held[low] = True
                 stays[low] |= o >= 0 and moves(o, linear, angular)

@@ -8,7 +8,7 @@ import numpy as np
 from carom.ecs.components.joint import LIMITED, LINE, LOCKED, SLOTS, SWING_TWIST
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lanes import WIDTH, address, spread, store
-from carom.systems.kernels.spatial import turn
+from carom.systems.kernels.spatial import product, turn
 
 # Kinds of groups by the ways that their joints hold: the line between the anchors, the three coordinates of a point,
 # and the six of a frame by either measure of turns; each once without limits, drives and friction, and once with.
@@ -76,16 +76,17 @@ def kind_of(i, along, about, mode, lower, driven, friction):
     return (CONES if about[i] == SWING_TWIST else FRAMES) + shift
 
 
-@kernel("kinds", "index_a", "index_b", "first", "row", "level_ends")
+@kernel("kinds", "index_a", "index_b", "first", "place", "row")
 def group_joints(
     joints, body_a, body_b, inverse_mass, nobody, along, about, mode, lower, driven, friction,
-    kinds, index_a, index_b, first, row, level_ends,
+    kinds, index_a, index_b, first, place, row,
 ):  # fmt: skip
     """Put joints (rows) into groups that, one after the other, do what the joints would in the order of their rows.
 
     A joint's level is one more than any level before it of its bodies; those of a level share no moving body. A chain
     is solved from one end to the other: so what holds one link is felt by all in one sweep. Return (groups, rows of
-    all, levels); ``body_a`` and ``body_b`` are rows of bodies, -1 for none, ``first`` is the joint of each lane.
+    all); ``body_a`` and ``body_b`` are rows of bodies, -1 for none, ``first`` is the row of the joint in each lane and
+    ``place`` where it is among ``joints``.
     """
     count = len(joints)
     reached, level = np.zeros(len(inverse_mass), np.int64), np.empty(count, np.int64)
@@ -121,44 +122,45 @@ def group_joints(
             rows = bound(rows, slots, slots if kind[n] >= KINDS else 0)
             for other in range(WIDTH):
                 index_a[group, other], index_b[group, other], first[group, other] = nobody, nobody, -1
-        level_ends[level[n]] = group + 1
         index_a[group, lane] = body_a[n] if body_a[n] >= 0 else nobody
         index_b[group, lane] = body_b[n] if body_b[n] >= 0 else nobody
-        first[group, lane] = joints[n]
+        first[group, lane], place[group, lane] = joints[n], n
         lane += 1
-    return group + 1, rows, levels
+    return group + 1, rows
 
 
 @kernel("asks", "lanes")
 def fill_joints(
-    groups, kinds, index_a, index_b, first, row, nobody, center_of_mass,
-    row_a, row_b, place, turned, anchor_a, anchor_b, frame_a, frame_b, mode, lower, upper, restitution,
-    driven, stiffness, damping, target, speed, most, friction, impulse, drive_impulse, friction_impulse, position,
-    asks, lanes,
+    groups, kinds, index_a, index_b, first, place, row, nobody, center_of_mass,
+    row_a, row_b, position_of, rotation_of, anchor_a, anchor_b, frame_a, frame_b, mode, lower, upper, restitution,
+    driven, stiffness, damping, target, speed, most, friction, impulse, drive_impulse, friction_impulse,
+    position, asks, lanes,
 ):  # fmt: skip
     """Write what joints hold into the lanes of their groups; of what stands, anchors and frames are in the world.
 
-    ``row_a`` and ``row_b`` are the rows of whom a joint holds (-1 for the world), ``place`` and ``turned`` their poses.
+    ``row_a`` and ``row_b`` are the rows of whom each joint holds (-1 for the world).
     """
     rows = address(lanes)
     for g in range(groups):
         r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
         for k in range(bound(r, slots, slots if bounded else 0) - r):
             store(rows, r + k, spread(0.0))
+        for s in range(slots if bounded else 0):
+            store(rows, bound(r, slots, s) + DAMPING, spread(1.0))  # divides also where nobody is
         asks[g] = 0
         for lane in range(WIDTH):
             lanes[r + FRAME_A + 3, lane] = lanes[r + FRAME_B + 3, lane] = 1.0
             i = first[g, lane]
             if i < 0:
                 continue
-            a, b = row_a[i], row_b[i]
+            a, b = row_a[place[g, lane]], row_b[place[g, lane]]
             write_side(
-                r + LEVER_A, r + FRAME_A, lane, i, index_a[g, lane] == nobody, a, center_of_mass, place, turned,
-                anchor_a, frame_a, lanes,
+                r + LEVER_A, r + FRAME_A, lane, i, index_a[g, lane] == nobody, a, center_of_mass,
+                position_of, rotation_of, anchor_a, frame_a, lanes,
             )  # fmt: skip
             write_side(
-                r + LEVER_B, r + FRAME_B, lane, i, index_b[g, lane] == nobody, b, center_of_mass, place, turned,
-                anchor_b, frame_b, lanes,
+                r + LEVER_B, r + FRAME_B, lane, i, index_b[g, lane] == nobody, b, center_of_mass,
+                position_of, rotation_of, anchor_b, frame_b, lanes,
             )  # fmt: skip
             for s in range(slots):
                 q = slot(r, s)
@@ -173,22 +175,17 @@ def fill_joints(
 
 
 @inlined
-def write_side(lever, frame, lane, i, stands, body, center_of_mass, place, turned, anchor, frames, lanes):
+def write_side(lever, frame, lane, i, stands, row, center_of_mass, position, rotation, anchor, frames, lanes):
     """Write the lever and the frame of joint i on one of the two that it holds."""
     x, y, z = anchor[i, 0], anchor[i, 1], anchor[i, 2]
     qx, qy, qz, qw = frames[i, 0], frames[i, 1], frames[i, 2], frames[i, 3]
     if not stands:
-        x, y, z = x - center_of_mass[body, 0], y - center_of_mass[body, 1], z - center_of_mass[body, 2]
-    elif body >= 0:
-        tx, ty, tz, tw = turned[body, 0], turned[body, 1], turned[body, 2], turned[body, 3]
+        x, y, z = x - center_of_mass[row, 0], y - center_of_mass[row, 1], z - center_of_mass[row, 2]
+    elif row >= 0:
+        tx, ty, tz, tw = rotation[row, 0], rotation[row, 1], rotation[row, 2], rotation[row, 3]
         x, y, z = turn(tx, ty, tz, tw, x, y, z)
-        x, y, z = x + place[body, 0], y + place[body, 1], z + place[body, 2]
-        qx, qy, qz, qw = (
-            tw * qx + tx * qw + ty * qz - tz * qy,
-            tw * qy - tx * qz + ty * qw + tz * qx,
-            tw * qz + tx * qy - ty * qx + tz * qw,
-            tw * qw - tx * qx - ty * qy - tz * qz,
-        )
+        x, y, z = x + position[row, 0], y + position[row, 1], z + position[row, 2]
+        qx, qy, qz, qw = product(tx, ty, tz, tw, qx, qy, qz, qw)
     for k, value in enumerate((x, y, z)):
         lanes[lever + k, lane] = value
     for k, value in enumerate((qx, qy, qz, qw)):
@@ -207,7 +204,6 @@ def write_bounds(
         lanes[q + IS_LIMITED, lane], lanes[q + BOUNCE, lane] = 1.0, restitution[i]
         lanes[q + LOWER, lane], lanes[q + UPPER, lane] = lower[i, s], upper[i, s]
     rigid = damping[i, s] == np.inf
-    lanes[q + DAMPING, lane], lanes[q + YIELDS, lane] = 1.0, 0.0
     if driven[i, s] and (damping[i, s] > 0.0 or stiffness[i, s] > 0.0):
         asks |= DRIVE_BIT << s
         lanes[q + IS_DRIVEN, lane] = 1.0
@@ -220,51 +216,3 @@ def write_bounds(
         asks |= FRICTION_BIT << s
         lanes[q + RUBS, lane], lanes[q + RUB, lane] = friction[i, s], friction_impulse[i, s]
     return asks
-
-
-@kernel(
-    "impulse",
-    "drive_impulse",
-    "friction_impulse",
-    "position",
-    "velocity",
-    "held",
-    "driven",
-    "rubbed",
-    "force",
-    "torque",
-)
-def hand_joints_over(
-    groups, kinds, first, row, lanes,
-    impulse, drive_impulse, friction_impulse, position, velocity, held, driven, rubbed, force, torque,
-):  # fmt: skip
-    """Write what the lanes have found of joints into their columns, and add up impulses.
-
-    ``held``, ``driven`` and ``rubbed`` (n, 6) get those of locks and limits, of drives, and of friction; ``force`` and
-    ``torque`` (n, 3) what all of them are in the world, N s and N m s on b at its anchor.
-    """
-    for g in range(groups):
-        r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
-        for lane in range(WIDTH):
-            i = first[g, lane]
-            if i < 0:
-                continue
-            for s in range(slots):
-                q = slot(r, s)
-                impulse[i, s], position[i, s] = lanes[q + HOLD, lane], lanes[q + PLACE, lane]
-                velocity[i, s] = lanes[q + SPEED, lane]
-                whole = lanes[q + SUM, lane]
-                held[i, s] += lanes[q + SUM, lane]
-                lanes[q + SUM, lane] = 0.0
-                if bounded:
-                    p = bound(r, slots, s)
-                    drive_impulse[i, s], friction_impulse[i, s] = lanes[p + DRIVE, lane], lanes[p + RUB, lane]
-                    driven[i, s] += lanes[p + DRIVE_SUM, lane]
-                    rubbed[i, s] += lanes[p + RUB_SUM, lane]
-                    whole += lanes[p + DRIVE_SUM, lane] + lanes[p + RUB_SUM, lane]
-                    lanes[p + DRIVE_SUM, lane], lanes[p + RUB_SUM, lane] = 0.0, 0.0
-                for k in range(3):
-                    if s < 3:
-                        force[i, k] += whole * lanes[q + AXIS + k, lane]
-                    else:
-                        torque[i, k] += whole * lanes[q + AXIS + k, lane]

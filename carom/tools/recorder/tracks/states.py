@@ -9,9 +9,9 @@ import numpy as np
 
 from carom.ecs import Motion
 from carom.ecs.column import Column
+from carom.systems.links import all_islands
 from carom.systems.simulation import Simulation
 from carom.systems.sleep_state import STATES, most_restless, pushed_bodies, sleep_states
-from carom.tools.coloring import islands
 from carom.tools.recorder.block import Columns
 from carom.tools.recorder.rows import RowTrack, handle, text
 
@@ -36,7 +36,7 @@ class States(RowTrack):
         """Return a row for each body."""
         world = simulation.world
         rows = pushed_bodies(world)
-        island, state = islands(world)[rows], sleep_states(world, rows)
+        island, state = all_islands(world)[rows], sleep_states(world, rows)
         restless = world.entities(most_restless(world, rows, island))
         return {
             "body": world.entities(rows),
