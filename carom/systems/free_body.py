@@ -7,17 +7,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.ecs import ExternalForce, Force, Motion, RigidBody, World
+from carom.ecs import ExternalForce, Force, Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
+from carom.ecs.component import Record
+from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
+from carom.ecs.spatial import quaternion
 from carom.systems.awake import Awake
 from carom.systems.energy import centers_of_mass, dynamic_rows
+from carom.systems.linkage import rows_of
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 
 APPLY = "apply_"  # what names of systems begin with, and those of forces do not
-NORMAL, FRICTION, EXTERNAL = "normal", "friction", "external"
+NORMAL, FRICTION, JOINT, EXTERNAL = "normal", "friction", "joint", "external"
 
 
 class Loads(NamedTuple):
@@ -33,11 +37,12 @@ def loads(simulation: Simulation) -> Loads:
     """Return the forces on all dynamic bodies that are not zero.
 
     Those of laws, own systems and from outside act on centres of mass, as poses and velocities are now; normal forces
-    and friction act where colliders touch, their impulses of the last step over its time.
+    and friction act where colliders touch, those of joints at the anchor of b: impulses of the last step over its time.
     """
-    found = [*applied(simulation), *contacts(simulation.world, simulation.settings.dt)]
-    dynamic = np.zeros(simulation.world.used() + 1, np.bool_)  # the last is for -1, what has no body
-    dynamic[dynamic_rows(simulation.world)] = True
+    world = simulation.world
+    found = [*applied(simulation), *contacts(world, simulation.settings.dt), *joints(world)]
+    dynamic = np.zeros(world.used() + 1, np.bool_)  # the last is for -1, what has no body
+    dynamic[dynamic_rows(world)] = True
     kept = [dynamic[part.body] & part.force.any(axis=1) for part in found]
     body, point, force = (
         np.concatenate([getattr(part, column)[keep] for part, keep in zip(found, kept, strict=True)])
@@ -82,12 +87,23 @@ def contacts(world: World, dt: float) -> list[Loads]:
     return found
 
 
+def joints(world: World) -> list[Loads]:
+    """Return the mean forces of the last step by which joints hold, drive and rub both bodies."""
+    joint, rows, transform = world[Joint], world.row_numbers(Joint), world[Transform]
+    a, b = (rows_of(world, side[rows]) for side in (joint.a, joint.b))
+    point, held = joint.anchor_b[rows], b >= 0
+    point[held] = transform.position[b[held]] + quaternion.rotate(transform.rotation[b[held]], point[held])
+    return [Loads(body, point, sign * joint.force[rows], [JOINT] * len(rows)) for body, sign in ((a, -1.0), (b, 1.0))]
+
+
 class Instead(dict[Any, Any]):
     """What a world shows while functions run on some tables and resources in the place of its own."""
 
     def __init__(self, world: World, replaced: dict[Any, Any]) -> None:
         super().__init__(replaced)
-        self._own = world.faces(None).faces
+        self._world, self._own = world, world.faces(None).faces
 
     def __missing__(self, key: Any) -> Any:
+        if isinstance(key, type) and issubclass(key, Record):
+            self._world.table(key)  # made on first use
         return self._own[key]

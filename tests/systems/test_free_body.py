@@ -9,6 +9,7 @@ import pytest
 
 from carom.ecs import ExternalForce, Force, Motion, World
 from carom.ecs.column import Integers
+from carom.ecs.components.joint import Joint
 from carom.ecs.snapshot import state_hash
 from carom.systems.free_body import Loads, loads
 from carom.systems.simulation import Simulation
@@ -139,3 +140,21 @@ def test_a_world_without_bodies_has_no_forces() -> None:
     """Columns are empty, of their shapes."""
     found = loads(Simulation())
     assert (found.body.shape, found.point.shape, found.force.shape, found.name) == ((0,), (0, 3), (0, 3), [])
+
+
+def test_joints_carry_what_hangs_on_them() -> None:
+    """Of two that hang one below the other the upper joint carries both; the lower one pulls both ways alike."""
+    simulation = Simulation(dt=1 / 240, sleeping=False)
+    ends = {}
+    for number, name in enumerate(("upper", "lower")):
+        place = {"position": (0.0, -1.0 - number, 0.0)}
+        ends[name] = simulation.add(name=name, collider=BALL | {"layer": "none"}, body={"mass": 2.0}, transform=place)
+    for a, b in ((-1, ends["upper"]), (ends["upper"], ends["lower"])):
+        simulation.world.spawn(Joint(a=a, b=b, anchor_b=(0.0, 1.0, 0.0), mode=(1, 1, 1, 0, 0, 0)))
+    simulation.step(240)
+    found = named(simulation, "joint")
+    assert found.body.tolist() == [simulation.world.row(ends[name]) for name in ("upper", "upper", "lower")]
+    weight = 2.0 * GRAVITY
+    expected = np.array([(0.0, -weight, 0.0), (0.0, 2.0 * weight, 0.0), (0.0, weight, 0.0)])
+    assert found.force == pytest.approx(expected, rel=1e-6, abs=1e-9)
+    assert found.point == pytest.approx(np.array([(0.0, -1.0, 0.0), (0.0, 0.0, 0.0), (0.0, -1.0, 0.0)]), abs=1e-4)

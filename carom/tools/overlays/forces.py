@@ -8,19 +8,24 @@ from typing import ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
-from carom.systems.free_body import FRICTION, NORMAL, loads
+from carom.systems.free_body import FRICTION, JOINT, NORMAL, loads
 from carom.tools.marks import Arrows, Labels, Mark
 from carom.tools.overlays.overlay import Overlay, Scaling, Seen
 
 LONGEST = 0.4  # of the picture's height at the camera's target: an impact is far larger than what it is compared with
-COLORS = {"gravity": (0.98, 0.86, 0.25), NORMAL: (1.0, 0.45, 0.2), FRICTION: (0.95, 0.35, 0.75)}
+COLORS = {
+    "gravity": (0.98, 0.86, 0.25),
+    NORMAL: (1.0, 0.45, 0.2),
+    FRICTION: (0.95, 0.35, 0.75),
+    JOINT: (0.7, 0.55, 1.0),
+}
 OTHERS = (0.45, 0.8, 1.0)
 
 
 class ForceMarks(Overlay):
     """Arrows over everything, each with its name and size in N.
 
-    What acts on a body as a whole is drawn from its centre of mass, normal forces and friction from where they act.
+    What acts on a body as a whole is drawn from its centre of mass, contacts and joints from where they act.
     The scale is that of the former; a longer arrow is cut, and only its label tells.
     """
 
@@ -32,7 +37,7 @@ class ForceMarks(Overlay):
     def marks(self, seen: Seen) -> Sequence[Mark]:
         """Return the arrows, and a label at the end of each."""
         found = loads(seen.simulation)
-        touches = np.isin(found.name, (NORMAL, FRICTION))
+        touches = np.isin(found.name, (NORMAL, FRICTION, JOINT))
         scale = self._scaling.metres_per_unit(found.force[~touches] if not touches.all() else found.force, seen)
         sizes = np.linalg.norm(found.force, axis=1)
         shares = np.minimum(scale, seen.metres(LONGEST) / sizes)

@@ -10,7 +10,7 @@ import numpy as np
 from carom.ecs import RigidBody, World
 from carom.ecs.column import Column
 from carom.systems.energy import dynamic_rows
-from carom.systems.free_body import FRICTION, NORMAL, loads
+from carom.systems.free_body import FRICTION, JOINT, NORMAL, loads
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Block, Columns
@@ -24,7 +24,7 @@ from carom.tools.recorder.tracks.shapes import PATH as SHAPES
 from carom.tools.recorder.tracks.shapes import colored
 
 PATH = "world/forces"
-COLORS = {"gravity": 0xFADB40FF, NORMAL: 0xFF7333FF, FRICTION: 0xF259BFFF}
+COLORS = {"gravity": 0xFADB40FF, NORMAL: 0xFF7333FF, FRICTION: 0xF259BFFF, JOINT: 0xB38CFFFF}
 OTHERS = 0x73CCFFFF
 RADIUS = -2.0  # px
 WEIGHT, LONGEST = 2.0, 8.0  # typical radii: the arrow of a typical weight, and of what is far larger, such as impacts
@@ -32,15 +32,15 @@ STANDARD_GRAVITY = 9.81  # m/s2, by which arrows are scaled where there is none
 
 
 class Forces(RowTrack):
-    """Forces at where they act: of laws, systems and from outside on centres of mass, of contacts at their points."""
+    """Forces where they act: those of contacts and joints at their points, all others on centres of mass."""
 
     key: ClassVar[str] = "forces"
     detail: ClassVar[str] = "full"
     path: ClassVar[str] = PATH
     columns: ClassVar[Mapping[str, Column]] = {
         "body": handle("whom it acts on"),
-        "source": text("law or system, normal and friction of contacts, or external"),
-        "force": number("N", "force, world frame; of contacts the mean of the last step", 3),
+        "source": text("law or system, normal and friction of contacts, joint, or external"),
+        "force": number("N", "force, world frame; of contacts and joints the mean of the last step", 3),
         "point": number("m", "where it acts, world frame", 3),
     }
     drawn: ClassVar[Mapping[str, str]] = {"point": "Arrows3D:origins"}
