@@ -51,7 +51,8 @@ class Level(NamedTuple):
 class Solving:
     """Sweeps and levels of the last step, in order of time; no bit of the simulation depends on it.
 
-    Substeps in which nothing rests have neither. Sweeps take several times as long while they are looked at.
+    Substeps in which nothing rests have neither; where contacts are found anew on the way, none is relaxed. Sweeps take
+    several times as long while they are looked at.
     """
 
     def __init__(self, simulation: Simulation) -> None:
@@ -73,6 +74,8 @@ class Solving:
 
     def _look(self, stage: Stage, number: int) -> None:
         resting, progress = self._resting, self._simulation.world[Progress]
+        if resting.groups and not resting.asks[: resting.groups].any():
+            return  # contacts were found anew since they were solved: those rest from the next substep on
         when = progress.substep, progress.clock + stage.h
         if stage.name == "solve" and number == 0:
             self._look_at_levels(*when)

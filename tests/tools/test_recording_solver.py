@@ -104,7 +104,9 @@ def test_sweeps_and_levels_are_those_of_the_run(part: Any) -> None:
     assert table.rows() == [(frame, *(getattr(sweep, name) for name in columns[1:])) for frame, sweep in sweeps]
     table = recording.table("levels").polars()
     assert table.rows() == [(frame, level.time, level.part, *level[2:]) for frame, level in levels]
-    assert len(sweeps) == 5 * 4 * (LAST - FIRST)
+    number = Counter((frame, sweep.part) for frame, sweep in sweeps)
+    assert len(number) == 4 * (LAST - FIRST)
+    assert set(number.values()) == {5, 2}  # where the rod is measured anew on its way, nothing is relaxed
 
 
 def test_a_substep_is_told_in_one_row(part: Any) -> None:
@@ -115,7 +117,9 @@ def test_a_substep_is_told_in_one_row(part: Any) -> None:
     for row in table.iter_rows(named=True):
         held = [sweep for frame, sweep in sweeps if (frame, sweep.part) == (row["frame"], row["part"])]
         of_it = [level for frame, level in levels if (frame, level.part) == (row["frame"], row["part"])]
-        assert (row["solved"], row["relaxed"]) == (held[1].residual, held[-1].residual)
+        relaxed = [sweep.residual for sweep in held if sweep.stage == "relax"]
+        assert row["solved"] == held[1].residual
+        assert np.isnan(row["relaxed"]) if not relaxed else row["relaxed"] == relaxed[-1]
         assert (row["open"], row["sliding"]) == (held[-1].open, held[-1].sliding)
         assert row["levels"] == len(of_it)
         assert row["manifolds"] == sum(level.manifolds for level in of_it) >= 2

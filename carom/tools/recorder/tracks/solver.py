@@ -88,13 +88,13 @@ class Solver(RowTrack):
 
 def _substep(sweeps: list[Sweep], levels: list[Level]) -> Substep:
     """Return a row of what was done in one substep; limits are those of the last sweep."""
-    solved = [sweep for sweep in sweeps if sweep.stage == "solve"]
     begun, last, points = sweeps[0], sweeps[-1], sum(level.points for level in levels)
-    relaxed = (last.residual, last.residual_sum) if last.stage == "relax" else (np.nan, np.nan)
+    ends = {sweep.stage: (sweep.residual, sweep.residual_sum) for sweep in sweeps}
+    nothing = (np.nan, np.nan)
     return Substep(
         begun.time, begun.part, len(levels), sum(level.groups for level in levels),
         sum(level.manifolds for level in levels), points, points - begun.open,
-        solved[-1].residual, solved[-1].residual_sum, *relaxed,
+        *ends.get("solve", nothing), *ends.get("relax", nothing),
         last.open, last.pushed, last.sliding, last.spinning, last.rolling,
     )  # fmt: skip
 
