@@ -23,6 +23,7 @@ from carom.ecs.table import Table
 
 if TYPE_CHECKING:
     from carom.ecs.system import System
+    from carom.ecs.writes import WriteLog
 
 
 class Structure:
@@ -36,6 +37,7 @@ class Structure:
         self.edited: set[type[Record]] = (
             set()
         )  # what code outside the step has opened since the last step or snapshot restored
+        self.writes: WriteLog | None = None
         self.frame = 0
         self.running: System | None = None
         self.entity_names = Names()
@@ -149,6 +151,8 @@ class Structure:
         self.structure += 1
         self.restored += 1
         self.edited.clear()
+        if self.writes is not None:
+            self.writes.forget()
 
     def _refuse_inside(self, verb: str) -> None:
         if self.running is not None:

@@ -93,6 +93,8 @@ class World(Structure):
         self[kind]  # makes the table, or raises for what is not here or not declared
         if self.running is None:
             self.edited.add(cast(type[Record], kind))
+            if self.writes is not None:
+                self.writes.open(self, cast(type[Record], kind))
         try:
             yield self._live[kind] if self._current is self._views else self._current[kind]
         finally:

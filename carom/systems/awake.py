@@ -6,8 +6,9 @@ import numpy as np
 
 from carom.ecs import Motion, RigidBody, World
 from carom.ecs.column import Integers
-from carom.ecs.component import Record, Resource
+from carom.ecs.component import Component, Record, Resource
 from carom.ecs.components.path import Path
+from carom.ecs.writes import Written
 from carom.systems.forces.law import Forces
 from carom.systems.settings import Settings
 
@@ -17,7 +18,8 @@ class Awake(Resource):
 
     ``idle`` is a step in which nobody moves and nothing has changed since the one before. ``strangers`` tells of
     systems in the schedule that are not carom's, which may change anything; ``asked`` are entities to be
-    woken, ``edited`` what code outside had opened for writing when this step began.
+    woken, ``edited`` what code outside had opened for writing when this step began, ``written`` what it wrote, where
+    the world keeps a log of that.
     """
 
     def __init__(self) -> None:
@@ -26,6 +28,7 @@ class Awake(Resource):
         self.idle = self.strangers = False
         self.asked: list[int] = []
         self.edited: set[type[Record]] = set()
+        self.written: dict[type[Component], Written] = {}
         self.settings: Settings | None = None
         self.restored = self.structure = self.laws = self.found = -1
 
@@ -53,6 +56,7 @@ class Awake(Resource):
     def look(self, world: World) -> Changes:
         """Return what has changed since the last look."""
         self.edited, world.edited = world.edited, set()
+        self.written = {} if world.writes is None else world.writes.take(world)
         settings, laws = world[Settings], world[Forces].count
         changes = Changes(
             self.edited,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from carom.ecs.errors import CaromError, did_you_mean
+from carom.systems.edits import LIVES, RESTORED
 from carom.tools.reading import Series, read
 from carom.tools.recorder import about, edits, snapshots
 from carom.tools.recorder.tracks import bodies, contacts, plots
@@ -112,6 +114,20 @@ class Recording:
         """Return what code outside the step did before it, by the frame it led to: components, who lives."""
         done = self._series[f"/{edits.PATH}", "done"]
         return {frame: str(text[0]) for frame, text in zip(done.frames, done.values, strict=True)}
+
+    def writes(self, frame: int) -> dict[str, dict[str, Any]]:
+        """Return what code outside the step wrote before it, by component and column, all rows of whom it wrote to.
+
+        Nothing where also somebody came or went, or a snapshot was restored, which a recording does not hold.
+        """
+        done = set(self.edits().get(frame, LIVES).split(", "))
+        found: dict[str, dict[str, Any]] = defaultdict(dict)
+        if not done & {LIVES, RESTORED}:
+            for (path, name), series in list(self._series.items()):
+                row = series.at(frame) if path.startswith(f"/{edits.PATH}/") else None
+                if row and row[0] == frame:
+                    found[path.rpartition("/")[2]][name] = row[1]
+        return found
 
     def table(self, name: str) -> RecordedTable:
         """Return a table such as ``contacts``, a row per frame and contact, for Arrow, pandas and polars.

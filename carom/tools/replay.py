@@ -8,12 +8,16 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import numpy as np
+
 from carom.ecs import Snapshot, World, restore_snapshot, snapshot_from_bytes, state_hash
+from carom.ecs.component import Record
 from carom.ecs.errors import CaromError, SnapshotError
 from carom.ecs.explain import explain
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.tools.recorder import about
+from carom.tools.recorder.edits import ENTITY
 from carom.tools.recording import Recording, SavedState
 from carom.worlds.builder import LoadedWorld, load_text
 
@@ -63,12 +67,26 @@ class Replay:
         loaded = self.loaded()
         saved = self.states[max(number for number in self.states if number <= frame)]
         self.restore(loaded.simulation.world, saved)
-        loaded.simulation.step(frame - saved.frame)
+        for _ in range(frame - saved.frame):
+            self.redo(loaded.simulation.world)
+            loaded.simulation.step()
         return loaded
 
     def simulation_at(self, frame: int) -> Simulation:
         """Return a simulation in that frame, which may go on in any way; raise CaromError like `loaded_at`."""
         return self.loaded_at(frame).simulation
+
+    def redo(self, world: World) -> None:
+        """Write what code outside the step wrote before the next one, to those of them who live here."""
+        for key, columns in self.recording.writes(world.frame + 1).items():
+            kind = Record.registry[key]
+            here = world.slots.live(columns[ENTITY])
+            rows = world.slots.rows(columns[ENTITY][here])
+            with world.edit(kind) as table:
+                for name, column in kind.columns.items():
+                    if name in columns:
+                        values = np.asarray(columns[name], column.dtype).reshape(len(here), *column.shape)
+                        getattr(table, name)[rows] = values[here]
 
     def snapshot(self, world: World, saved: SavedState) -> Snapshot:
         """Return a snapshot of the recording; raise SnapshotError when it is damaged or does not fit the world."""

@@ -94,6 +94,7 @@ def retrace(replay: Replay, loaded: LoadedWorld, last: int, observers: Sequence[
             leaving.callback(observer.end, simulation)
             observer.begin(simulation)
         while simulation.frame < last:
+            replay.redo(simulation.world)
             simulation.step()
             tracer.compare(simulation.world)
             for observer in observers:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carom.ecs import CaromError, Motion, SnapshotError, state_hash
+from carom.ecs import CaromError, Motion, Name, SnapshotError, Transform, state_hash
 from carom.tools.cli import main
 from carom.tools.recorder import Recorder, about
 from carom.tools.recording import SavedState
@@ -108,12 +108,46 @@ def test_nothing_beside_the_recording_is_needed(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.rrd", "worlds"]
 
 
-def test_an_edit_between_two_steps_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_what_was_written_between_two_steps_is_written_again(tmp_path: Path) -> None:
+    """Poses, velocities, names, and forces in every step: any frame is what it was, to the bit."""
+
+    def meddle(simulation: Any) -> None:
+        """Push one, now and then throw the other, who sleeps meanwhile, and call it something else."""
+        simulation["left"].external_force.force = (0.1 * simulation.frame, 3.0, 0.0)
+        if simulation.frame % 40 == 0:
+            with simulation.world.edit(Motion) as motion, simulation.world.edit(Transform) as transform:
+                motion.linear[2], motion.asleep[2] = (0.0, 0.0, 0.01 * simulation.frame), False
+                transform.position[2, 1] += 0.5
+            with simulation.world.edit(Name) as name:
+                name.text[2] = f"thrown in {simulation.frame}"
+
+    hashes = record(load_text(BALLS), tmp_path / "a.rrd", 200, dict.fromkeys(range(200), meddle))
+    verdict = replayed(tmp_path / "a.rrd")
+    assert (verdict.same, verdict.full, verdict.last) == (True, 200, 200)
+    replay = Replay(tmp_path / "a.rrd")
+    for frame in (41, 59, 119, 161, 199):
+        assert state_hash(replay.simulation_at(frame).world) == hashes[frame]
+
+
+def test_to_open_a_component_wakes_as_it_did(tmp_path: Path) -> None:
+    """Also where nothing was written."""
+
+    def look(simulation: Any) -> None:
+        """Open what is not written."""
+        with simulation.world.edit(Transform):
+            pass
+
+    hashes = record(load_text(BALLS), tmp_path / "a.rrd", 200, {150: look, 190: look})
+    assert Replay(tmp_path / "a.rrd").recording.edits() == {151: "Transform", 191: "Transform"}
+    assert state_hash(Replay(tmp_path / "a.rrd").simulation_at(199).world) == hashes[199]
+
+
+def test_a_component_exchanged_between_two_steps_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """With the frame, the entity and the column; all around it is the same."""
 
     def push(simulation: Any) -> None:
         """Give a velocity, between frames 150 and 151."""
-        simulation["left"].motion.linear = (0.0, 0.0, 3.0)
+        simulation.world.attach(simulation.world.find("left"), Motion(linear=(0.0, 0.0, 3.0)))
 
     record(load_text(BALLS), tmp_path / "a.rrd", 300, {150: push})
     (parting,) = replayed(tmp_path / "a.rrd").partings
@@ -127,7 +161,7 @@ def test_an_edit_between_two_steps_is_told(tmp_path: Path, capsys: pytest.Captur
         r"PATH: frames 0 to 300 simulated again: "
         r"not the same; the first is what was recorded, the second what came out now\n"
         r"  from 1 s to 1\.25833 s \(frames 120 to 151\):\n"
-        r"    code outside the step changed Motion before frame 151\n"
+        r"    code outside the step changed who lives before frame 151\n"
         r"    frame 151: Motion\.linear\[2\] of entity 'left' is \S+ in the first and \S+ in the second, "
         r"\d+ ulps apart\n"
     )
@@ -135,7 +169,7 @@ def test_an_edit_between_two_steps_is_told(tmp_path: Path, capsys: pytest.Captur
 
 
 def test_edits_in_quick_succession_are_told_with_the_frame_in_which_they_show(tmp_path: Path) -> None:
-    """Only the first leaves a snapshot; who came or went is told as well."""
+    """Only the first leaves a snapshot; who goes is told, and what was written meanwhile is the same."""
 
     def push(simulation: Any) -> None:
         """Give a velocity."""
@@ -148,9 +182,9 @@ def test_edits_in_quick_succession_are_told_with_the_frame_in_which_they_show(tm
     record(load_text(BALLS), tmp_path / "a.rrd", 130, {10: push, 20: push, 30: remove})
     verdict = replayed(tmp_path / "a.rrd")
     told = [(parting.first, parting.last, parting.seen, parting.entity) for parting in verdict.partings]
-    assert told == [(0, 11, None, ""), (11, 120, 22, "right")]
-    assert [parting.edits for parting in verdict.partings] == [{11: "Motion"}, {21: "Motion", 31: "who lives"}]
-    assert str(verdict.partings[1].difference) == "frame 120: entity 'left' lives only in the second"
+    assert told == [(11, 120, 32, "left")]
+    assert [parting.edits for parting in verdict.partings] == [{21: "Motion", 31: "who lives"}]
+    assert str(verdict.partings[0].difference) == "frame 120: entity 'left' lives only in the second"
 
 
 def test_what_a_step_itself_changes_is_no_edit(tmp_path: Path) -> None:

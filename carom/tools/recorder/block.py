@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from math import prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -39,4 +40,4 @@ def _arrow(values: npt.NDArray[Any]) -> Any:
     import pyarrow
 
     numbers = pyarrow.array(values.ravel())
-    return numbers if values.ndim == 1 else pyarrow.FixedSizeListArray.from_arrays(numbers, values.shape[1])
+    return numbers if values.ndim == 1 else pyarrow.FixedSizeListArray.from_arrays(numbers, prod(values.shape[1:]))
