@@ -15,8 +15,8 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.ecs.spatial import quaternion
 from carom.systems.awake import Awake
+from carom.systems.ends import ends_there
 from carom.systems.energy import centers_of_mass, dynamic_rows
-from carom.systems.linkage import rows_of
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 
@@ -89,8 +89,8 @@ def contacts(world: World, dt: float) -> list[Loads]:
 
 def joints(world: World) -> list[Loads]:
     """Return the mean forces of the last step by which joints hold, drive and rub both bodies."""
-    joint, rows, transform = world[Joint], world.row_numbers(Joint), world[Transform]
-    a, b = (rows_of(world, side[rows]) for side in (joint.a, joint.b))
+    joint, transform = world[Joint], world[Transform]
+    rows, a, b = ends_there(world, Joint)
     point, held = joint.anchor_b[rows], b >= 0
     point[held] = transform.position[b[held]] + quaternion.rotate(transform.rotation[b[held]], point[held])
     return [Loads(body, point, sign * joint.force[rows], [JOINT] * len(rows)) for body, sign in ((a, -1.0), (b, 1.0))]
