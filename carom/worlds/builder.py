@@ -14,6 +14,7 @@ from carom.systems.simulation import Simulation
 from carom.worlds import library
 from carom.worlds.camera import Camera, check_entities
 from carom.worlds.check import check_section, collection
+from carom.worlds.embedding import content_of
 from carom.worlds.errors import Fault, WordError, WorldError, shown
 from carom.worlds.expect import Expectation, read_expectations
 from carom.worlds.generated import STEP_WORDS
@@ -55,8 +56,8 @@ class LoadedWorld:
     files: dict[str, Path] = field(default_factory=dict)
 
     def contents(self) -> dict[str, bytes]:
-        """Return what is in its files, by the words of the world for them."""
-        return {word: path.read_bytes() for word, path in self.files.items()}
+        """Return what is in its files, by the words of the world for them; none needs another file beside it."""
+        return {word: content_of(path) for word, path in self.files.items()}
 
 
 def load_world(world: str | Path, *, checked: bool | None = None, **options: Any) -> LoadedWorld:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -11,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 from carom.ecs import CaromError, Motion, Name, SnapshotError, Transform, state_hash
 from carom.tools.cli import main
@@ -106,6 +109,25 @@ def test_nothing_beside_the_recording_is_needed(tmp_path: Path) -> None:
     assert Replay(tmp_path / "a.rrd").files == {"../tip.obj": box.encode()}
     assert replayed(tmp_path / "a.rrd").same
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.rrd", "worlds"]
+
+
+def test_files_that_named_files_name_travel_along(tmp_path: Path) -> None:
+    """A .gltf with its buffer and a picture beside it, in a folder whose name has a blank."""
+    folder = tmp_path / "a model"
+    folder.mkdir()
+    for name, content in trimesh.exchange.gltf.export_gltf(trimesh.Scene(trimesh.creation.icosphere(2))).items():
+        (folder / name).write_bytes(content)
+    model = json.loads((folder / "model.gltf").read_text())
+    model["images"] = [{"uri": "a%20picture.png"}, {"uri": "gone.png"}]
+    (folder / "a picture.png").write_bytes(b"picture")
+    (folder / "model.gltf").write_text(json.dumps(model))
+    body = "{name: ball, collider: {convex: {file: a model/model.gltf}}, body: {}, transform: {position: [0, 2, 0]}}"
+    (tmp_path / "a.yaml").write_text(f"carom: 1\nentities: [{body}, {{name: floor, collider: {{plane: {{}}}}}}]\n")
+    record(load_world(tmp_path / "a.yaml"), tmp_path / "a.rrd", 70)
+    shutil.rmtree(folder)
+    held = json.loads(Replay(tmp_path / "a.rrd").files["a model/model.gltf"])
+    assert [image["uri"] for image in held["images"]] == ["data:image/png;base64,cGljdHVyZQ==", "gone.png"]
+    assert replayed(tmp_path / "a.rrd").same
 
 
 def test_what_was_written_between_two_steps_is_written_again(tmp_path: Path) -> None:
