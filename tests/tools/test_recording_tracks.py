@@ -234,3 +234,22 @@ def test_trails_go_from_frame_to_frame(tracked: Tracked) -> None:
         ways = [[one["center"][one["bodies"].tolist().index(entity)] for one in (before, now)] for entity in both_there]
         expected = [way for way in ways if (way[0] != way[1]).any()]
         assert np.array_equal(np.array(strips.values[frame], np.float32), np.array(expected, np.float32))
+
+
+def test_of_some_alone_nobody_else_is_recorded(tmp_path: Path) -> None:
+    """In tables, trails and shapes; whom they touch is in their contacts."""
+    simulation, path = scene(), tmp_path / "ball.rrd"
+    recorder = Recorder(path, every=1, detail="full", only=["ball"])
+    recorder.begin(simulation)
+    for _ in range(20):
+        simulation.step()
+        recorder.observe(simulation)
+    recorder.end(simulation)
+    recording, series = Recording(path), read(path).series
+    for table, who in (("velocities", "body"), ("forces", "body"), ("bounds", "collider"), ("states", "body")):
+        assert set(recording.table(table).polars()[f"{who}.name"]) == {"ball"}, table
+    manifolds = recording.table("manifolds").polars()
+    assert set(zip(manifolds["a.name"], manifolds["b.name"], strict=True)) == {("floor", "ball")}
+    assert [len(ways) for ways in series["/world/trails", "LineStrips3D:strips"].values] == [0, *[1] * 20]
+    assert list(series["/world/shapes/balls", "Ellipsoids3D:labels"].values) == [["ball"]]
+    assert list(series["/world/shapes/boxes", "Boxes3D:labels"].values) == [[]]

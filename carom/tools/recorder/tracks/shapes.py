@@ -70,6 +70,8 @@ class Shapes(Track):
         world = simulation.world
         rows = world.row_numbers(Collider, Transform)
         rows = rows[~world[Collider].sensor[rows]]
+        if self.only is not None:
+            rows = rows[self.only.rows(world)[rows]]
         colors = {mode: coloring.colors(world, rows) for mode, coloring in self._colorings.items()}
         unseen = ~world.table(Visual).present[rows]
         colors["material"][unseen] = world[Material].color[rows[unseen]]

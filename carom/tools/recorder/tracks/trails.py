@@ -47,6 +47,8 @@ class Trails(Track):
         """Keep the ways since the last frame of those who were there and moved."""
         world = simulation.world
         rows = world.row_numbers(Transform, Motion, RigidBody)
+        if self.only is not None:
+            rows = rows[self.only.rows(world)[rows]]
         bodies, centers = world.entities(rows), centers_of_mass(world, rows)
         _, here, there = np.intersect1d(bodies, self._last[0], assume_unique=True, return_indices=True)
         ways = np.stack([self._last[1][there], centers[here]], axis=1)
