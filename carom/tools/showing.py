@@ -5,7 +5,9 @@ from __future__ import annotations
 import subprocess
 import time
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from carom.ecs.errors import CaromError
@@ -15,6 +17,12 @@ from carom.tools.viewer import PATIENCE, address, answers, free_port, start_view
 from carom.worlds.errors import WordError
 from carom.worlds.names import known
 
+if TYPE_CHECKING:
+    from rerun.experimental import ViewerClient
+
+WIDTH, HEIGHT = 1600, 900  # px, of a picture of the viewer
+COLORS = 128  # of it: the viewer has few, and the file is a third as large
+SETTLED = 1.0  # s that a viewer takes to draw what it was led to
 STEADY = 3  # looks at a viewer in a row that find it at the frame: it moves on its own until it has loaded
 
 
@@ -61,7 +69,23 @@ def show(path: Path, spot: Spot | None) -> int:
     return process.wait()
 
 
-def _look(url: str, path: Path, spot: Spot) -> None:
+def picture(path: Path, spot: Spot, out: Path) -> None:
+    """Write what a viewer without a window shows (PNG)."""
+    from PIL import Image
+
+    port = free_port()
+    process = start_viewer(port, "--headless", "--window-size", f"{WIDTH}x{HEIGHT}")
+    try:
+        viewer = _look(address(port), path.resolve(), spot)
+        time.sleep(SETTLED)
+        shown = Image.open(BytesIO(viewer.take_screenshot())).convert("RGB")
+    finally:
+        process.kill()
+        process.wait()
+    shown.quantize(COLORS).save(out, optimize=True)
+
+
+def _look(url: str, path: Path, spot: Spot) -> ViewerClient:
     """Lead a viewer to a spot in a recording."""
     from rerun.experimental import ViewerClient
 
@@ -75,6 +99,7 @@ def _look(url: str, path: Path, spot: Spot) -> None:
     if spot.selected:
         viewer.open(f"recording:/{spot.selected}")
         viewer.run_command("ui.expand_selection_panel")
+    return viewer
 
 
 class Service:

@@ -68,10 +68,11 @@ def answers(host: str, port: int) -> bool:
         return False
 
 
-def start_viewer(port: int) -> subprocess.Popen[bytes]:
+def start_viewer(port: int, *options: str) -> subprocess.Popen[bytes]:
     """Open a window that listens on a port and outlives this process; raise CaromError when none comes."""
-    words = [str(viewer_binary()), "--port", str(port), "--hide-welcome-screen"]
-    process = subprocess.Popen(words, start_new_session=True)
+    words = [str(viewer_binary()), "--port", str(port), "--hide-welcome-screen", *options]
+    quiet = {"RUST_LOG": "error", **os.environ}
+    process = subprocess.Popen(words, env=quiet, start_new_session=True)
     deadline = time.monotonic() + PATIENCE
     while not listens(address(port)):
         if process.poll() is not None or time.monotonic() > deadline:

@@ -72,7 +72,7 @@ def test_what_is_not_in_a_recording_is_told(recorded: Path, capsys: pytest.Captu
         "--frame 900": f"--frame: {recorded} holds no frame 900; accepted: 0 to 140",
         "--select blu": f"{unknown} 0; received 'blu'; accepted: {names}; did you mean 'blue'?",
         "--select green --frame 130": f"{unknown} 130; received 'green'; accepted: {later}",
-        "--web --frame 3": "--web: a browser opens a recording at its start; --frame and --select need a window",
+        "--web --frame 3": "--web: a browser opens a recording at its start; the other options need a window",
     }.items():
         assert main(["view", str(recorded), *words.split()]) == 2
         assert capsys.readouterr().err == f"{told}\n"
@@ -109,6 +109,21 @@ def test_the_viewer_opens_at_the_frame_with_the_entity_selected(
         client.run_command("ui.quit")
         shown.join()
     assert status == [0]
+
+
+def test_a_screenshot_needs_no_display(recorded: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It shows the balls of the frame it was asked for: in the last one of three is gone."""
+    from PIL import Image
+
+    for frame, there in ((60, {"red", "green", "blue"}), (140, {"red", "blue"})):
+        out = tmp_path / "new" / f"{frame}.png"
+        assert main(["view", str(recorded), "--frame", str(frame), "--screenshot", str(out)]) == 0
+        assert capsys.readouterr().out == f"{out}\n"
+        with Image.open(out) as image:
+            assert image.size == (1600, 900)
+            picture = np.asarray(image.convert("RGB"))
+        assert {name for name in COLORS if hued(picture, name) > 300} == there
+    assert out.stat().st_size < 150_000
 
 
 def pale_rim(picture: np.ndarray, name: str) -> float:

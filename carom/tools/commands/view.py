@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from carom.tools.commands.options import print_json, whole_number
+from carom.tools.commands.options import ending, print_json, whole_number
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -13,27 +13,37 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("file", type=Path, metavar="FILE", help="a recording (.rrd)")
     parser.add_argument("--frame", type=whole_number, metavar="N", help="open it at this frame")
     parser.add_argument("--select", metavar="ENTITY", help="select an entity by its name")
+    parser.add_argument(
+        "--screenshot", type=ending(".png"), metavar="FILE", help="write a picture of the viewer instead of opening it"
+    )
     parser.add_argument("--web", action="store_true", help="serve it to a browser instead of opening a window")
 
 
 def execute(arguments: argparse.Namespace) -> int:
     """Hand the recording to Rerun and wait until the viewer is closed, or the browser is done with it."""
     from carom.ecs.errors import CaromError
-    from carom.tools.showing import Service, show, spot_in
+    from carom.tools.outputs import prepare_outputs
+    from carom.tools.showing import Service, picture, show, spot_in
     from carom.tools.viewer import has_display
 
     path, frame, name = arguments.file, arguments.frame, arguments.select
     if not path.is_file():
         raise CaromError(f"no recording at {path}; make one with: carom run billiards --record {path}")
-    spot = None if frame is None and name is None else spot_in(path, frame, name)
+    nowhere = frame is None and name is None and arguments.screenshot is None
+    spot = None if nowhere else spot_in(path, frame, name)
     if arguments.web and spot:
-        raise CaromError("--web: a browser opens a recording at its start; --frame and --select need a window")
+        raise CaromError("--web: a browser opens a recording at its start; the other options need a window")
     if arguments.web:
         service = Service(path)
         if arguments.json:
             print_json({"command": service.words, "page": service.page})
             return 0
         return service.run()
+    if arguments.screenshot and spot:
+        prepare_outputs([arguments.screenshot])
+        picture(path, spot, arguments.screenshot)
+        print_json({"screenshot": str(arguments.screenshot)}) if arguments.json else print(arguments.screenshot)
+        return 0
     if not has_display():
         raise CaromError(f"no display to open a window on; serve it instead: carom view --web {path}")
     if arguments.json:

@@ -10,6 +10,7 @@ import numpy as np
 from carom.ecs import Collider, Motion, Transform, Visual, World
 from carom.tools.cameras import Camera, Vector, front
 from carom.tools.recorder import about
+from carom.tools.recorder.lanes import ROOT as LANES
 from carom.tools.recorder.layout import Layout, Scene
 from carom.tools.recorder.stream import TIME
 from carom.tools.recorder.track import Track
@@ -47,9 +48,11 @@ def blueprint(
     ]
     further = [rrb.Tabs(*layout.plots[STACKED:])] if layout.plots[STACKED:] else []
     curves = rrb.Vertical(*layout.plots[:STACKED], *further, name="Plots")
+    lanes = [rrb.StateTimelineView(origin=LANES, name="States")] if layout.lanes else []
     texts = rrb.Tabs(*layout.texts, rrb.TextDocumentView(origin=about.PATH, name="About"))
+    shares = [2.0, 0.5, 1.0] if lanes else [2.0, 1.0]
     return rrb.Blueprint(
-        rrb.Horizontal(rrb.Tabs(*scenes), rrb.Vertical(curves, texts, row_shares=[2, 1]), column_shares=[3, 1]),
+        rrb.Horizontal(rrb.Tabs(*scenes), rrb.Vertical(curves, *lanes, texts, row_shares=shares), column_shares=[3, 1]),
         rrb.BlueprintPanel(state="collapsed"),
         rrb.SelectionPanel(state="collapsed"),
         rrb.TimePanel(timeline=TIME, state="collapsed", play_state=play),

@@ -6,7 +6,6 @@ from collections import defaultdict
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from carom.tools.recorder.lanes import ROOT as LANES
 from carom.tools.recorder.stream import FRAME, TIME
 
 
@@ -27,7 +26,7 @@ class Layout:
         self.texts: list[Any] = []
         self.scenes: list[Scene] = []
         self.overrides: defaultdict[str, list[Any]] = defaultdict(list)
-        self._lanes = False
+        self.lanes = False
 
     def plot(self, path: str, name: str) -> None:
         """Add the curves below a path, in one plot."""
@@ -35,19 +34,12 @@ class Layout:
 
         self.plots.append(rrb.TimeSeriesView(origin=path, name=name))
 
-    def plot_tabs(self, plots: Mapping[str, str]) -> None:
-        """Add plots by their paths, one behind the other."""
+    def plot_first(self, name: str, plots: Mapping[str, str]) -> None:
+        """Add plots by their paths, one behind the other, before those that are there."""
         import rerun.blueprint as rrb
 
-        self.plots.append(rrb.Tabs(*(rrb.TimeSeriesView(origin=path, name=name) for path, name in plots.items())))
-
-    def lanes(self) -> None:
-        """Add the lanes of states, once."""
-        import rerun.blueprint as rrb
-
-        if not self._lanes:
-            self.plots.append(rrb.StateTimelineView(origin=LANES, name="States"))
-        self._lanes = True
+        views = [rrb.TimeSeriesView(origin=path, name=title) for path, title in plots.items()]
+        self.plots.insert(0, rrb.Tabs(*views, name=name))
 
     def hide(self, path: str) -> None:
         """Leave a path to be shown by a click on its eye in the list of what the view of the world holds."""

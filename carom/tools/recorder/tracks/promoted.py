@@ -26,6 +26,7 @@ ROOT = "promoted"
 LABELS = "world/labels"
 LABEL_RADIUS = -2.0  # negative: points of the screen
 LABEL_COLOR = (240, 240, 240)
+AXES = (255, 90, 60), (120, 210, 130), (90, 160, 255)
 SLEEP = {"awake": (120, 210, 130), "asleep": (90, 110, 170)}
 PLOTS = {
     "position": ("position (m)", "xyz"),
@@ -70,10 +71,10 @@ class Promoted(RowTrack):
 
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the plots of each that is there, and the lanes."""
-        for name in world.names_told(world.entities(self._bodies(world))):
+        for name in reversed(world.names_told(world.entities(self._bodies(world)))):
             plots = {f"{own_path(ROOT, name)}/{key}": f"{name}: {title}" for key, (title, _) in PLOTS.items()}
-            layout.plot_tabs(plots)
-            layout.lanes()
+            layout.plot_first(name, plots)
+            layout.lanes = True
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep what there is to tell of each; label one that is new, and clear the label of one that is gone."""
@@ -90,6 +91,9 @@ class Promoted(RowTrack):
                 labels=[names[entity]], show_labels=True, radii=[LABEL_RADIUS], colors=[LABEL_COLOR]
             )
             stream.row(own_path(LABELS, names[entity]), stamp, label)
+            for curve, color in zip("xyz", AXES, strict=True):
+                style = rerun.SeriesLines(colors=[color])
+                stream.static(f"{own_path(ROOT, names[entity])}/position/{curve}", style)
         for entity in self._there.keys() - names.keys():
             stream.row(own_path(LABELS, self._there[entity]), stamp, rerun.Clear(recursive=False))
         self._there = names

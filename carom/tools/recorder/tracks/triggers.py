@@ -36,8 +36,7 @@ class Triggers(RowTrack):
 
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the lanes where there are sensors."""
-        if len(_sensors(world)):
-            layout.lanes()
+        layout.lanes |= len(_sensors(world)) > 0
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep who is inside of whom."""
