@@ -127,6 +127,7 @@ def test_a_promoted_body_is_told_of_in_full(tmp_path: Path) -> None:
             assert row[name] == pytest.approx(had[name], rel=1e-12, abs=1e-12)
         for name in ("normal", "friction"):
             assert [row[f"{name}.{axis}"] for axis in "xyz"] == pytest.approx(had[name], rel=1e-9, abs=1e-9)
+        assert [row[f"joint.{axis}"] for axis in "xyz"] == [0.0, 0.0, 0.0]
         assert [row[f"applied.{axis}"] for axis in "xyz"] == pytest.approx([0.0, -2.0 * 9.81, 0.0], abs=0.02)
     assert max(row["normal.y"] for row in table) > 20.0 and min(row["friction.x"] for row in table) < -1.0
 

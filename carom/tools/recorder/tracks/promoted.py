@@ -10,7 +10,7 @@ import numpy as np
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Column, Floats, Integers
 from carom.systems.energy import centers_of_mass, dynamic_rows, kinetic_energies
-from carom.systems.free_body import FRICTION, NORMAL, loads
+from carom.systems.free_body import FRICTION, JOINT, NORMAL, loads
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Block, Columns
@@ -32,14 +32,14 @@ PLOTS = {
     "position": ("position (m)", "xyz"),
     "speed": ("speed (m/s)", ("speed",)),
     "energy": ("energy (J)", ("kinetic", "potential")),
-    "force": ("forces (N)", ("applied", "normal", "friction")),
+    "force": ("forces (N)", ("applied", "normal", "friction", "joint")),
 }
 
 
 class Promoted(RowTrack):
     """Chosen bodies that obey forces: where they are, how fast, their energy and what acts on them.
 
-    Potential energy is that in gravity; forces from outside and of laws are summed, contacts' are means of the step.
+    Potential energy is that in gravity; forces from outside and of laws are summed, those of contacts and joints are means of the step.
     """
 
     key: ClassVar[str] = "promoted"
@@ -51,9 +51,10 @@ class Promoted(RowTrack):
         "speed": number("m/s", "of its centre of mass"),
         "kinetic": number("J", "energy of motion and rotation"),
         "potential": number("J", "energy in gravity"),
-        "applied": number("N", "sum of all forces but those of contacts, world frame", 3),
+        "applied": number("N", "sum of all forces but those of contacts and joints, world frame", 3),
         "normal": number("N", "sum of normal forces of contacts, world frame", 3),
         "friction": number("N", "sum of friction of contacts, world frame", 3),
+        "joint": number("N", "sum of forces of joints, world frame", 3),
     }
 
     def __init__(self, patterns: Sequence[str] = ()) -> None:
@@ -110,8 +111,8 @@ class Promoted(RowTrack):
         weighing = body.mass[rows] * body.gravity_scale[rows]
         found = loads(simulation)
         names = np.array(found.name, np.str_)
-        touches = np.isin(names, (NORMAL, FRICTION))
-        forces = {"applied": ~touches, "normal": names == NORMAL, "friction": names == FRICTION}
+        forces = {"normal": names == NORMAL, "friction": names == FRICTION, "joint": names == JOINT}
+        forces["applied"] = ~np.logical_or.reduce(list(forces.values()))
         return {
             "entity": world.entities(rows),
             "position": world[Transform].position[rows],
