@@ -39,7 +39,8 @@ PLOTS = {
 class Promoted(RowTrack):
     """Chosen bodies that obey forces: where they are, how fast, their energy and what acts on them.
 
-    Potential energy is that in gravity; forces from outside and of laws are summed, those of contacts and joints are means of the step.
+    Potential energy is that in gravity. Forces from outside and of laws are summed; those of contacts and joints are
+    means of the step.
     """
 
     key: ClassVar[str] = "promoted"
