@@ -373,3 +373,13 @@ CAST_BACK = 1e-5
 # m. A cast that begins nearer than this to a convex collider is told by their gap and normal alone. Smaller: cores
 # are so near that their distance has no direction.
 CAST_BEGUN = 1e-6
+
+# Steps of inverse kinematics. From the solution of the frame before, a few are usual; what is out of reach takes most.
+REACH_ROUNDS = 200
+
+# Damping of these steps, as part of the trace of J J^T: at first, at least, and that at which no step helps any more.
+# Larger: slower at first. A smaller least lets steps next to singular poses grow so long that they are tried in vain.
+REACH_DAMPING, REACH_LEAST_DAMPING, REACH_MOST_DAMPING = 1e-3, 1e-10, 1e9
+
+# m and rad. Inverse kinematics ends this near to its target.
+REACH_CLOSE = 1e-7

@@ -112,20 +112,20 @@ def test_relations_have_rows_of_their_own() -> None:
     """A relation grows by its own count and takes no rows of the entity space."""
     world = World()
 
-    class Spring(Relation):
-        """Springs."""
+    class Rod(Relation):
+        """Rods."""
 
         a = column(unit="1", doc="first end", holds="entities")
-        length = column(unit="m", doc="rest length")
+        length = column(unit="m", doc="length")
 
-    Record.registry.pop("spring")
+    Record.registry.pop("rod")
     world.spawn(Transform())
     with world.faces(None):
-        world.resize(Spring, 100)
-        world[Spring].length[:100] = np.arange(100.0)
-        world.resize(Spring, 1000)
-        assert world[Spring].length[:100].tolist() == list(range(100))
-    assert world.count(Spring) == 1000
+        world.resize(Rod, 100)
+        world[Rod].length[:100] = np.arange(100.0)
+        world.resize(Rod, 1000)
+        assert world[Rod].length[:100].tolist() == list(range(100))
+    assert world.count(Rod) == 1000
     assert len(world.row_numbers()) == 1
-    assert Spring.columns["a"].dtype == np.int64
-    assert Spring.columns["a"].default == -1
+    assert Rod.columns["a"].dtype == np.int64
+    assert Rod.columns["a"].default == -1

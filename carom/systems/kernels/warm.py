@@ -119,8 +119,10 @@ def compile_frame() -> None:
 
 
 def compile_rest() -> None:
-    """Let a ball fall asleep and wake, and another, which is not balanced, fly at one that stands."""
+    """Let a ball fall asleep and wake, and another, which is not balanced, fly at one that stands; reach out."""
+    from carom.ecs.components.joint import FREE, LOCKED, Joint
     from carom.systems.kernels.observing import compile_observing
+    from carom.systems.kinematics import Kinematics
     from carom.systems.simulation import Simulation
     from carom.systems.why_awake import why_awake
 
@@ -139,6 +141,10 @@ def compile_rest() -> None:
     simulation.wake(sleeper)
     simulation.step()
     why_awake(simulation, sleeper)
+    simulation.world.spawn(Joint(b=int(sleeper), mode=(LOCKED, LOCKED, LOCKED, FREE, FREE, FREE)))
+    arm = Kinematics(simulation)
+    arm.jacobian(sleeper)
+    arm.reach(sleeper, (0.0, 0.0, 0.0))
 
 
 #: Each takes about half of the time and has a process of its own.
