@@ -12,14 +12,31 @@ from carom.ecs.component import Resource
 from carom.systems.kernels.accounting import ARC
 
 ROUNDING = 1e-12  # of the greatest entry
+KINDS = ("contacts", "friction", "impacts")  # entries that pairs of colliders share
+NOBODY: Integers = np.zeros(0, np.int64)
 
 
 class Dissipation(NamedTuple):
-    """Work (n,) in J that contacts and impacts of colliders a and b (n,), handles, did to bodies; below 0: lost."""
+    """Work (n,) in J of colliders a and b (n,), handles, on their bodies, below 0 where it was lost.
+
+    It is that along the normals of resting contacts, that of their friction, and that of impacts with theirs.
+    """
 
     a: Integers
     b: Integers
-    work: Floats
+    contacts: Floats
+    friction: Floats
+    impacts: Floats
+
+    @classmethod
+    def of(cls, a: Integers = NOBODY, b: Integers = NOBODY, **work: Floats) -> Dissipation:
+        """Return copies of these pairs with what is known of their work; the rest is 0."""
+        return cls(+a, +b, *(+work[kind] if kind in work else np.zeros(len(a)) for kind in KINDS))
+
+    @property
+    def work(self) -> Floats:
+        """All of it (n,), J."""
+        return self.contacts + self.friction + self.impacts
 
 
 class Ledger(Resource):
@@ -28,9 +45,9 @@ class Ledger(Resource):
     Forces, by name, are booked by what they did along the way that bodies took, with what they hold as potential: so
     gravity books nothing. Beside them:
 
-    - ``contacts`` and ``friction``: impulses of resting contacts along normals and across, and what they bend arcs by;
+    - ``contacts`` and ``friction``: impulses of resting contacts along normals and across;
     - ``impacts``: those of impacts, friction included;
-    - ``integration``: what forces did to velocities less what they did along the way;
+    - ``integration``: what forces did to velocities less what they did along the way, contacts that bend arcs too;
     - ``turning``: what free turning gained, and ``locks``: velocities along locked axes that were set from outside;
     - ``sleep``: motion of bodies that fell asleep;
     - ``edits``: what was changed between two steps; systems of others that are no forces are booked under their names.
@@ -50,12 +67,10 @@ class Ledger(Resource):
     @property
     def dissipation(self) -> Dissipation:
         """What each pair of colliders did in the last step."""
-        nobody = Dissipation(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0))
-        a, b, work = (np.concatenate(column) for column in zip(nobody, *self.parts, strict=True))
+        a, b, *work = (np.concatenate(column) for column in zip(Dissipation.of(), *self.parts, strict=True))
         pairs, place = np.unique(np.stack([a, b], axis=1), axis=0, return_inverse=True)
-        summed = np.zeros(len(pairs))
-        np.add.at(summed, place.ravel(), work)
-        return Dissipation(pairs[:, 0], pairs[:, 1], summed)
+        summed = [np.asarray(np.bincount(place.ravel(), one, len(pairs)), np.float64) for one in work]
+        return Dissipation(pairs[:, 0], pairs[:, 1], *summed)
 
     def text(self) -> str:
         """Return what was booked since the ledger was opened, the greatest first, as a table; rounding is left out."""

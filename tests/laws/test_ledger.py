@@ -12,7 +12,7 @@ from carom.ecs import Motion, World, state_hash, system
 from carom.ecs.spatial import quaternion
 from carom.systems.bookkeeping import STAGES, Bookkeeping
 from carom.systems.energy import total_energy
-from carom.systems.ledger import Ledger
+from carom.systems.ledger import KINDS, Ledger
 from carom.systems.simulation import Simulation
 from carom.worlds import load_world
 from carom.worlds.library import names
@@ -80,9 +80,11 @@ def test_friction_takes_its_force_times_the_way() -> None:
     assert ledger.since["friction"] == pytest.approx(0.5 * 3.0 * speed**2 - began, abs=1e-4)
     way += 0.5 * (2.0 - speed) * simulation.settings.dt / 4  # the way is that of the velocity after each substep
     assert ledger.since["friction"] == pytest.approx(-0.5 * 3.0 * 9.81 * way, rel=1e-4)
-    a, b, work = ledger.dissipation
-    assert {*a.tolist(), *b.tolist()} == {floor, cube}
-    assert work.sum() == pytest.approx(ledger.entries["friction"] + ledger.entries["contacts"], rel=1e-9)
+    by_pairs = ledger.dissipation
+    assert {*by_pairs.a.tolist(), *by_pairs.b.tolist()} == {floor, cube}
+    assert by_pairs.friction.sum() == pytest.approx(ledger.entries["friction"], rel=1e-9)
+    assert by_pairs.contacts.sum() == pytest.approx(ledger.entries["contacts"], rel=1e-9)
+    assert by_pairs.work.sum() == pytest.approx(ledger.entries["friction"] + ledger.entries["contacts"], rel=1e-9)
 
 
 def test_a_belt_gives_what_its_friction_does() -> None:
@@ -168,6 +170,9 @@ def test_all_at_once_is_booked(integrator: str) -> None:
         simulation.step()
         rounding = 1e-13 * (before + sum(map(abs, ledger.entries.values())) + 1.0)
         assert sum(ledger.entries.values()) == pytest.approx(ledger.change, abs=rounding), frame
+        for kind in KINDS:
+            by_pairs = getattr(ledger.dissipation, kind).sum()
+            assert by_pairs == pytest.approx(ledger.entries[kind], rel=1e-9, abs=rounding), (frame, kind)
     kinds = {name for name, energy in ledger.since.items() if abs(energy) > 1e-6}
     expected = {"contacts", "friction", "impacts", "integration", "damping", "linear_drag", "quadratic_drag", "edits"}
     assert expected | {"external", "mutual_gravitation"} <= kinds

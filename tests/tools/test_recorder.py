@@ -231,6 +231,24 @@ def test_plots_hold_energy_overlap_and_counts(tmp_path: Path) -> None:
     assert recording.plot("plots/overlap/deepest_mm").keys() == set(recording.frames)
 
 
+def test_who_dissipates_is_recorded(tmp_path: Path) -> None:
+    """Of every step, by pair; all rows together are what the ledger holds."""
+    simulation = Simulation(dt=1 / 240)
+    rough = {"friction": 0.4, "restitution": 0.3}
+    simulation.add(name="floor", collider={"plane": {}}, material=rough)
+    for k in range(3):
+        place, motion = {"position": (0.5 * k, 0.3 + 0.1 * k, 0.0)}, {"linear": (1.0 - k, 0.0, 0.0)}
+        box = {"box": {"size": (0.3, 0.3, 0.3)}}
+        simulation.add(name=f"box {k}", collider=box, body={}, material=rough, transform=place, motion=motion)
+    ledger = simulation.keep_ledger()
+    record(simulation, tmp_path / "a.rrd", 120)
+    table = Recording(tmp_path / "a.rrd").table("dissipation").pandas()
+    assert {"floor", "box 0", "box 1", "box 2"} <= {*table["a.name"], *table["b.name"]}
+    for kind in ("contacts", "friction", "impacts"):
+        assert abs(ledger.since[kind]) > 1e-3
+        assert table[kind].sum() == pytest.approx(ledger.since[kind], rel=1e-9)
+
+
 def test_a_ledger_that_is_kept_is_recorded(tmp_path: Path) -> None:
     """Each entry is a curve of what was given until then; without a ledger there is none."""
     for name, kept in (("kept", True), ("none", False)):

@@ -1,0 +1,126 @@
+"""Work: what turns, drags and contacts do to the bodies that move in a substep, each from its own impulse.
+
+An impulse J changes kinetic energy by J.(v + v')/2, and what acts together shares the mean of the velocities before and
+after; so each is exact by itself. Torques go by angular momentum likewise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from carom.ecs import Motion, RigidBody, Transform, World
+from carom.ecs.column import Floats
+from carom.ecs.components.flight import Flight
+from carom.ecs.relations.contact import Contact
+from carom.systems.energy import dynamic_rows
+from carom.systems.kernels.accounting import find_work
+from carom.systems.kernels.lanes import WIDTH, aligned
+from carom.systems.kernels.packing import pack_velocities
+from carom.systems.kernels.turning import find_angular_momentum, find_turning
+from carom.systems.ledger import Dissipation
+from carom.systems.resting import Resting
+
+
+class Velocities(NamedTuple):
+    """Velocities and angular velocities (n, 3) of the dynamic bodies."""
+
+    linear: Floats
+    angular: Floats
+
+    def mean(self, other: Velocities) -> Velocities:
+        """Return the mean with others."""
+        return Velocities(0.5 * (self.linear + other.linear), 0.5 * (self.angular + other.angular))
+
+
+class Pull(NamedTuple):
+    """What one system adds to the forces on the dynamic bodies, columns as those of `Force`."""
+
+    name: str
+    force: Floats
+    torque: Floats
+    drag: Floats
+    drag_flow: Floats
+    angular_drag: Floats
+
+
+class Moving:
+    """The dynamic bodies of a substep, n of them: ``rows``, ``mass`` in kg, and ``turn``, how all rows are turned.
+
+    It is made at the middle of the substep and begins with the rotations at its start.
+    """
+
+    def __init__(self, world: World) -> None:
+        self._world = world
+        self.rows = dynamic_rows(world)
+        self.mass = world[RigidBody].mass[self.rows]
+        self.turn, self._middle = world[Flight].start_rotation, +world[Transform].rotation
+
+    def now(self) -> Velocities:
+        """Return the velocities as they are."""
+        motion = self._world[Motion]
+        return Velocities(motion.linear[self.rows], motion.angular[self.rows])
+
+    def kinetic(self, moving: Velocities) -> float:
+        """Return the kinetic energy (J) of all at these velocities."""
+        turning = (moving.angular * self.angular_momentum(moving.angular)).sum()
+        return 0.5 * float((self.mass[:, None] * moving.linear * moving.linear).sum() + turning)
+
+    def angular_momentum(self, angular: Floats) -> Floats:
+        """Return the angular momentum (n, 3) in kg m2/s at angular velocities (n, 3)."""
+        body, momentum = self._world[RigidBody], np.empty_like(angular)
+        find_angular_momentum(self.rows, angular, body.inertia, body.principal_axes, self.turn, momentum)
+        return momentum
+
+    def turning(self, torque: Floats) -> Floats:
+        """Return the angular acceleration (n, 3) by torques (n, 3), as at the middle of the substep."""
+        body, turning = self._world[RigidBody], np.zeros_like(torque)
+        if torque.any():
+            find_turning(
+                self.rows, torque, body.inverse_inertia, body.principal_axes, body.freedom, self._middle, turning
+            )
+        return turning
+
+    def by_drag(
+        self, pulls: Sequence[Pull], summed: Sequence[Floats], before: Velocities, after: Velocities, time: Floats
+    ) -> Iterator[tuple[str, float]]:
+        """Return the work (J) of drags that took ``time`` (n, 1), by name; of several each has its share of the whole.
+
+        ``summed`` are the columns of `Force` that all of them make together.
+        """
+        mean = before.mean(after)
+        drag = summed[2][:, None]
+        if drag.any():
+            rate = drag / self.mass[:, None]
+            acting = np.where(drag > 0.0, drag, 1.0)
+            flow = summed[3] / acting
+            gone = np.where(drag > 0.0, -np.expm1(-rate * time) / np.where(drag > 0.0, rate, 1.0), 0.0)
+            way = flow * time + (before.linear - flow) * gone  # along which it was dragged
+            for pull in pulls:
+                yield pull.name, float(((pull.drag_flow * time - pull.drag[:, None] * way) * mean.linear).sum())
+        spin_drag = summed[4]
+        if spin_drag.any():
+            lost = ((after.angular - before.angular) * self.angular_momentum(mean.angular)).sum(axis=1)
+            for pull in pulls:
+                yield pull.name, float((lost * pull.angular_drag / np.where(spin_drag > 0.0, spin_drag, 1.0)).sum())
+
+    def by_contacts(self, earlier: Floats, mean: Velocities) -> Dissipation:
+        """Return what resting contacts did since their impulses were ``earlier``, while bodies went at ``mean``."""
+        resting, contact, motion = self._world[Resting], self._world[Contact], self._world[Motion]
+        if not resting.groups:
+            return Dissipation.of()
+        momentum, spin = np.zeros_like(motion.linear), np.zeros_like(motion.angular)
+        momentum[self.rows] = self.mass[:, None] * mean.linear
+        spin[self.rows] = self.angular_momentum(mean.angular)
+        momenta, work = aligned(*resting.bodies.shape), aligned(2 * resting.groups, WIDTH)
+        pack_velocities(self.rows, momentum, spin, momenta)
+        find_work(
+            0, resting.groups, resting.index_a, resting.index_b, resting.points, resting.row, resting.asks,
+            resting.lanes, resting.bodies, earlier, momenta, work,
+        )  # fmt: skip
+        first, along, across = resting.first[: resting.groups], work[::2], work[1::2]
+        there = first >= 0
+        rows = first[there]
+        return Dissipation.of(contact.a[rows], contact.b[rows], contacts=along[there], friction=across[there])
