@@ -18,6 +18,7 @@ class PairWork(RowTrack):
 
     key: ClassVar[str] = "dissipation"
     every_step: ClassVar[bool] = True
+    sparse: ClassVar[bool] = True
     path: ClassVar[str] = "dissipation"
     columns: ClassVar[Mapping[str, Column]] = {
         "a": Contact.columns["a"],
