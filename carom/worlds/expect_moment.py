@@ -8,52 +8,66 @@ from typing import Any
 
 from carom.ecs import Collider, World
 from carom.ecs.component import Relation
+from carom.ecs.components.joint import Joint
 from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
+from carom.ecs.relations.joint_break import JointBreak
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import WordError
 from carom.worlds.expectation import Expectation
 from carom.worlds.names import matching
 
-PARTIES: dict[type[Relation], tuple[str, str]] = {
+PARTIES: dict[type[Relation], tuple[str, ...]] = {
     Impact: ("a", "b"),
     Enter: ("sensor", "entity"),
     Exit: ("sensor", "entity"),
+    JointBreak: ("joint",),
 }
 
 
 @dataclass(frozen=True)
 class Event:
-    """A row of an event table: which one of those between two groups of entities."""
+    """A row of an event table: which one of those whose parties are of these groups of entities."""
 
     kind: type[Relation]
-    first: frozenset[int]
-    second: frozenset[int]
+    groups: tuple[frozenset[int], ...]
     nth: int
     text: str
 
     def matching_rows(self, world: World) -> list[int]:
         """Return the rows of the last step that are such events; impacts count whichever of the two is named first."""
         table = world[self.kind]
-        one, other = (getattr(table, name) for name in PARTIES[self.kind])
-        pairs = [(int(one[row]), int(other[row])) for row in range(table.count)]
+        columns = [getattr(table, name) for name in PARTIES[self.kind]]
+        parties = [tuple(int(column[row]) for column in columns) for row in range(table.count)]
         swap = self.kind is Impact
-        return [row for row, pair in enumerate(pairs) if self._fits(*pair) or (swap and self._fits(*pair[::-1]))]
+        return [row for row, some in enumerate(parties) if self._fits(some) or (swap and self._fits(some[::-1]))]
 
-    def _fits(self, one: int, other: int) -> bool:
-        return one in self.first and other in self.second
+    def _fits(self, parties: tuple[int, ...]) -> bool:
+        return all(party in group for party, group in zip(parties, self.groups, strict=True))
 
 
 def read_event(words: Any, world: World) -> Event:
-    """Return the event of ``{impact: [a, b], nth}``, or of ``enter`` or ``exit: [sensor, entity]``; raise WordError."""
-    ((kind, pair),) = ((kind, pair) for kind in PARTIES if (pair := getattr(words, kind.key)) is not None)
-    groups = [frozenset(int(world.find(name)) for name in matching(pattern, world.names())) for pattern in pair]
-    if kind is not Impact:
-        plain = [world.name(entity) for entity in groups[0] if not world[Collider].sensor[world.row(entity)]]
-        if plain:
-            raise WordError("is no sensor", received=repr(plain[0]), accepted="a collider with sensor: true")
-    text = f"{kind.key} {words.nth} of {pair[0]} and {pair[1]}"
-    return Event(kind, groups[0], groups[1], words.nth, text)
+    """Return the event of ``{impact: [a, b], nth}``, ``enter`` or ``exit: [sensor, entity]``, ``break: joint``.
+
+    Raises WordError for names that the world does not have, and for who is no sensor or joint.
+    """
+    ((kind, stated),) = ((kind, said) for kind in PARTIES if (said := getattr(words, kind.key)) is not None)
+    patterns = (stated,) if isinstance(stated, str) else stated
+    groups = [frozenset(int(world.find(name)) for name in matching(pattern, world.names())) for pattern in patterns]
+    of = sorted(groups[0])
+    if kind in (Enter, Exit):
+        sensors = world[Collider].sensor
+        _refuse(world, "sensor", "a collider with sensor: true", [one for one in of if not sensors[world.row(one)]])
+    if kind is JointBreak:
+        joints = world.table(Joint).present
+        _refuse(world, "joint", "an entity with joint", [one for one in of if not joints[world.row(one)]])
+    name = "break" if kind is JointBreak else kind.key
+    return Event(kind, tuple(groups), words.nth, f"{name} {words.nth} of {' and '.join(patterns)}")
+
+
+def _refuse(world: World, what: str, accepted: str, others: list[int]) -> None:
+    if others:
+        raise WordError(f"is no {what}", received=repr(world.name(others[0])), accepted=accepted)
 
 
 class AtMoment(Expectation, ABC):

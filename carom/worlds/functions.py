@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.ecs import Motion, Transform, World
 from carom.ecs.column import Floats
+from carom.ecs.components.joint import Joint
 from carom.systems.energy import kinetic_energies
 from carom.systems.queries.space import Space
 
@@ -24,6 +25,10 @@ def _energy(world: World, rows: list[int]) -> Floats:
     return kinetic_energies(world, np.array(rows, np.int64))
 
 
+def _load(world: World, rows: list[int]) -> Floats:
+    return np.asarray(np.linalg.norm(world[Joint].force[rows], axis=1))
+
+
 def _distance(world: World, rows: list[int]) -> float:
     first, second = world[Transform].position[rows]
     return float(np.linalg.norm(second - first))
@@ -37,5 +42,10 @@ def _sees(world: World, rows: list[int]) -> float:
     return float(not reach or not Space(world).cast_rays_any(first, second - first, reach, without=pair)[0])
 
 
-CALLS = {"speed": ("m/s", _speed), "spin": ("rad/s", _spin), "kinetic_energy": ("J", _energy)}
+CALLS: dict[str, tuple[str, str, Callable[[World, list[int]], Floats]]] = {  # unit, a column who is asked must have
+    "speed": ("m/s", "linear", _speed),
+    "spin": ("rad/s", "linear", _spin),
+    "kinetic_energy": ("J", "linear", _energy),
+    "load": ("N", "break_force", _load),
+}
 PAIRS: dict[str, tuple[str, Callable[[World, list[int]], float]]] = {"distance": ("m", _distance), "sees": ("1", _sees)}

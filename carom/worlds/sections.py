@@ -108,15 +108,17 @@ class When(Words):
     impact: tuple[str, str] | None = Field(None, description="two colliders that strike each other")
     enter: tuple[str, str] | None = Field(None, description="a sensor and who enters it")
     exit: tuple[str, str] | None = Field(None, description="a sensor and who leaves it")
+    joint_break: str | None = Field(None, alias="break", description="a joint that breaks")
     nth: Count = Field(1, description="which of these events, from 1")
 
     @model_validator(mode="after")
     def check(self) -> When:
         """Refuse several events and none."""
-        events = [key for key in ("impact", "enter", "exit") if getattr(self, key) is not None]
+        named = {"impact": self.impact, "enter": self.enter, "exit": self.exit, "break": self.joint_break}
+        events = [key for key, stated in named.items() if stated is not None]
         if len(events) != 1:
             received = " and ".join(events) or "none"
-            raise WordError("must state one event", received=received, accepted="impact, enter or exit")
+            raise WordError("must state one event", received=received, accepted=", ".join(named))
         return self
 
 

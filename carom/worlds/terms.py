@@ -10,10 +10,12 @@ import numpy as np
 
 from carom.ecs import Component, Entity, Material, Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats
+from carom.ecs.components.joint import Joint
 from carom.ecs.errors import did_you_mean
 from carom.systems.own_components import is_own
 from carom.worlds.errors import WordError
 from carom.worlds.functions import CALLS, PAIRS
+from carom.worlds.joint_terms import TURNS, WAYS, readings, spelled_out
 from carom.worlds.names import matching
 from carom.worlds.pictures import QUESTIONS, Pictures, check_drawn, read_camera
 
@@ -21,8 +23,14 @@ NAME_PATTERN = r"[^\W\d][\w*-]*(?:\[[\d,*]*\])?"
 COLUMN_TERM = re.compile(rf"({NAME_PATTERN})\.([\w.]+)")
 CALL_TERM = re.compile(r"(\w+)\s*\(([^()]*)\)")
 TERM_PATTERN = rf"\w+\s*\([^()]*\)|{NAME_PATTERN}(?:\.[\w.]+)?"
-AXES = "xyzw"
-FIRST_KINDS = (Transform, Motion, RigidBody, Material)  # where two components have a column of one name, these win
+AXES = ("x", "y", "z", "w")
+FIRST_KINDS = (
+    Transform,
+    Motion,
+    RigidBody,
+    Material,
+    Joint,
+)  # where two components have a column of one name, these win
 Read = Callable[[World], Floats]
 
 
@@ -74,10 +82,10 @@ def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
     if function in PAIRS:
         (unit, between), pair = PAIRS[function], [world.find(group[0]) for group in groups]
         return Term(text, unit, 1, (text,), lambda world: np.array([[between(world, _rows(world, pair))]]))
-    unit, measure = CALLS[function]
+    unit, column, measure = CALLS[function]
     entities = [world.find(name) for name in groups[0]]
     for entity in entities:
-        _kinds(world, entity, "linear")
+        _kinds(world, entity, column)
     names = tuple(f"{function}({name})" for name in groups[0])
     return Term(text, unit, 1, names, lambda world: measure(world, _rows(world, entities))[:, None])
 
@@ -102,17 +110,23 @@ def _question(text: str, function: str, patterns: list[str], world: World) -> Te
 
 
 def _column(text: str, names: list[str], steps: list[str], world: World) -> Term:
-    axis = AXES.index(steps.pop()) if len(steps) > 1 and steps[-1] in AXES and len(steps[-1]) == 1 else None
     entities = [world.find(name) for name in names]
+    steps = spelled_out(world, entities[0], steps)
+    part = steps.pop() if len(steps) > 1 and steps[-1] in (*AXES, *WAYS) else None
     kind = _kinds(world, entities[0], *steps)
     for entity in entities[1:]:
         _kinds(world, entity, *steps)
     column = kind.columns[steps[-1]]
     if column.dtype.kind not in "fiub":
         raise WordError("is no number", received=repr(text), accepted="columns of numbers")
-    size = int(np.prod(column.shape))
-    if axis is not None and axis >= size:
-        raise WordError(f"{steps[-1]} has no {AXES[axis]}", received=repr(text), accepted=", ".join(AXES[:size]))
+    size, units = int(np.prod(column.shape)), column.unit.split(", ")
+    parts = WAYS if column.shape == (len(WAYS),) else AXES[:size]
+    if part is not None and part not in parts:
+        raise WordError(f"{steps[-1]} has no {part}", received=repr(text), accepted=", ".join(parts))
+    if part is None and len(units) > 1:
+        raise WordError(f"{steps[-1]} has a value for each way", received=repr(text), accepted=", ".join(parts))
+    axis = None if part is None else parts.index(part)
+    unit = units[-1] if axis is not None and axis >= TURNS else units[0]
 
     def read(world: World) -> Floats:
         rows = _rows(world, entities)
@@ -120,7 +134,7 @@ def _column(text: str, names: list[str], steps: list[str], world: World) -> Term
         return values if axis is None else values[:, axis : axis + 1]
 
     end = text[text.index(".", text.find("]") + 1) :]
-    return Term(text, column.unit, 1 if axis is not None else size, tuple(name + end for name in names), read)
+    return Term(text, unit, 1 if axis is not None else size, tuple(name + end for name in names), read)
 
 
 def _kinds(world: World, entity: Entity, *steps: str) -> type[Component]:
@@ -132,6 +146,7 @@ def _kinds(world: World, entity: Entity, *steps: str) -> type[Component]:
         if steps[-1] in kind.columns and steps[:-1] in ((), (kind.key,)):
             return kind
     columns = [name for kind in held for name in kind.columns if kind in FIRST_KINDS or is_own(kind)]
+    columns = [*readings(world, entity), *columns]
     wanted, hint = ".".join(steps), did_you_mean(steps[-1], columns)
     accepted = ", ".join(columns)
     raise WordError(f"{world.name(entity)} has no such column", received=repr(wanted), accepted=accepted, hint=hint)

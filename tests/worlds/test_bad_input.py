@@ -221,7 +221,7 @@ expect:
         ),
         (
             "{when: {impact: [ball, floor], exit: [floor, ball]}, time: {is: 1, within: 1}}",
-            "when: must state one event; received impact and exit; accepted: impact, enter or exit",
+            "when: must state one event; received impact and exit; accepted: impact, enter, exit, break",
         ),
         (
             "{when: {enter: [floor, ball]}, time: {is: 1, within: 1}}",
@@ -245,7 +245,7 @@ expect:
         (
             "{always: __import__('os')}",
             ("always: unknown function; received \"__import__('os')\"; accepted: speed(entity), spin(entity), "
-            "kinetic_energy(entity), distance(entity, entity), sees(entity, entity), visible(entity, camera), "
+            "kinetic_energy(entity), load(entity), distance(entity, entity), sees(entity, entity), visible(entity, camera), "
             "visible_share(entity, camera), overlap(entity, entity, camera), left_of(entity, entity, camera), "
             "above(entity, entity, camera)"),
         ),
