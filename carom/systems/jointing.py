@@ -22,13 +22,13 @@ from carom.systems.ties import Ties
 def join_bodies(world: World, dt: float) -> None:
     """Find the joints of bodies that are awake; who is held is stepped semi-implicitly, as in contact."""
     linkage, begins = world[Linkage], world[Progress].substep == 1
-    if begins and (rows := world.row_numbers(Joint)).size:
-        joint = world[Joint]
-        joint.effort[rows], joint.force[rows], joint.torque[rows], joint.limit[rows] = 0.0, 0.0, 0.0, 0
     if not linkage.is_of(world) or (begins and world[Awake].edited & {Joint, RigidBody, Transform}):
         linkage.hand_over(world)
         linkage.find(world)
     if linkage.groups:
+        if begins:  # those that sleep go on bearing what they bore
+            joint, rows = world[Joint], linkage.rows
+            joint.effort[rows], joint.force[rows], joint.torque[rows], joint.limit[rows] = 0.0, 0.0, 0.0, 0
         linkage.mark(world, dt)
 
 

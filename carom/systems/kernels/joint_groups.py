@@ -164,8 +164,9 @@ def fill_joints(
             )  # fmt: skip
             for s in range(slots):
                 q = slot(r, s)
-                lanes[q + PLACE, lane], lanes[q + AT, lane] = position[i, s], lower[i, s]
-                lanes[q + HELD, lane] = 1.0 if mode[i, s] == LOCKED else 0.0
+                lanes[q + PLACE, lane] = position[i, s]
+                if mode[i, s] == LOCKED:
+                    lanes[q + HELD, lane], lanes[q + AT, lane] = 1.0, lower[i, s]
                 lanes[q + HOLD, lane] = impulse[i, s]
                 if bounded:
                     asks[g] |= write_bounds(
