@@ -26,6 +26,12 @@ class Rig:
     words: Words
     up: Vector = (0.0, 1.0, 0.0)
 
+    @property
+    def moves(self) -> bool:
+        """Whether it may be elsewhere, or look elsewhere, at another time."""
+        words = self.words
+        return words.follow is not None or words.orbit is not None or isinstance(words.target, str)
+
     def camera(self, world: World, time: float | None = None, poses: Transform | None = None) -> Camera:
         """Return the camera as the world is now; at another time (s), with the poses of all rows then, where stated.
 

@@ -149,6 +149,16 @@ def test_a_promoted_body_has_a_path_a_label_curves_and_a_lane(tmp_path: Path) ->
     assert list(zip(lane.frames, [value[0] for value in lane.values], strict=True)) == [(0, "awake"), (fell, "asleep")]
 
 
+def test_a_recording_of_nobody_visible_is_a_table_without_rows(world: Path, tmp_path: Path) -> None:
+    """With its columns; and whom it is of is told by name."""
+    path = tmp_path / "a.rrd"
+    assert main(["run", str(world), "--record", str(path), "--only", "gate"]) == 0
+    recording = Recording(path)
+    assert recording.table("bodies").arrow().num_rows == 0
+    assert "position.x" in recording.table("bodies").arrow().column_names
+    assert {row["sensor.name"] for row in rows(recording, "triggers")} == {"gate"}
+
+
 def test_one_promoted_of_many_alike_is_drawn_alone(world: Path, tmp_path: Path) -> None:
     """At a path called by its full name."""
     path = tmp_path / "a.rrd"

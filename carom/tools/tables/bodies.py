@@ -18,9 +18,7 @@ from carom.tools.tables.source import Source, flats
 def bodies(source: Source) -> list[Flat]:
     """Return a row per frame and visible entity, also in frames that did not write its pose since it stayed."""
     groups = [path for path, component in source.series if component == "entity" and path.startswith(f"/{ROOT}/")]
-    parts = [_group(source, path) for path in groups]
-    if not parts:
-        return []
+    parts = [_nobody(), *(_group(source, path) for path in groups)]
     frames, entities, shapes, positions, rotations = (np.concatenate(values) for values in zip(*parts, strict=True))
     order = np.lexsort((entities, frames))
     return [
@@ -36,9 +34,8 @@ def _group(source: Source, path: str) -> tuple[npt.NDArray[Any], ...]:
     """Return frames, handles, shapes and poses of those that look alike."""
     written = [source.series.get((path, f"InstancePoses3D:{name}")) for name in ("translations", "quaternions")]
     members, cleared = source.series[path, "entity"], source.series.get((path, "Clear:is_recursive"))
-    empty = np.zeros(0, np.int64)
     if None in written:
-        return empty, empty, np.zeros(0, "U1"), np.zeros((0, 3), np.float32), np.zeros((0, 4), np.float32)
+        return _nobody()
     positions, rotations = (series for series in written if series)
     frames = np.array(source.frames, np.int64)
     pose, member = _last(positions.frames, frames), _last(members.frames, frames)
@@ -56,6 +53,11 @@ def _group(source: Source, path: str) -> tuple[npt.NDArray[Any], ...]:
         np.concatenate(positions.values)[poses],
         np.concatenate(rotations.values)[poses],
     )
+
+
+def _nobody() -> tuple[npt.NDArray[Any], ...]:
+    empty = np.zeros(0, np.int64)
+    return empty, empty, np.zeros(0, "U1"), np.zeros((0, 3), np.float32), np.zeros((0, 4), np.float32)
 
 
 def _last(written: Sequence[int], frames: Integers) -> Integers:

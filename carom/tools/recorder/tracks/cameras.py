@@ -22,13 +22,14 @@ from carom.tools.rigs import Rig
 
 ROOT = "world/cameras"
 COLOR = (150, 190, 255)
+STANDS = ("position", "target", "up")
 NEAR = 0.15  # of the distance to the target, at which the picture of a camera is drawn
 
 
 class Cameras(RowTrack):
     """A pinhole for each camera, or for parallel light the box it sees; one whose entity is gone is cleared.
 
-    They are hidden at first, since the view of the world begins at one of them.
+    There are rows of those that moved. They are hidden at first, since the view of the world begins at one of them.
     """
 
     key: ClassVar[str] = "cameras"
@@ -44,6 +45,7 @@ class Cameras(RowTrack):
         super().__init__()
         self._rigs, self._aspect = rigs, aspect
         self._found: dict[str, Camera] = {}
+        self._moved: list[str] = []
 
     def lay_out(self, world: World, layout: Layout) -> None:
         """Hide them."""
@@ -57,21 +59,23 @@ class Cameras(RowTrack):
         before, self._found = self._found, {}
         for rig in self._rigs:
             with suppress(CaromError):  # who it follows is gone
-                self._found[rig.name] = rig.camera(simulation.world)
+                still = None if rig.moves else before.get(rig.name)
+                self._found[rig.name] = still or rig.camera(simulation.world)
         for name in self._found.keys() - before.keys():
             stream.row(place(name), stamp, *self._lens(self._found[name]))
         for name in before.keys() - self._found.keys():
             stream.row(place(name), stamp, rerun.Clear(recursive=False))
+        self._moved = [name for name, camera in self._found.items() if camera != before.get(name)]
         super().sample(simulation, stamp, stream)
 
     def rows(self, simulation: Simulation) -> Columns | None:
-        """Return where the cameras are."""
-        if not self._found:
+        """Return where the cameras are that have moved."""
+        if not self._moved:
             return None
-        poses = [camera.pose() for camera in self._found.values()]
-        rotations = np.array([quaternion.from_matrix(pose[:3, :3]) for pose in poses])
-        positions = np.array([pose[:3, 3] for pose in poses])
-        return {"camera": np.array(list(self._found)), "position": positions, "rotation": rotations}
+        moved = [self._found[name] for name in self._moved]
+        position, target, up = (np.array([getattr(camera, key) for camera in moved]) for key in STANDS)
+        rotation = quaternion.look_at(target - position, up)
+        return {"camera": np.array(self._moved), "position": position, "rotation": rotation}
 
     def draw(self, block: Block, stream: Stream) -> None:
         """Write the pose of each at its own path."""

@@ -82,10 +82,10 @@ class Promoted(RowTrack):
         """Keep what there is to tell of each; label one that is new, and clear the label of one that is gone."""
         import rerun
 
+        if not self.choice.patterns:
+            return
         world = simulation.world
         rows = self._bodies(world)
-        if not len(rows) and not self._there:
-            return
         entities = world.entities(rows)
         names = dict(zip(entities.tolist(), world.names_told(entities), strict=True))
         for entity in names.keys() - self._there.keys():

@@ -33,6 +33,7 @@ class Triggers(RowTrack):
     def __init__(self) -> None:
         super().__init__()
         self._lanes = Lanes("triggers", {EMPTY: (90, 90, 90)})
+        self._state: tuple[int, bytes, bytes] | None = None
 
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the lanes where there are sensors."""
@@ -45,7 +46,11 @@ class Triggers(RowTrack):
         if not len(sensors):
             return
         super().sample(simulation, stamp, stream)
-        inside, occupants = world[Inside], defaultdict(list)
+        inside = world[Inside]
+        state = world.structure, inside.sensor[: inside.count].tobytes(), inside.entity[: inside.count].tobytes()
+        if state == self._state:
+            return
+        self._state, occupants = state, defaultdict(list)
         for sensor, entity in zip(inside.sensor[: inside.count], inside.entity[: inside.count], strict=True):
             occupants[world.name(int(sensor))].append(world.name(int(entity)))
         names = [world.name(int(sensor)) for sensor in world.entities(sensors)]
