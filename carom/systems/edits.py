@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
-from carom.ecs.component import Record, Resource
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from carom.ecs.component import Component, Record, Resource
+from carom.ecs.writes import Written
 from carom.systems.awake import Awake
 from carom.systems.simulation import Simulation
 
 LIVES, RESTORED = "who lives", "a snapshot restored"
 
 
+class Done(NamedTuple):
+    """What was done, in words, and what was written, where the world keeps a log of that."""
+
+    words: list[str]
+    written: Mapping[type[Component], Written]
+
+
+NOTHING = Done([], {})
+
+
 class Retelling(Resource):
     """What was done before a frame that is shown again, where it is not done again; None where nothing is."""
 
-    done: list[str] | None = None
+    done: Done | None = None
 
 
 class EditWatch:
@@ -27,7 +41,11 @@ class EditWatch:
         world = simulation.world
         self._own, self._counts = set(world.edited), (world.structure, world.restored)
 
-    def done(self, simulation: Simulation) -> list[str]:
+    def pending(self, simulation: Simulation) -> set[type[Record]]:
+        """Return the components that code outside has written since the last step."""
+        return simulation.world.edited - self._own
+
+    def done(self, simulation: Simulation) -> Done:
         """Return what was done between the step that has just been taken and the one before."""
         awake, retelling = simulation.world[Awake], simulation.world.resources.get(Retelling)
         if isinstance(retelling, Retelling) and retelling.done is not None:
@@ -38,4 +56,4 @@ class EditWatch:
         elif awake.structure != self._counts[0]:
             done.append(LIVES)
         self.begin(simulation)
-        return done
+        return Done(done, awake.written)

@@ -5,9 +5,19 @@ from __future__ import annotations
 import math
 from collections import deque
 
-from carom.ecs import DeclarationError, Schedule, Snapshot, SnapshotError, restore_snapshot, take_snapshot
+from carom.ecs import (
+    DeclarationError,
+    RigidBody,
+    Schedule,
+    Snapshot,
+    SnapshotError,
+    restore_snapshot,
+    take_snapshot,
+)
+from carom.ecs.writes import WriteLog
+from carom.systems.awake import Awake
 from carom.systems.detection.answered import uncounted
-from carom.systems.edits import EditWatch, Retelling
+from carom.systems.edits import NOTHING, Done, EditWatch, Retelling
 from carom.systems.forces.law import Forces
 from carom.systems.observer import Observer, unobserved
 from carom.systems.settings import Settings
@@ -33,7 +43,7 @@ class Ring:
         self._kept: deque[Snapshot] = deque()
         self._spare: list[Snapshot] = []
         self._edits = EditWatch()
-        self._done: dict[int, list[str]] = {}  # from outside, by the frame it led to
+        self._done: dict[int, Done] = {}  # from outside, by the frame it led to
         self._rules: tuple[Settings, int, Schedule] | None = None
         self._seen = -1
         self._showing = False
@@ -57,6 +67,7 @@ class Ring:
 
     def begin(self, simulation: Simulation) -> None:
         """Keep the world before its first step."""
+        simulation.world.writes = simulation.world.writes or WriteLog()
         self._edits.begin(simulation)
         self._rules, self._seen = _rules(simulation), simulation.frame
         self._keep(simulation)
@@ -70,9 +81,9 @@ class Ring:
         if self._rules != _rules(simulation):
             self._forget_from(0)
         self._forget_from(frame)  # somebody restored an earlier state: what was kept of later ones is no past
-        if done or not self._kept or frame % self.every == 0:
+        if done.words or not self._kept or frame % self.every == 0:
             self._keep(simulation)
-        if done:
+        if done.words:
             self._done[frame] = done
         self._rules, self._seen = _rules(simulation), frame
 
@@ -106,9 +117,12 @@ class Ring:
         """Show an observer such as a recorder all frames since the oldest snapshot again, and leave the world as it is.
 
         The last of them is the world of now, or, where a step was not finished, what it was before that step. Others
-        who observe the simulation see nothing of it, and no counts change.
+        who observe the simulation see nothing of it, and no counts change. Where code outside has changed something
+        since the last step, who sleeps is woken.
         """
         world = simulation.world
+        pending, edited = self._edits.pending(simulation), set(world.edited)
+        writes, world.writes = world.writes, None
         now = take_snapshot(world)
         last = now.frame if now.frame == self._seen or not self._kept else self._seen
         known = {snapshot.frame: snapshot for snapshot in self._kept if snapshot.frame <= last}
@@ -123,13 +137,16 @@ class Ring:
                         restore_snapshot(world, known[frame])
                     else:
                         simulation.step()
-                    retelling.done = self._done.get(frame, [])
+                    retelling.done = self._done.get(frame, NOTHING)
                     tell(simulation)
                     tell = observer.observe
             finally:
                 observer.end(simulation)
                 restore_snapshot(world, now)
                 self._edits.begin(simulation)
+                world.edited, world.writes = edited, writes
+                if pending:  # what it was before is no longer known
+                    world[Awake].asked += world.entities(world.row_numbers(RigidBody)).tolist()
                 self._showing, retelling.done = False, None
 
     def _keep(self, simulation: Simulation) -> None:

@@ -140,6 +140,20 @@ def test_a_ring_keeps_what_was_done_by_hand() -> None:
     assert [state_hash(simulation.world), *hashes(simulation, 20)] == past[9:30]
 
 
+def test_showing_forgets_nothing_that_was_done_since_the_last_step() -> None:
+    """Who sleeps and was pushed in between wakes all the same."""
+    simulation = stack_of_boxes()
+    ring = ringed(simulation, Ring(2, 60))
+    simulation.step(400)
+    assert simulation["box3"].motion.asleep
+    simulation["box3"].motion.linear = (0.0, 2.0, 0.0)
+    ring.show(simulation, Seen())
+    simulation.step()
+    assert not simulation["box3"].motion.asleep
+    assert simulation["box3"].motion.linear[1] > 1.5
+    assert ring.frames[-1] == 401
+
+
 def test_what_was_before_other_rules_is_no_past() -> None:
     """A snapshot holds neither forces nor systems, so that what they did cannot be done again."""
     simulation = stack_of_boxes()

@@ -9,7 +9,6 @@ from collections import defaultdict
 
 from carom.ecs.component import Component
 from carom.ecs.writes import WriteLog
-from carom.systems.awake import Awake
 from carom.systems.edits import EditWatch
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Columns, joined
@@ -34,12 +33,12 @@ class Edits:
 
     def sample(self, simulation: Simulation, stamp: Stamp) -> bool:
         """Keep what was done between the step that has just been taken and the one before; tell whether anything."""
-        done = self._watch.done(simulation)
-        if done:
-            self._pending.append((stamp, ", ".join(done)))
-            for kind, (entities, values) in simulation.world[Awake].written.items():
+        words, written = self._watch.done(simulation)
+        if words:
+            self._pending.append((stamp, ", ".join(words)))
+            for kind, (entities, values) in written.items():
                 self._written[kind].append((stamp, {ENTITY: entities, **values}))
-        return bool(done)
+        return bool(words)
 
     def write(self, stream: Stream) -> None:
         """Write the kept rows."""
