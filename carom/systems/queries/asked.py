@@ -9,6 +9,7 @@ import numpy as np
 from carom.ecs import World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
+from carom.systems.queries.filters import Filters
 
 MOST = 10_000  # rows that are kept of a frame; a batch of rays may be any number
 REACH = 100.0  # m, as far as what meets nothing on an endless way is told of
@@ -45,11 +46,19 @@ class Asked(Resource):
 
 
 def note(
-    world: World, query: str, tag: str, origin: Floats, way: Floats, which: Integers, entity: Integers, point: Floats
+    world: World,
+    query: str,
+    filters: Filters,
+    origin: Floats,
+    which: Integers,
+    entity: Integers,
+    point: Floats,
+    direction: Floats | None = None,
+    reach: Floats | None = None,
 ) -> None:
-    """Keep a batch from ``origin`` (n, 3) along ``way`` (n, 3), both m, of which ``which`` (m,) met somebody.
+    """Keep a batch from ``origin`` (n, 3), m, of which ``which`` (m,) met ``entity`` (m,) at ``point`` (m, 3), m.
 
-    ``entity`` (m,) are they, ``point`` (m, 3), m, where.
+    A query that looks along ``direction`` (n, 3), unit, and meets nobody ends at its ``reach`` (n,), m.
     """
     asked = world[Asked]
     if not asked.listeners:
@@ -58,11 +67,12 @@ def note(
     asked.questions = [question for question in asked.questions if question.frame >= frame - 1]
     asked.left_out = {at: count for at, count in asked.left_out.items() if at >= frame - 1}
     room = MOST - sum(len(question.entity) for question in asked.of(frame))
-    rows = np.concatenate([which, missed])
-    ends = np.concatenate([point, (origin + way)[missed]])
-    entities = np.concatenate([entity, np.full(len(missed), NOBODY)])
+    rows, ends = np.concatenate([which, missed]), origin[missed]
+    if direction is not None and reach is not None:
+        ends = ends + np.minimum(reach[missed], REACH)[:, None] * direction[missed]
     if len(rows) > room:
         asked.left_out[frame] = asked.left_out.get(frame, 0) + len(rows) - room
+    found = origin[rows], np.concatenate([point, ends]), np.concatenate([entity, np.full(len(missed), NOBODY)])
     system = "" if world.running is None else world.running.name
-    found = origin[rows[:room]], ends[:room], entities[:room]
-    asked.questions.append(Question(frame, query, system, tag, *found))
+    told = (column[:room] for column in found)
+    asked.questions.append(Question(frame, query, system, filters.get("tag", ""), *told))

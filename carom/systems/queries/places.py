@@ -69,7 +69,7 @@ def find_overlaps(
     takes = seen(world, scene.rows, scene.body, filters)
     found = within(world, scene, Placed(form, position, rotation), np.zeros(len(position)), takes)
     entity, collider = scene.entities(world, found.row)
-    _note("find_overlaps", world, position, found.query, entity, found.middle, filters)
+    note(world, "find_overlaps", filters, position, found.query, entity, found.middle)
     return Overlaps(found.query, entity, collider, -found.gap, found.middle, found.normal)
 
 
@@ -80,7 +80,7 @@ def points_inside(world: World, points: npt.ArrayLike, **filters: Unpack[Filters
     scene = world[Scene].of_now(world)
     point, row = _inside(scene, position, seen(world, scene.rows, scene.body, filters))
     entity, collider = scene.entities(world, row)
-    _note("points_inside", world, position, point, entity, position[point], filters)
+    note(world, "points_inside", filters, position, point, entity, position[point])
     return Insides(point, entity, collider)
 
 
@@ -90,12 +90,6 @@ def movable(query: str, shape: Shape | Mapping[str, Any]) -> Shape:
     if form.static:
         raise QueryError(f"{query}: shape: must be one that a body may have, received a {form.key}")
     return form
-
-
-def _note(
-    query: str, world: World, origin: Floats, which: Integers, entity: Integers, point: Floats, filters: Filters
-) -> None:
-    note(world, query, filters.get("tag", ""), origin, np.zeros_like(origin), which, entity, point)
 
 
 def _level(count: int) -> Floats:
@@ -108,7 +102,7 @@ def _closest(query: str, world: World, placed: Placed, reach: Floats, filters: F
     half = (0.5 * found.gap)[:, None] * found.normal
     entity, collider = scene.entities(world, found.row)
     point, own = found.middle - half, found.middle + half
-    _note(query, world, placed.position, found.query, entity, point, filters)
+    note(world, query, filters, placed.position, found.query, entity, point)
     return Closest(found.query, entity, collider, found.gap, point, own, found.normal)
 
 

@@ -12,7 +12,7 @@ from carom.ecs import Entity, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.kernels.rays import ALL, ANY, FIRST, cast, face_hits
 from carom.systems.queries.arguments import Arguments
-from carom.systems.queries.asked import REACH, note
+from carom.systems.queries.asked import note
 from carom.systems.queries.filters import Filters, seen
 from carom.systems.queries.scene import Scene
 
@@ -135,8 +135,7 @@ def _cast(
     face_hits(origin, direction, ray, row, distance, *scene.colliders, face, normal)
     point = origin[ray] + distance[:, None] * direction[ray]
     entity, collider = scene.entities(world, row)
-    way = np.minimum(limit, REACH)[:, None] * direction
-    note(world, query, filters.get("tag", ""), origin, way, ray, entity, point)
+    note(world, query, filters, origin, ray, entity, point, direction, limit)
     return len(origin), AllHits(ray, entity, collider, point, normal, distance, face)
 
 

@@ -17,7 +17,7 @@ from carom.systems.detection.fcl_pairs import CORES
 from carom.systems.detection.hulls import Hulls, PackedHulls
 from carom.systems.kernels import shape_casts
 from carom.systems.queries.arguments import Arguments, QueryError
-from carom.systems.queries.asked import REACH, note
+from carom.systems.queries.asked import note
 from carom.systems.queries.filters import Filters, seen
 from carom.systems.queries.places import are_meshes, movable, within
 from carom.systems.queries.rays import NOBODY, Hits
@@ -57,8 +57,8 @@ def cast_shapes(
     pairs = pairs[~np.isin(pairs @ names, begun.query[told] + len(limit) * begun.row[told]) & best.moves[pairs[:, 0]]]
     best.search(world, scene, placed, direction, pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))])
     hits = best.hits(world, scene)
-    met, way = np.nonzero(hits.hit)[0], np.minimum(limit, REACH)[:, None] * direction
-    note(world, "cast_shapes", filters.get("tag", ""), position, way, met, hits.entity[met], hits.point[met])
+    met = np.nonzero(hits.hit)[0]
+    note(world, "cast_shapes", filters, position, met, hits.entity[met], hits.point[met], direction, limit)
     return hits
 
 
