@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
@@ -158,3 +159,18 @@ class Recording:
 
 def _written(series: dict[tuple[str, str], Series]) -> dict[tuple[str, str], Series]:
     return {key: rows for key, rows in series.items() if rows.frames}
+
+
+def open_recording(path: Path) -> tuple[Recording, list[str]]:
+    """Return what a file holds, and what was told of it; raise CaromError when it is not there or cannot be read."""
+    refuse_missing(path)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        recording = Recording(path)
+    return recording, [str(warning.message) for warning in told]
+
+
+def refuse_missing(path: Path) -> None:
+    """Raise CaromError where there is no file."""
+    if not path.is_file():
+        raise CaromError(f"no recording at {path}; make one with: carom run billiards --record {path}")

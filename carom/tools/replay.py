@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import fields
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -18,7 +17,7 @@ from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.tools.recorder import about
 from carom.tools.recorder.edits import ENTITY
-from carom.tools.recording import Recording, SavedState
+from carom.tools.recording import SavedState, open_recording
 from carom.worlds.builder import LoadedWorld, load_text
 
 
@@ -32,7 +31,7 @@ class Replay:
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
-        self.recording, self.notes = _read(self.path)
+        self.recording, self.notes = open_recording(self.path)
         self.stated = self.recording.static.get(f"/{about.PATH}", {})
         self.title, self.source = (str(self.stated.get(key, [""])[0]) for key in ("title", "world_file"))
         held = self.recording.static.get(f"/{about.FILES}", {"name": [], "content": []})
@@ -123,16 +122,6 @@ class Replay:
 
     def _name(self, saved: SavedState) -> str:
         return f"{self.path}, the snapshot of frame {saved.frame},"
-
-
-def _read(path: Path) -> tuple[Recording, list[str]]:
-    """Return what a file holds, and what was told of it; raise CaromError when it cannot be read."""
-    if not path.is_file():
-        raise CaromError(f"no recording at {path}; make one with: carom run billiards --record {path}")
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        recording = Recording(path)
-    return recording, [str(warning.message) for warning in told]
 
 
 def _systems(table: str) -> set[str]:

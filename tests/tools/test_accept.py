@@ -11,7 +11,7 @@ import pytest
 
 from carom.ecs import World
 from carom.tools.cli import main
-from carom.tools.snapshot_kit.case import leave
+from carom.tools.snapshot_kit.case import ABOUT, leave
 from carom.tools.snapshot_kit.golden import Actual, Golden
 from carom.tools.snapshot_kit.picture import read_picture, write_picture
 from carom.tools.snapshot_kit.state import state_golden
@@ -179,6 +179,36 @@ def test_what_is_no_report_is_refused(project: Path, capsys: pytest.CaptureFixtu
         f"tests holds no check that did not pass; {accepted}",
     ]
     assert lines[3].startswith("report: carom-cases/start-") and "is no case of this version of carom" in lines[3]
+
+
+@pytest.mark.parametrize(
+    ("damage", "message"),
+    [
+        (
+            "bits",
+            "cannot read sent.zip: Error -3 while decompressing data: invalid block type; "
+            "accepted: the folder carom-report of a run, or a zip of it\n",
+        ),
+        ("password", "sent.zip: case.json is encrypted; send the report without a password\n"),
+    ],
+)
+def test_a_zip_that_cannot_be_unpacked_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], damage: str, message: str
+) -> None:
+    """One with wrong bits in it, and one that is encrypted."""
+    monkeypatch.chdir(tmp_path)
+    path = Path("sent.zip")
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr(ABOUT, "{" * 1000)
+    content = bytearray(path.read_bytes())
+    if damage == "bits":
+        content[30 + len(ABOUT)] = 0xFF
+    else:
+        content[6] |= 1
+        content[content.index(b"PK\x01\x02") + 8] |= 1
+    path.write_bytes(content)
+    assert main(["accept", "sent.zip", "--yes"]) == 2
+    assert capsys.readouterr().err == message
 
 
 def test_a_huge_file_in_a_zip_is_not_read(

@@ -229,8 +229,9 @@ def test_what_cannot_be_asked_is_told(
     run: tuple[Path, dict[int, float]], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """No file, no question to write the answer of, no recording."""
+    lost = f"{tmp_path}/none.rrd"
     for words, message in (
-        ([f"{tmp_path}/none.rrd", "log"], f"no recording at {tmp_path}/none.rrd"),
+        ([lost, "log"], f"no recording at {lost}; make one with: carom run billiards --record {lost}"),
         ([str(run[0]), "--csv"], "--csv: goes with a question, such as 'contacts'"),
         ([str(run[0]), "--out", "a.csv"], "--out: goes with a question, such as 'contacts'"),
     ):

@@ -135,7 +135,8 @@ def test_a_recording_is_not_mended_in_place(recorded: Path, tmp_path: Path, caps
     assert main(["salvage", here, "--out", here]) == 2
     assert capsys.readouterr().err == f"cannot write {here}: it is the broken recording itself; name another file\n"
     assert main(["salvage", f"{tmp_path}/none.rrd", "--out", f"{tmp_path}/a.rrd"]) == 2
-    assert capsys.readouterr().err == f"no recording at {tmp_path}/none.rrd\n"
+    lost = f"no recording at {tmp_path}/none.rrd; make one with: carom run billiards --record {tmp_path}/none.rrd\n"
+    assert capsys.readouterr().err == lost
 
 
 @pytest.mark.parametrize("seed", range(2))

@@ -205,7 +205,7 @@ def test_without_graphics_a_picture_fails(kit: pytest.Pytester, monkeypatch: pyt
     result.stdout.fnmatch_lines(["the picture cannot be drawn: pictures need software OpenGL, and neither *"])
 
 
-@pytest.mark.parametrize("name", ["../outside", ".hidden", "a/b"])
+@pytest.mark.parametrize("name", ["", "../outside", ".hidden", "a/b"])
 def test_a_golden_has_a_plain_name(pytester: pytest.Pytester, name: str) -> None:
     """It is a file in the folder of its test file."""
     pytester.makepyfile(test_ball=TESTS.replace('f"after_{steps}"', repr(name)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -38,17 +37,14 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.ecs.errors import CaromError
     from carom.tools.asking import ask
     from carom.tools.outputs import prepare_outputs
-    from carom.tools.recording import Recording
+    from carom.tools.recording import open_recording, refuse_missing
 
     if arguments.question is None and (arguments.csv or arguments.out):
         raise CaromError(f"--{'csv' if arguments.csv else 'out'}: goes with a question, such as 'contacts'")
-    if not arguments.file.is_file():
-        raise CaromError(f"no recording at {arguments.file}")
+    refuse_missing(arguments.file)
     prepare_outputs([arguments.out])
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        recording = Recording(arguments.file)
-    print_warnings([str(warning.message) for warning in told])
+    recording, notes = open_recording(arguments.file)
+    print_warnings(notes)
     if arguments.question is None:
         contents(recording, arguments.json)
         return 0

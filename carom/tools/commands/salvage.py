@@ -16,13 +16,12 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 def execute(arguments: argparse.Namespace) -> int:
     """Write what is whole of it, and tell how much that is."""
-    from carom.ecs.errors import CaromError
     from carom.tools.outputs import prepare_outputs
+    from carom.tools.recording import refuse_missing
     from carom.tools.salvage import salvage
 
     broken, out = arguments.file, arguments.out
-    if not broken.is_file():
-        raise CaromError(f"no recording at {broken}")
+    refuse_missing(broken)
     prepare_outputs([out])
     salvaged = salvage(broken, out)
     if arguments.json:

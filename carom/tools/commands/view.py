@@ -23,12 +23,12 @@ def execute(arguments: argparse.Namespace) -> int:
     """Hand the recording to Rerun and wait until the viewer is closed, or the browser is done with it."""
     from carom.ecs.errors import CaromError
     from carom.tools.outputs import prepare_outputs
+    from carom.tools.recording import refuse_missing
     from carom.tools.showing import Service, picture, show, spot_in
     from carom.tools.viewer import has_display
 
     path, frame, name = arguments.file, arguments.frame, arguments.select
-    if not path.is_file():
-        raise CaromError(f"no recording at {path}; make one with: carom run billiards --record {path}")
+    refuse_missing(path)
     nowhere = frame is None and name is None and arguments.screenshot is None
     spot = None if nowhere else spot_in(path, frame, name)
     if arguments.web and spot:

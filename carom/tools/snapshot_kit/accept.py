@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import zipfile
+import zlib
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
@@ -17,6 +18,7 @@ from carom.tools.snapshot_kit.ledger import ENDINGS, FOLDER, PICTURE, STATE
 from carom.tools.snapshot_kit.state import StateGolden
 
 LARGEST = 2**26  # bytes of one file
+ENCRYPTED = 1  # the flag of a file in a zip
 
 
 @dataclass(frozen=True)
@@ -59,8 +61,10 @@ def read_report(path: Path) -> list[Sent]:
                 infos = [info for info in archive.infolist() if _wanted(PurePosixPath(info.filename).name)]
                 if too_large := [info.filename for info in infos if info.file_size > LARGEST]:
                     raise CaromError(f"{path}: {', '.join(too_large)} is larger than {LARGEST >> 20} MiB")
+                if locked := [info.filename for info in infos if info.flag_bits & ENCRYPTED]:
+                    raise CaromError(f"{path}: {', '.join(locked)} is encrypted; send the report without a password")
                 files = {info.filename: archive.read(info) for info in infos}
-        except (OSError, zipfile.BadZipFile) as fault:
+        except (OSError, EOFError, NotImplementedError, zipfile.BadZipFile, zlib.error) as fault:
             raise CaromError(f"cannot read {path}: {getattr(fault, 'strerror', None) or fault}; {accepted}") from None
     sent = []
     for name in sorted(files):

@@ -51,7 +51,7 @@ class CaromSnapshot:
             camera = camera or shot_of(world).camera(simulation.world)
         else:
             simulation = world
-        if name != Path(name).name or name.startswith("."):
+        if not name or name != Path(name).name or name.startswith("."):
             pytest.fail(f"a golden is named by letters and digits, received {name!r}", pytrace=False)
         golden = Golden(folder_of(self._test.path) / name)
         self._kit.ledger.use(*map(golden.file, ENDINGS[: 1 if camera is None else 2]))

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     from carom.tools.reading import Line, Series
 
+FRAME = {"unit": "1", "doc": "number of the step"}
+
 
 class Rows(NamedTuple):
     """Frame, and what else is there of each row."""
@@ -63,7 +65,7 @@ class Source:
         """Return the columns that tell when a row is."""
         different, place = np.unique(frames, return_inverse=True)
         times = np.array([self.times[frame] for frame in different.tolist()], np.float64)
-        yield flat("frame", {"unit": "1", "doc": "number of the step"}, frames)
+        yield flat("frame", FRAME, frames)
         yield flat("time", {"unit": "s", "doc": "simulated time"}, times[place])
 
     def entities(self, path: str, name: str, doc: str, handles: Integers) -> Iterator[Flat]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from carom.ecs.dataframe import Flat, flat
 from carom.tools.tables.bodies import bodies
-from carom.tools.tables.source import Source
+from carom.tools.tables.source import FRAME, Source
 
 
 def substeps(source: Source, count: int) -> list[Flat]:
@@ -18,7 +18,7 @@ def substeps(source: Source, count: int) -> list[Flat]:
     whole = np.asarray(numbers)
     frames = -(-whole // count)
     return [
-        flat("frame", {"unit": "1", "doc": "number of the step"}, frames),
+        flat("frame", FRAME, frames),
         flat("part", {"unit": "1", "doc": "which substep of the step, from 1 on"}, whole - count * (frames - 1)),
         *others,
     ]
