@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -95,6 +96,30 @@ def test_forces_that_draw_numbers_draw_the_same_whoever_looks_on(tmp_path: Path)
         recorder.end(simulation)
         ends.append(state_hash(simulation.world))
     assert ends[0] == ends[1] == ends[2]
+
+
+@pytest.mark.parametrize("detail", DETAILS)
+def test_worlds_of_little_are_recorded(tmp_path: Path, detail: str) -> None:
+    """Nobody at all; a look without a body; a point alone; a body without a shape, whose name is told."""
+    little: list[dict[str, Any]] = [
+        {"visual": {"sphere": {"radius": 0.1}}},
+        {"collider": {"point": {}}, "body": {"mass": 1.0, "inertia": (1.0, 1.0, 1.0)}},
+        {"body": {"mass": 1.0, "inertia": (1.0, 1.0, 1.0)}},
+    ]
+    for words in (None, *little):
+        simulation, recorder = Simulation(), Recorder(tmp_path / "little.rrd", every=1, detail=detail)
+        if words is not None:
+            simulation.add(name="it", **words)
+        recorder.begin(simulation)
+        simulation.step(2)
+        recorder.observe(simulation)
+        recorder.end(simulation)
+        recording = Recording(tmp_path / "little.rrd")
+        rows = {name: recording.table(name).polars() for name in recording.tables()}
+        assert len(rows["energy"]) == 2
+        assert set(rows["bodies"]["name"]) == ({"it"} if words and words.keys() & {"visual", "collider"} else set())
+        if detail != "light":
+            assert set(rows["velocities"]["body.name"]) == ({"it"} if words and "body" in words else set())
 
 
 def test_a_detail_that_is_none_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -73,7 +73,7 @@ def default_camera(world: World, up: Vector = (0.0, 1.0, 0.0)) -> Camera:
     positions, reach = world[Transform].position[rows][finite], reach[finite, None]
     lower, upper = (positions - reach).min(axis=0), (positions + reach).max(axis=0)
     target = (lower + upper) / 2.0
-    distance = 0.9 * float(np.linalg.norm(upper - lower))
+    distance = 0.9 * float(np.linalg.norm(upper - lower)) or 1.0  # of a single point
     away = axes @ (0.35, 0.55, 0.76) * distance
     return Camera(tuple(map(float, target + away)), tuple(map(float, target)), up)  # type: ignore[arg-type]
 
