@@ -16,6 +16,7 @@ from carom.systems.energy import kinetic_energy, potential_energies
 from carom.systems.kernels.accounting import ARC, BENT, STRAYED, SWEPT, TURNED
 from carom.systems.kernels.lanes import aligned
 from carom.systems.ledger import KINDS, Dissipation, Ledger
+from carom.systems.linkage import Linkage
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.step import STEP
@@ -108,12 +109,13 @@ class Bookkeeping:
         ledger.pull, ledger.arc = +flight.acceleration, np.zeros((len(flight.acceleration), ARC))
         self._arc_turns = flight.angular_acceleration[rows]
         self._earlier, self._impacts = aligned(*world[Resting].lanes.shape), world.count(Impact)
+        self._earlier_joints = aligned(*world[Linkage].lanes.shape)
 
     def _hold(self) -> None:
         """Kick and contacts act together; what balls take out of it is spread along their arcs."""
         flight, rows = self._world[Flight], self._moved.rows
         self._mean = mean = self._dragged.mean(self._moved.now())
-        self._book_contacts(mean)
+        self._book_held(mean)
         self._momentum = self._moved.angular_momentum(mean.angular)
         spread = flight.acceleration[rows] - self._ledger.pull[rows]
         self._spun = flight.angular_acceleration[rows] - self._arc_turns
@@ -145,11 +147,12 @@ class Bookkeeping:
         for name, energy in held.items():
             self._book(name, energy - self._held[name])
         self._held, self._settled = held, settled
-        self._earlier = aligned(*world[Resting].lanes.shape)
-        self._earlier[:] = world[Resting].lanes
+        lanes, joints = world[Resting].lanes, world[Linkage].lanes
+        self._earlier, self._earlier_joints = aligned(*lanes.shape), aligned(*joints.shape)
+        self._earlier[:], self._earlier_joints[:] = lanes, joints
 
     def _relax(self) -> None:
-        self._book_contacts(self._settled.mean(self._moved.now()))
+        self._book_held(self._settled.mean(self._moved.now()))
         self._moving = kinetic_energy(self._world)
 
     def _hand_over(self) -> None:
@@ -176,8 +179,12 @@ class Bookkeeping:
         for name, energy in self._moved.by_drag(self._pulls, self._summed, before, after, time):
             self._book(name, energy)
 
-    def _book_contacts(self, mean: Velocities) -> None:
-        self._book_pairs(self._moved.by_contacts(self._earlier, mean))
+    def _book_held(self, mean: Velocities) -> None:
+        """Book what resting contacts and joints have done since the last time, while bodies went at ``mean``."""
+        momenta = self._moved.momenta(mean)
+        self._book_pairs(self._moved.by_contacts(self._earlier, momenta))
+        for name, energy in self._moved.by_joints(self._earlier_joints, momenta):
+            self._book(name, energy)
 
     def _book_pairs(self, part: Dissipation) -> None:
         """Book what pairs did, each kind of it under its own name."""

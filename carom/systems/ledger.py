@@ -46,6 +46,7 @@ class Ledger(Resource):
     gravity books nothing. Beside them:
 
     - ``contacts`` and ``friction``: impulses of resting contacts along normals and across;
+    - ``joints``, ``drives`` and ``joint friction``: what joints hold by locks and limits, push by springs and motors, rub;
     - ``impacts``: those of impacts, friction included;
     - ``integration``: what forces did to velocities less what they did along the way, contacts that bend arcs too;
     - ``turning``: what free turning gained, and ``locks``: velocities along locked axes that were set from outside;

@@ -17,10 +17,12 @@ from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.energy import dynamic_rows
 from carom.systems.kernels.accounting import find_work
+from carom.systems.kernels.joint_accounting import DROVE, ENTRIES, HELD, RUBBED, find_joint_work
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.packing import pack_velocities
 from carom.systems.kernels.turning import find_angular_momentum, find_turning
 from carom.systems.ledger import Dissipation
+from carom.systems.linkage import Linkage
 from carom.systems.resting import Resting
 
 
@@ -106,16 +108,34 @@ class Moving:
             for pull in pulls:
                 yield pull.name, float((lost * pull.angular_drag / np.where(spin_drag > 0.0, spin_drag, 1.0)).sum())
 
-    def by_contacts(self, earlier: Floats, mean: Velocities) -> Dissipation:
-        """Return what resting contacts did since their impulses were ``earlier``, while bodies went at ``mean``."""
-        resting, contact, motion = self._world[Resting], self._world[Contact], self._world[Motion]
-        if not resting.groups:
-            return Dissipation.of()
+    def momenta(self, mean: Velocities) -> Floats:
+        """Return the momenta of bodies that go at ``mean``, packed for the kernels that find work."""
+        motion = self._world[Motion]
         momentum, spin = np.zeros_like(motion.linear), np.zeros_like(motion.angular)
         momentum[self.rows] = self.mass[:, None] * mean.linear
         spin[self.rows] = self.angular_momentum(mean.angular)
-        momenta, work = aligned(*resting.bodies.shape), aligned(2 * resting.groups, WIDTH)
+        momenta = aligned(*self._world[Resting].bodies.shape)
         pack_velocities(self.rows, momentum, spin, momenta)
+        return momenta
+
+    def by_joints(self, earlier: Floats, momenta: Floats) -> Iterator[tuple[str, float]]:
+        """Yield what joints did since their impulses were ``earlier``, by what they did it."""
+        linkage = self._world[Linkage]
+        work = aligned(ENTRIES * linkage.groups, WIDTH)
+        find_joint_work(
+            linkage.groups, linkage.kinds, linkage.row, linkage.index_a, linkage.index_b,
+            linkage.lanes, self._world[Resting].bodies, earlier, momenta, work,
+        )  # fmt: skip
+        there = linkage.first[: linkage.groups] >= 0
+        for entry, name in ((HELD, "joints"), (DROVE, "drives"), (RUBBED, "joint friction")):
+            yield name, float(work[entry::ENTRIES][there].sum())
+
+    def by_contacts(self, earlier: Floats, momenta: Floats) -> Dissipation:
+        """Return what resting contacts did since their impulses were ``earlier``."""
+        resting, contact = self._world[Resting], self._world[Contact]
+        if not resting.groups:
+            return Dissipation.of()
+        work = aligned(2 * resting.groups, WIDTH)
         find_work(
             0, resting.groups, resting.index_a, resting.index_b, resting.points, resting.row, resting.asks,
             resting.lanes, resting.bodies, earlier, momenta, work,
