@@ -45,3 +45,33 @@ def hashes(simulation: Simulation, frames: int) -> list[str]:
         simulation.step()
         found.append(state_hash(simulation.world))
     return found
+
+
+def jointed_heap(**settings: Any) -> Simulation:
+    """Return a mobile of boxes on joints of all kinds, with limits, drives and friction, that meets the floor."""
+    simulation = Simulation(dt=1 / 120, **settings)
+    simulation.add(collider={"plane": {}}, name="floor", material={"restitution": 0.3})
+    axis, across = {"axis": (0.0, 0.0, 1.0)}, {"axis": (1.0, 0.0, 0.0), "second_axis": (0.0, 0.0, 1.0)}
+    kinds: list[dict[str, Any]] = [
+        {"hinge": {"friction": 0.05} | axis},
+        {"ball": {"swing": 0.6, "twist": (-0.3, 0.4), "axis": (1.0, 0.0, 0.0)}},
+        {"hinge": {"limits": (-0.4, 0.3), "restitution": 0.5} | axis},
+        {"universal": across},
+        {"slider": {"limits": (-0.05, 0.1), "motor": {"target": 0.05, "stiffness": 200.0, "damping": 2.0}} | axis},
+        {"fixed": {"break_force": 60.0}},
+        {"generic": {"x": {"motor": {"target": 0.0, "stiffness": 500.0, "damping": 5.0}}, "rotation_z": "free"}},
+        {"hinge": {"motor": {"speed": 3.0, "most": 0.5}} | axis},
+    ]
+    for k, joint in enumerate(kinds):
+        place, box = {"position": (0.2 + 0.35 * k, 1.2, 0.0)}, {"box": {"size": (0.3, 0.1, 0.1)}}
+        simulation.add(name=f"link{k}", collider=box, body={}, transform=place)
+        ((key, words),) = joint.items()
+        ends = {"b": f"link{k}", "at": (0.025 + 0.35 * k, 1.2, 0.0)} | ({"a": f"link{k - 1}"} if k else {})
+        simulation.add(name=f"joint{k}", joint={key: words | ends})
+    for key, words in (("rope", {"length": 0.6}), ("spring", {"stiffness": 50.0, "damping": 0.5, "length": 0.3})):
+        place, ball = {"position": (2.9 if key == "rope" else 1.3, 1.0, 0.2)}, {"sphere": {"radius": 0.1}}
+        simulation.add(name=key, collider=ball, body={}, transform=place)
+        ends = {"a": "link7" if key == "rope" else "link3", "b": key}
+        anchors = {"anchor_a": (0.0, 0.0, 0.0), "anchor_b": (0.0, 0.0, 0.0)}
+        simulation.add(name=f"{key} joint", joint={key: words | ends | anchors})
+    return simulation

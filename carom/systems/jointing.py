@@ -23,7 +23,8 @@ def join_bodies(world: World, dt: float) -> None:
     """Find the joints of bodies that are awake; who is held is stepped semi-implicitly, as in contact."""
     linkage, begins = world[Linkage], world[Progress].substep == 1
     if not linkage.is_of(world) or (begins and world[Awake].edited & {Joint, RigidBody, Transform}):
-        linkage.hand_over(world)
+        if not begins:  # at the end of a step it has been done
+            linkage.hand_over(world)
         linkage.find(world)
     if linkage.groups:
         if begins:  # those that sleep go on bearing what they bore

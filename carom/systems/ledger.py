@@ -46,7 +46,7 @@ class Ledger(Resource):
     gravity books nothing. Beside them:
 
     - ``contacts`` and ``friction``: impulses of resting contacts along normals and across;
-    - ``joints``, ``drives`` and ``joint friction``: what joints hold by locks and limits, push by springs and motors, rub;
+    - ``joints``, ``drives`` and ``joint friction``: what joints do by locks and limits, springs and motors, and rub;
     - ``impacts``: those of impacts, friction included;
     - ``integration``: what forces did to velocities less what they did along the way, contacts that bend arcs too;
     - ``turning``: what free turning gained, and ``locks``: velocities along locked axes that were set from outside;

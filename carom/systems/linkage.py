@@ -60,7 +60,8 @@ class Linkage(Resource):
             joint.anchor_a, joint.anchor_b, joint.frame_a, joint.frame_b,
             joint.mode, joint.lower, joint.upper, joint.restitution, joint.driven, joint.stiffness, joint.damping,
             joint.target, joint.speed, joint.most, joint.friction,
-            joint.impulse, joint.drive_impulse, joint.friction_impulse, joint.position, self.asks, self.lanes,
+            joint.impulse, joint.drive_impulse, joint.friction_impulse, joint.position, joint.velocity,
+            self.asks, self.lanes,
         )  # fmt: skip
 
     def mark(self, world: World, h: float) -> None:

@@ -121,6 +121,8 @@ class Moving:
     def by_joints(self, earlier: Floats, momenta: Floats) -> Iterator[tuple[str, float]]:
         """Yield what joints did since their impulses were ``earlier``, by what they did it."""
         linkage = self._world[Linkage]
+        if not linkage.groups:
+            return
         work = aligned(ENTRIES * linkage.groups, WIDTH)
         find_joint_work(
             linkage.groups, linkage.kinds, linkage.row, linkage.index_a, linkage.index_b,

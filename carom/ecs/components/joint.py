@@ -48,7 +48,7 @@ class Joint(Component):
     drive_impulse: Floats = column(SLOTS, unit="N s, N m s", doc="of springs, dampers and motors in the last substep")
     friction_impulse: Floats = column(SLOTS, unit="N s, N m s", doc="of friction in the last substep")
     position: Floats = column(SLOTS, unit="m, rad", doc="where b is against a; angles go on beyond a whole turn")
-    velocity: Floats = column(SLOTS, unit="m/s, rad/s", doc="how fast that changes", role="derived")
+    velocity: Floats = column(SLOTS, unit="m/s, rad/s", doc="how fast that changes")
     force: Floats = column(
         3, unit="N", doc="mean force on b in the last step, at its anchor, world frame", role="derived"
     )

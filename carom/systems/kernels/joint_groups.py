@@ -134,7 +134,7 @@ def fill_joints(
     groups, kinds, index_a, index_b, first, place, row, nobody, center_of_mass,
     row_a, row_b, position_of, rotation_of, anchor_a, anchor_b, frame_a, frame_b, mode, lower, upper, restitution,
     driven, stiffness, damping, target, speed, most, friction, impulse, drive_impulse, friction_impulse,
-    position, asks, lanes,
+    position, velocity, asks, lanes,
 ):  # fmt: skip
     """Write what joints hold into the lanes of their groups; of what stands, anchors and frames are in the world.
 
@@ -167,7 +167,7 @@ def fill_joints(
                 lanes[q + PLACE, lane] = position[i, s]
                 if mode[i, s] == LOCKED:
                     lanes[q + HELD, lane], lanes[q + AT, lane] = 1.0, lower[i, s]
-                lanes[q + HOLD, lane] = impulse[i, s]
+                lanes[q + HOLD, lane], lanes[q + SPEED, lane] = impulse[i, s], velocity[i, s]
                 if bounded:
                     asks[g] |= write_bounds(
                         bound(r, slots, s), lane, i, s, mode, lower, upper, restitution, driven, stiffness, damping,

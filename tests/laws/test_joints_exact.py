@@ -1,0 +1,79 @@
+"""Joints in the table: snapshots, caches, the ledger of energy, and the same bits without the JIT."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from heaps import hashes, jointed_heap
+
+from carom.ecs import restore_snapshot, state_hash, take_snapshot
+from carom.ecs.relations.joint_break import JointBreak
+from carom.ecs.snapshot import SAVED
+from carom.systems.energy import total_energy
+from carom.systems.linkage import Linkage
+from carom.systems.ties import Ties
+
+
+@pytest.mark.parametrize("frame", [1, 40, 90])
+def test_a_restored_snapshot_has_the_same_future(frame: int) -> None:
+    """Warm starts and angles beyond a whole turn are state: here and in a fresh world not a bit differs."""
+    simulation = jointed_heap(sleeping=True)
+    simulation.step(frame)
+    snapshot = take_snapshot(simulation.world)
+    expected = hashes(simulation, 30)
+    restore_snapshot(simulation.world, snapshot)
+    assert hashes(simulation, 30) == expected
+    elsewhere = jointed_heap(sleeping=True)
+    elsewhere.step(3)
+    restore_snapshot(elsewhere.world, snapshot)
+    assert hashes(elsewhere, 30) == expected
+
+
+def test_caches_can_be_dropped_at_any_time() -> None:
+    """Groups, lanes and derived columns leave no trace in what follows."""
+    kept, dropping = jointed_heap(), jointed_heap()
+    for _ in range(60):
+        dropping.world.add(Linkage())
+        dropping.world.add(Ties())
+        for kind, table in dropping.world.tables.items():
+            for name, column in kind.columns.items():
+                if column.role not in SAVED:
+                    table.arrays[name][:] = -77 if column.dtype.kind in "if" else 0
+        dropping.step()
+        kept.step()
+        assert state_hash(dropping.world) == state_hash(kept.world)
+
+
+def test_every_joule_is_booked() -> None:
+    """What joints, drives and their friction do is booked to rounding, and so is what is left when one breaks."""
+    simulation = jointed_heap()
+    ledger, broken = simulation.keep_ledger(), 0
+    for _ in range(240):
+        before = abs(total_energy(simulation.world))
+        simulation.step()
+        broken += simulation.world.count(JointBreak)
+        rounding = 1e-13 * (before + sum(map(abs, ledger.entries.values())) + 1.0)
+        assert sum(ledger.entries.values()) == pytest.approx(ledger.change, abs=rounding)
+    assert broken == 1
+    assert {"joints", "drives", "joint friction"} <= {name for name, work in ledger.since.items() if abs(work) > 1e-3}
+
+
+PLAIN = """
+from heaps import hashes, jointed_heap
+print(*hashes(jointed_heap(), 6), sep="\\n")
+"""
+
+
+def test_kernels_do_the_same_without_the_jit() -> None:
+    """Plain Python gives the same bits."""
+    command, root = [sys.executable, "-c", PLAIN], Path(__file__).parents[2]
+    environment = os.environ | {
+        "NUMBA_DISABLE_JIT": "1",
+        "PYTHONPATH": os.pathsep.join((str(root), str(root / "tests"))),
+    }
+    plain = subprocess.run(command, env=environment, cwd=root, capture_output=True, text=True, check=True)
+    assert plain.stdout.split() == hashes(jointed_heap(), 6)
