@@ -15,7 +15,7 @@ from carom.ecs.relations.keyframe import Keyframe
 from carom.ecs.spatial import quaternion
 from carom.systems.keyframes import poses_at
 from carom.systems.parameters import WordFault
-from carom.systems.settings import Settings
+from carom.systems.settings import Settings, time_of
 
 Words = Mapping[str, Any]
 POSE = ("position", "rotation")
@@ -103,5 +103,5 @@ def path_of(world: World, words: Words) -> tuple[Transform, Path]:
         keyframe.at[new] = [frame["at"] for frame in frames]
         keyframe.position[new], keyframe.rotation[new] = position, rotation
         path = np.array([first]), np.array([count]), np.array([Repeat[repeat.upper()].value])
-        now = poses_at(keyframe, np.array([0]), world.frame * world[Settings].dt, *path)
+        now = poses_at(keyframe, np.array([0]), time_of(world), *path)
     return Transform(position=now[0], rotation=now[1]), Path(first=path[0], count=path[1], repeat=path[2])

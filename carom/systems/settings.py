@@ -7,6 +7,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from carom.ecs import World
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
 
@@ -57,6 +58,11 @@ class Settings(Resource):
         floats = {"dt": float(self.dt), "hit_speed": float(self.hit_speed), "gravity": tuple(map(float, self.gravity))}
         for name, value in floats.items():  # a kernel that is first called with whole numbers would cut all others off
             object.__setattr__(self, name, value)
+
+
+def time_of(world: World) -> float:
+    """Return the simulated seconds of a world."""
+    return world.frame * world[Settings].dt
 
 
 class Random(Resource):

@@ -12,7 +12,7 @@ from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
 from carom.systems.awake import Awake, stirs
 from carom.systems.kernels.touching import renew_touching
-from carom.systems.settings import Settings
+from carom.systems.settings import Settings, time_of
 
 
 @system(
@@ -29,7 +29,7 @@ def tell_contacts(world: World, dt: float) -> None:
     begins, ends = np.empty(room, np.bool_), np.empty(count, np.bool_)
     found, new = renew_touching(
         contact.count, contact.a, contact.b, contact.row_a, contact.row_b, contact.impulse, contact.depth,
-        struck_a, struck_b, struck_at, world.frame * world[Settings].dt,
+        struck_a, struck_b, struck_at, time_of(world),
         count, touching.a, touching.b, touching.since, world.handles(), world.slots.row_shift,
         world[ColliderPose].body_row, world[Motion].asleep,
         a, b, since, begins, ends,

@@ -11,7 +11,7 @@ from carom.ecs import Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.errors import CaromError, EntityError
 from carom.ecs.spatial import quaternion
-from carom.systems.settings import Settings
+from carom.systems.settings import time_of
 from carom.tools.cameras import Camera, Vector, front
 from carom.worlds.builder import LoadedWorld
 from carom.worlds.camera import Camera as Words
@@ -40,7 +40,7 @@ class Rig:
         where = poses if poses is not None else world[Transform]
         words, target, toward = self.words, self.words.target, front(self.up)
         if words.orbit is not None:
-            elapsed = world.frame * world[Settings].dt if time is None else time
+            elapsed = time_of(world) if time is None else time
             centre = self._place(world, where, words.orbit.around)
             toward = self._horizontal(words.orbit, elapsed)
             position = centre + words.orbit.distance * self._risen(toward, words.orbit.elevation)

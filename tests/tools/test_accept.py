@@ -186,8 +186,10 @@ def test_what_is_no_report_is_refused(project: Path, capsys: pytest.CaptureFixtu
     [
         (
             "bits",
-            "cannot read sent.zip: Error -3 while decompressing data: invalid block type; "
-            "accepted: the folder carom-report of a run, or a zip of it\n",
+            (
+                "cannot read sent.zip: Error -3 while decompressing data: invalid block type; "
+                "accepted: the folder carom-report of a run, or a zip of it\n"
+            ),
         ),
         ("password", "sent.zip: case.json is encrypted; send the report without a password\n"),
     ],

@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.ecs import World
 from carom.ecs.column import Floats
-from carom.systems.settings import Settings
+from carom.systems.settings import time_of
 from carom.tools.coloring import FEW
 from carom.tools.marks import Inset, Mark
 from carom.tools.overlays.overlay import Overlay, Seen
@@ -35,7 +35,7 @@ class Plot(Overlay):
         """Keep the values of now."""
         values = self._quantity.read(world)
         self._names = list(values)
-        self._times.append(world.frame * world[Settings].dt)
+        self._times.append(time_of(world))
         self._values.append(list(values.values()))
 
     def marks(self, seen: Seen) -> Sequence[Mark]:

@@ -12,7 +12,7 @@ import numpy as np
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
 from carom.systems.energy import centers_of_mass
-from carom.systems.settings import Settings
+from carom.systems.settings import time_of
 from carom.tools.marks import Lines, Mark, tinted
 from carom.tools.overlays.overlay import Overlay, Seen
 
@@ -32,7 +32,7 @@ class TrailMarks(Overlay):
 
     def watch(self, world: World) -> None:
         """Keep where bodies are now."""
-        time = world.frame * world[Settings].dt
+        time = time_of(world)
         rows = world.row_numbers(Transform, Motion, RigidBody)
         self._past.append((time, world.entities(rows), centers_of_mass(world, rows)))
         while self._past[0][0] < time - SECONDS:

@@ -12,7 +12,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.constants import SAME_POINT
-from carom.systems.settings import Settings
+from carom.systems.settings import time_of
 
 
 class Persistence:
@@ -35,7 +35,7 @@ class Persistence:
         points, warm = both(world, "point"), both(world, "warm_normal")
         match = self._matches(world, keys, points)
         goes_on = match >= 0
-        since = np.full(len(keys), world.frame * world[Settings].dt)
+        since = np.full(len(keys), time_of(world))
         since[goes_on] = self.since[match[goes_on]]
         began_with = np.zeros(len(keys))
         began_with[goes_on] = self._warm[match[goes_on]]
