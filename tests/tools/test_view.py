@@ -107,7 +107,7 @@ def test_the_viewer_opens_at_the_frame_with_the_entity_selected(
         recording = client.get_state().recordings[0]
         assert (recording.current_timeline, recording.current_time) == ("frame", 90)
         client.run_command("ui.quit")
-        shown.join()
+        shown.join(timeout=viewer.PATIENCE)
     assert status == [0]
 
 

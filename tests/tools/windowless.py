@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
+import signal
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
@@ -15,7 +17,8 @@ from carom.tools import showing, viewer
 def windowless(folder: Path, patch: pytest.MonkeyPatch) -> Iterator[str]:
     """Let carom take this machine for one with a display; lend the address where what it starts will listen."""
     script, port = folder / "rerun", viewer.free_port()
-    script.write_text(f'#!/bin/sh\nexec {viewer.viewer_binary()} --headless "$@" 2>/dev/null\n')
+    number = folder / "rerun.pid"
+    script.write_text(f'#!/bin/sh\necho $$ > {number}\nexec {viewer.viewer_binary()} --headless "$@" 2>/dev/null\n')
     script.chmod(0o755)
     patch.setattr(viewer, "viewer_binary", lambda: script)
     patch.setattr(viewer, "has_display", lambda: True)
@@ -24,7 +27,6 @@ def windowless(folder: Path, patch: pytest.MonkeyPatch) -> Iterator[str]:
     try:
         yield viewer.address(port)
     finally:
-        if viewer.listens(viewer.address(port)):
-            from rerun.experimental import ViewerClient
-
-            ViewerClient.connect(viewer.address(port)).run_command("ui.quit")
+        if number.exists():
+            with suppress(ProcessLookupError):  # it was closed already
+                os.kill(int(number.read_text()), signal.SIGKILL)
