@@ -12,6 +12,7 @@ from carom.ecs import Transform
 from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial import angles, quaternion, vector
+from carom.systems.joints.kind import JOINTS, PointJoint
 from carom.systems.joints.many import join_many
 from carom.systems.simulation import Simulation
 
@@ -51,21 +52,40 @@ def add_chain(
     """
     course = hung(simulation, np.asarray(start, np.float64), np.asarray(end, np.float64), count, sag)
     if "collider" not in words:
-        words["collider"] = {"capsule": _capsule(float(vector.distance(*course.joints[:2])), radius)}
-    world = simulation.world
-    centers = 0.5 * (course.joints[1:] + course.joints[:-1])
-    words = {"body": {}, **words}
-    links = simulation.add_many(centers, names=[f"{name}[{number}]" for number in range(count)], **words)
-    with world.edit(Transform) as transform:
-        transform.rotation[world.slots.rows(links)] = course.rotation
-    numbers, places = iter(range(count + 1)), course.joints
-    if a is not None:
-        _attach(simulation, joint, a, int(links[0]), places[0], f"{name}.joint[{next(numbers)}]")
-    names = [f"{name}.joint[{next(numbers)}]" for _ in range(count - 1)]
-    join_many(world, joint, links[:-1], links[1:], places[1:-1], names)
-    if b is not None:
-        _attach(simulation, joint, int(links[-1]), b, places[-1], f"{name}.joint[{next(numbers)}]")
+        words["collider"] = capsule_along(course, radius)
+    refuse_lines(joint)
+    links = lay_links(simulation, name, course, **words)
+    join_links(simulation, name, course, links, joint, a, b)
     return links
+
+
+def lay_links(simulation: Simulation, name: str, course: Course, **words: Any) -> Integers:
+    """Add links that nothing joins yet, and return their handles (n,)."""
+    centers = 0.5 * (course.joints[1:] + course.joints[:-1])
+    names = [f"{name}[{number}]" for number in range(len(centers))]
+    links = simulation.add_many(centers, names=names, **{"body": {}, **words})
+    with simulation.world.edit(Transform) as transform:
+        transform.rotation[simulation.world.slots.rows(links)] = course.rotation
+    return links
+
+
+def join_links(
+    simulation: Simulation,
+    name: str,
+    course: Course,
+    links: Integers,
+    joint: Mapping[str, Any],
+    a: str | int | None,
+    b: str | int | None,
+) -> None:
+    """Join links to each other, the first to ``a`` and the last to ``b``."""
+    places, first = course.joints, int(a is not None)
+    if a is not None:
+        _attach(simulation, joint, a, int(links[0]), places[0], f"{name}.joint[0]")
+    names = [f"{name}.joint[{number}]" for number in range(first, first + len(links) - 1)]
+    join_many(simulation.world, joint, links[:-1], links[1:], places[1:-1], names)
+    if b is not None:
+        _attach(simulation, joint, int(links[-1]), b, places[-1], f"{name}.joint[{first + len(links) - 1}]")
 
 
 def add_net(
@@ -134,14 +154,24 @@ def hung(simulation: Simulation, start: Floats, end: Floats, count: int, sag: fl
     return Course(joints, quaternion.from_matrix(np.stack([vector.cross(y, z), y, z], axis=-1)))
 
 
-def _capsule(pitch: float, radius: float | None) -> dict[str, float]:
+def capsule_along(course: Course, radius: float | None) -> dict[str, dict[str, float]]:
+    """Return the words of the collider of links that are capsules from joint to joint."""
+    pitch = float(vector.distance(*course.joints[:2]))
     if radius is None:
         raise DeclarationError("radius: state that of links that are capsules, or a collider of their own")
     if not 0.0 < 2.0 * radius < pitch:
         raise DeclarationError(
             f"radius: must be above 0 and below half a link, {0.5 * pitch:g} m; received {radius:g}; take fewer links"
         )
-    return {"radius": radius, "length": pitch - 2.0 * radius}
+    return {"capsule": {"radius": radius, "length": pitch - 2.0 * radius}}
+
+
+def refuse_lines(joint: Mapping[str, Any]) -> None:
+    """Raise DeclarationError for a joint that holds no point."""
+    for key in joint:
+        if key in JOINTS and not issubclass(JOINTS[key], PointJoint):
+            accepted = ", ".join(sorted(key for key, kind in JOINTS.items() if issubclass(kind, PointJoint)))
+            raise DeclarationError(f"joint.{key}: holds no point, at which links meet; accepted: {accepted}")
 
 
 def _attach(

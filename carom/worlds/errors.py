@@ -24,6 +24,10 @@ class WordError(ValueError):
         return str(Fault(place, 0, 0, "", self.what, self.received, self.accepted, self.hint))
 
 
+class ReportedError(Exception):
+    """What was wrong is reported already."""
+
+
 @dataclass(frozen=True, order=True)
 class Fault:
     """One thing wrong in a file, at a line and column counted from 1 (0: the file as a whole)."""

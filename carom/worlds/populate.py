@@ -24,9 +24,10 @@ from carom.systems.parameters import WordFault
 from carom.systems.paths import faults_of_path
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
-from carom.worlds.errors import Path, WordError
+from carom.worlds.errors import Path, ReportedError, WordError
 from carom.worlds.generated import holds_entities
 from carom.worlds.geometry import GEOMETRY_WORDS, GeometryReader
+from carom.worlds.laying import Laying
 from carom.worlds.names import known
 from carom.worlds.reader import Source
 
@@ -55,6 +56,7 @@ class Populator:
         self.places_in_file: dict[int, Path] = {}
         self.carriers: set[str] = set()
         self.unweighed: list[int] = []  # bodies whose mass depends on what they carry
+        self.laying = Laying(self)
         self.joints: list[tuple[int, Path, dict[str, Any]]] = []
 
     def add_all(self, entities: list[Any]) -> None:
@@ -79,6 +81,9 @@ class Populator:
             self.taken[name] = path
         if not (self.names_hold(path, words) and self.path_holds(path, words, grid)):
             return
+        if "chain" in words:
+            self.laying.add(path, name, words)
+            return
         transform = words.pop("transform", {})
         jitter = transform.pop("jitter", None)
         pointers = self.take_pointers(path, words)
@@ -90,9 +95,7 @@ class Populator:
         if body is not None and waits:
             words["body"] = body | PROVISIONAL
         try:
-            for key in ("collider", "visual"):
-                if isinstance(words.get(key), dict):
-                    self.read_geometry((*path, key), words[key])
+            self.read_geometries(path, words)
             positions = self.places(name, grid, np.array(transform.get("position", (0.0, 0.0, 0.0))))
             if jitter is not None:
                 reach = np.broadcast_to(jitter, 3)
@@ -106,7 +109,7 @@ class Populator:
             if waits:
                 self.simulation.world[StatedBodies].words.update(dict.fromkeys(entities.tolist(), body))
                 self.unweighed += entities.tolist()
-        except _ReportedError:
+        except ReportedError:
             return
         except DeclarationError as fault:
             self.report(path, str(fault))
@@ -146,6 +149,7 @@ class Populator:
 
     def join_all(self) -> None:
         """Let joints hold whom they name, at the poses where all are now; report everything that is wrong with them."""
+        self.laying.join_all()
         world = self.simulation.world
         for entity, path, words in self.joints:
             faults: list[WordFault] = []
@@ -183,6 +187,12 @@ class Populator:
         steps = np.indices(grid["count"]).reshape(3, -1).T
         return np.asarray(position + np.array(grid.get("origin", (0.0, 0.0, 0.0))) + steps * grid["spacing"])
 
+    def read_geometries(self, path: Path, words: dict[str, Any]) -> None:
+        """Put shapes in the place of the words of meshes and hulls of an entity."""
+        for key in ("collider", "visual"):
+            if isinstance(words.get(key), dict):
+                self.read_geometry((*path, key), words[key])
+
     def read_geometry(self, path: Path, words: dict[str, Any]) -> None:
         """Put shapes in the place of the words of meshes and hulls; report files that cannot be used."""
         for key in GEOMETRY_WORDS:
@@ -192,7 +202,7 @@ class Populator:
                     words[key] = self.geometries.shape(key, words[key], seen=path[-1] == "visual")
                 except DeclarationError as fault:
                     self.source.report((*path, key, place), str(fault))
-                    raise _ReportedError from None
+                    raise ReportedError from None
                 for note in words[key].geometry.notes:
                     self.source.warn((*path, key, place), note)
 
@@ -247,7 +257,3 @@ def copies(name: str, grid: dict[str, Any] | None) -> list[str]:
     if grid is None:
         return [name]
     return [f"{name}[{i},{j},{k}]" for i, j, k in product(*map(range, grid["count"]))]
-
-
-class _ReportedError(Exception):
-    """What was wrong is reported already."""

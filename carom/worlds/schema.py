@@ -25,6 +25,7 @@ from carom.worlds.generated import (
     shape_fields,
 )
 from carom.worlds.sections import (
+    ChainWords,
     Expect,
     Grid,
     KeyframesWords,
@@ -95,11 +96,12 @@ def document() -> type[Words]:
         "joint": (joint, Field(None, description="makes it a joint, which holds two others")),
         "tags": (names, Field([], description="what it is, for queries")),
     }  # fmt: skip
+    chain = (ChainWords, Field(None, description="copies as links, which joint joins"))
     grid = (Grid, Field(None, description="copies on a grid"))
     named = (Name, Field(None, description="unique name"))
-    words |= own_fields((*words, "name", "grid"))
+    words |= own_fields((*words, "name", "grid", "chain"))
     prefab = _model("Prefab", "Words shared by entities.", **words)
-    entity = _model("Entity", "One entity, or a grid of them.", name=named, **words, grid=grid)
+    entity = _model("Entity", "One entity, or a grid or chain of them.", name=named, **words, grid=grid, chain=chain)
     force = _model(
         "Force", "One force law and whom it acts on.", **law_fields(),
         entities=(names, Field(None, description="names, or patterns like shell_* and rain[*]; every body by default")),

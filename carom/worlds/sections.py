@@ -15,6 +15,7 @@ Length = Annotated[float, In("m")]
 Lengths = Annotated[Vector3, In("m")]
 Count = Annotated[int, Whole(1)]
 DETAILS = ("light", "full", "solver")  # how much a recording holds, each with all of those before it
+WORLD, NOBODY = "world", "nobody"  # what may hold the end of a chain beside entities
 LayersMet = Annotated[list[str] | Literal["all"], WrapValidator(lambda value, handler: _layers_met(value))]
 
 
@@ -32,6 +33,17 @@ class Grid(Words):
     count: tuple[Count, Count, Count] = Field(description="copies along x, y and z")
     spacing: either(Length, Lengths, list) = Field(description="distance between neighbours (m), one or one per axis")  # type: ignore[valid-type]
     origin: Lengths = Field((0.0, 0.0, 0.0), description="where copy [0,0,0] is, added to transform.position (m)")
+
+
+class ChainWords(Words):
+    """Copies of an entity as the links of a chain that starts where it is, called like ``rope[3]``."""
+
+    end: Lengths = Field(description="where it ends, world frame (m)")
+    count: Count = Field(description="how many links")
+    sag: Annotated[float, In("m", least=0.0)] = Field(0.0, description="how much lower its middle is (m)")
+    radius: Annotated[float, In("m", above=0.0)] | None = Field(None, description="of links that are capsules (m)")
+    a: str = Field(WORLD, description="who holds the first link: world, nobody or the name of an entity")
+    b: str = Field(NOBODY, description="whom the last link holds, likewise")
 
 
 class KeyframeWords(Words):

@@ -1,0 +1,89 @@
+"""Laying: chains of a world file, links first and then, when everybody is there, the joints between them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from carom.ecs.column import Integers
+from carom.ecs.errors import DeclarationError
+from carom.systems.chains import BALL, Course, capsule_along, hung, join_links, lay_links, refuse_lines
+from carom.systems.chains import WORLD as THE_WORLD
+from carom.worlds.errors import Path, ReportedError, WordError
+from carom.worlds.names import known
+from carom.worlds.sections import NOBODY, WORLD
+
+if TYPE_CHECKING:
+    from carom.worlds.populate import Populator
+
+BESIDE = ("grid", "keyframes", "parent")  # words that say in other ways where copies are
+
+
+class Laid(NamedTuple):
+    """A chain whose links are there."""
+
+    path: Path
+    name: str
+    course: Course
+    links: Integers
+    joint: Any
+    ends: tuple[str, str]
+
+
+class Laying:
+    """Lays chains, reporting what is wrong with each where the file says it."""
+
+    def __init__(self, populator: Populator) -> None:
+        self.populator, self.laid = populator, list[Laid]()
+
+    def add(self, path: Path, name: str | None, words: dict[str, Any]) -> None:
+        """Add the links of a chain."""
+        populator, chain, transform = self.populator, words.pop("chain"), words.pop("transform", {})
+        joint = words.pop("joint", BALL)
+        surplus = [word for word in BESIDE if word in words]
+        surplus += [f"transform.{key}" for key in transform if key != "position"]
+        if name is None:
+            populator.source.report((*path, "chain"), "has no name, after which its links are called; state name")
+            return
+        if surplus:
+            populator.source.report((*path, "chain"), f"says where its links are; remove {', '.join(surplus)}")
+            return
+        start = np.array(transform.get("position", (0.0, 0.0, 0.0)), np.float64)
+        try:
+            course = hung(populator.simulation, start, np.array(chain["end"]), chain["count"], chain.get("sag", 0.0))
+            if "collider" not in words:
+                words["collider"] = capsule_along(course, chain.get("radius"))
+        except DeclarationError as fault:
+            populator.report((*path, "chain"), str(fault))
+            return
+        try:
+            refuse_lines(joint)
+            populator.read_geometries(path, words)
+            links = lay_links(populator.simulation, name, course, **words)
+        except ReportedError:
+            return
+        except DeclarationError as fault:
+            populator.report(path, str(fault))
+            return
+        populator.places_in_file.update(dict.fromkeys(links.tolist(), path))
+        self.laid.append(Laid(path, name, course, links, joint, (chain.get("a", WORLD), chain.get("b", NOBODY))))
+
+    def join_all(self) -> None:
+        """Join the links of all chains, and their ends to whom they name."""
+        source, simulation = self.populator.source, self.populator.simulation
+        names = [WORLD, NOBODY, *simulation.world.names()]
+        for laid in self.laid:
+            held: list[str | int | None] = []
+            for side, whom in zip("ab", laid.ends, strict=True):
+                try:
+                    found = known("entity", whom, names)
+                    held.append({WORLD: THE_WORLD, NOBODY: None}.get(found, found))
+                except WordError as fault:
+                    source.report_value((*laid.path, "chain", side), fault)
+            if len(held) < 2:
+                continue
+            try:
+                join_links(simulation, laid.name, laid.course, laid.links, laid.joint, *held)
+            except DeclarationError as fault:
+                self.populator.report(laid.path, str(fault))
