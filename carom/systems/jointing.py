@@ -26,11 +26,12 @@ def join_bodies(world: World, dt: float) -> None:
         if not begins:  # at the end of a step it has been done
             linkage.hand_over(world)
         linkage.find(world)
-    if linkage.groups:
-        if begins:  # those that sleep go on bearing what they bore
-            joint, rows = world[Joint], linkage.rows
-            joint.effort[rows], joint.force[rows], joint.torque[rows], joint.limit[rows] = 0.0, 0.0, 0.0, 0
+    if linkage.groups and begins:  # those that sleep go on bearing what they bore
+        joint, rows = world[Joint], linkage.rows
+        joint.effort[rows], joint.force[rows], joint.torque[rows], joint.limit[rows] = 0.0, 0.0, 0.0, 0
+    if linkage.groups or linkage.holds:
         linkage.mark(world, dt)
+        linkage.holds = linkage.groups > 0
 
 
 @system(reads=(RigidBody, Awake, Settings), writes=(Joint, JointBreak, Linkage, Commands), when=stirs)

@@ -27,6 +27,7 @@ class Linkage(Resource):
 
     def __init__(self) -> None:
         self.groups = self.version = 0
+        self.holds = True  # bodies may be marked as held
         self.restored = -1
         self.awake = self.rows = np.zeros(0, np.int64)
         self.lanes = aligned(0, WIDTH)
@@ -65,11 +66,12 @@ class Linkage(Resource):
         )  # fmt: skip
 
     def mark(self, world: World, h: float) -> None:
-        """Count bodies as touching whose joints hold them in the next h seconds; ropes that hang slack do not."""
+        """Count bodies as touching and held by joints in the next h seconds; ropes that hang slack do not hold."""
         flight, motion = world[Flight], world[Motion]
         mark_held(
-            self.groups, self.kinds, self.asks, h, self.row, self.index_a, self.index_b, self.first, self.lanes,
-            flight.center, world[Transform].rotation, motion.linear, motion.angular, flight.felt, flight.touching,
+            self.awake, self.groups, self.kinds, self.asks, h, self.row, self.index_a, self.index_b, self.first,
+            self.lanes, flight.center, world[Transform].rotation, motion.linear, motion.angular, flight.felt,
+            flight.touching, flight.held,
         )  # fmt: skip
 
     def _reserve(self, count: int) -> None:

@@ -27,6 +27,7 @@ from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.reach import may_leave_reach
 from carom.systems.kernels.settling import finish_drift
+from carom.systems.landings import Landings
 from carom.systems.ledger import Ledger
 from carom.systems.linkage import Linkage
 from carom.systems.progress import Progress
@@ -61,7 +62,7 @@ def look_ahead(world: World, dt: float) -> None:
 
 @system(
     reads=(RigidBody, Transform, Motion, Settings, Threads, Awake, Linkage),
-    writes=(Contact, Flight, Progress, Resting),
+    writes=(Contact, Flight, Progress, Resting, Landings),
 )
 def sort_out_contacts(world: World, dt: float) -> None:
     """Say which contacts rest in this substep; their bodies count as touching."""
@@ -70,7 +71,12 @@ def sort_out_contacts(world: World, dt: float) -> None:
     if resting.groups or world[Linkage].groups:
         resting.pack(world)
     if resting.groups:
+        landings = world[Landings] if world[Linkage].groups else None
+        if landings:
+            landings.expect(world)
         progress.resting, progress.balls_resting = resting.sort(world, dt)
+        if landings:
+            landings.find(world)
 
 
 @system(
@@ -91,11 +97,16 @@ def hold(world: World, dt: float) -> None:
         )  # fmt: skip
 
 
-@system(reads=(RigidBody, Transform, Flight, Progress, Settings, Threads, Awake), writes=(Motion, Resting, Linkage))
+@system(
+    reads=(RigidBody, Transform, Flight, Contact, Progress, Settings, Threads, Awake),
+    writes=(Motion, Resting, Linkage, Landings, Impact),
+)
 def relax(world: World, dt: float) -> None:
     """Take the speed by which overlap left out of the velocities again."""
     if world[Progress].resting or world[Linkage].groups:
         world[Resting].relax(world, dt)
+    if world[Progress].resting and world[Linkage].groups:
+        world[Landings].tell(world, dt)
 
 
 @system(reads=(Awake,), writes=(Contact, Resting), when=stirs)

@@ -109,7 +109,8 @@ class Resting(Resource):
                 self.fresh, self.asks, self.lanes, self.bodies, flight.center, world[Transform].rotation,
                 contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
                 contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
-                contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.touching,
+                contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.held,
+                flight.touching,
             )  # fmt: skip
             return found
 

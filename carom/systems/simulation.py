@@ -41,6 +41,7 @@ from carom.systems.finish import find_not_finite
 from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
 from carom.systems.interpolation import EarlierPoses
+from carom.systems.landings import Landings
 from carom.systems.layers import Layers
 from carom.systems.ledger import Ledger
 from carom.systems.linkage import Linkage
@@ -81,7 +82,7 @@ class Simulation:
         self.hearers: list[Callable[[System], None]] = []
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
         packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
-        solving = (Resting(), Ties(), Linkage(), Sensing(), Awake(), Fast(), Ledger())
+        solving = (Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger())
         caches = (*packed, *solving, Threads(), Scene(), Asked())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)

@@ -10,6 +10,7 @@ import pytest
 from carom.ecs import Motion, Transform
 from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.joint_break import JointBreak
 from carom.ecs.spatial import quaternion
 from carom.systems.energy import kinetic_energy, potential_energies
@@ -217,6 +218,31 @@ def test_joined_bodies_touch_each_other_only_if_asked(collide: bool) -> None:
     simulation.add(joint={"hinge": axis})
     simulation.step()
     assert (simulation.world.count(Contact) > 0) == collide
+
+
+def test_who_lands_on_joints_lands_with_all_of_them() -> None:
+    """Two masses on a rod that fall flat stop at once: an impact each, of all its momentum, and the rod holds."""
+    simulation = Simulation(dt=1 / 60)
+    simulation.add(name="floor", collider={"plane": {}})
+    for name, x in (("left", -0.5), ("right", 0.5)):
+        place, down = {"position": (x, 1.0, 0.0)}, {"linear": (0.0, -5.0, 0.0)}
+        simulation.add(
+            name=name, collider={"sphere": {"radius": 0.1}}, body={"mass": 2.0}, transform=place, motion=down
+        )
+    joint = simulation.add(joint={"fixed": {"a": "left", "b": "right", "at": (0.0, 1.0, 0.0)}})
+    gaps, impacts = [], []
+    for _ in range(20):
+        simulation.step()
+        gaps.append(float(simulation[joint].joint.gap))
+        impact = simulation.world[Impact]
+        impacts += [(float(impact.speed[row]), float(impact.impulse[row])) for row in range(impact.count)]
+    speed = float(np.sqrt(25.0 + 2.0 * G * 0.9))
+    assert len(impacts) == 2
+    for closed, impulse in impacts:  # those of a substep: it is closed when the substep begins or ends
+        assert closed == pytest.approx(speed, abs=G / 240)
+        assert impulse == pytest.approx(2.0 * speed, abs=2.0 * 2.0 * G / 240)
+    assert max(gaps) < 1e-4
+    assert simulation["left"].motion.linear == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
 
 
 def links_asleep() -> tuple[Simulation, list[int]]:

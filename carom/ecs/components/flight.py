@@ -19,6 +19,7 @@ class Flight(Component):
     touching: Booleans = column(
         unit="1", doc="in resting contact, so stepped semi-implicitly", dtype="bool", role="derived"
     )
+    held: Booleans = column(unit="1", doc="held by a joint in this substep", dtype="bool", role="derived")
     start_position: Floats = column(3, unit="m", doc="origin at the start of the substep", role="derived")
     start_rotation: Floats = column(4, unit="1", doc="rotation at the start of the substep", role="derived")
     start_linear: Floats = column(3, unit="m/s", doc="velocity at the start of the substep", role="derived")

@@ -16,6 +16,8 @@ class Impact(Relation):
     speed: Floats = column(unit="m/s", doc="closing speed along the normal", role="derived")
     impulse: Floats = column(unit="N s", doc="normal impulse", role="derived")
     work: Floats = column(
-        unit="J", doc="energy that the bodies gained, friction included; below 0: lost", role="derived"
+        unit="J",
+        doc="energy that the bodies gained, friction included; below 0: lost; 0 for who is on a joint",
+        role="derived",
     )
     friction_impulse: Floats = column(3, unit="N s", doc="friction impulse on b, world frame", role="derived")

@@ -15,8 +15,8 @@ from carom.systems.kernels.spatial import plane_axes
 # frame, which is two tangents and the normal, each the cross product of the other two; friction, restitution,
 # resistance to rolling and spinning (m), 1 where it is of a ball on an exact arc (2 where the group is of two balls
 # each), one by its points, and the impulses: friction along the tangents, spinning, rolling, and friction summed over
-# the step; then the velocity of b's surface against a's; 1 where it rests, and where it did before; the middle of the
-# points from both bodies, in the frame.
+# the step; then the velocity of b's surface against a's; 1 where it rests, and where it did before (2 on a joint);
+# the middle of the points from both bodies, in the frame.
 TANGENT, NORMAL, FRICTION, RESTITUTION, ROLLING, SPINNING, BALL, SHARE = 0, 6, 9, 10, 11, 12, 13, 14
 RUB, SPUN, ROLLED, RUBBED, SURFACE, RESTS, TOGETHER, MIDDLE_A, MIDDLE_B, FILLED = 15, 17, 18, 21, 24, 27, 28, 29, 32, 35
 # Then what follows from where the bodies are: inverse masses along the axes; how unit twists about the axes of the

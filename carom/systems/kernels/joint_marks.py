@@ -13,12 +13,15 @@ from carom.systems.kernels.lanes import WIDTH
 from carom.systems.kernels.spatial import turn
 
 
-@kernel("touching")
+@kernel("touching", "held")
 def mark_held(
-    groups, kinds, asks, h, row, index_a, index_b, first, lanes, center, rotation, linear, angular, felt, touching
-):
-    """Mark both bodies of each joint as touching, but where a line is within its limits, and stays so for h seconds."""
+    rows, groups, kinds, asks, h, row, index_a, index_b, first, lanes, center, rotation, linear, angular, felt,
+    touching, held,
+):  # fmt: skip
+    """Mark both bodies of each joint as touching and held, but where a line stays within its limits for h seconds."""
     nobody = len(touching)
+    for i in rows:
+        held[i] = False
     for g in range(groups):
         may_be_slack = kinds[g] == LINES + KINDS and asks[g] == LIMIT_BIT
         for lane in range(WIDTH):
@@ -29,9 +32,9 @@ def mark_held(
             if may_be_slack and is_slack(row[g], lane, a, b, h, lanes, center, rotation, linear, angular, felt):
                 continue
             if a >= 0:
-                touching[a] = True
+                touching[a] = held[a] = True
             if b >= 0:
-                touching[b] = True
+                touching[b] = held[b] = True
 
 
 @inlined

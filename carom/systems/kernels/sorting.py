@@ -29,7 +29,7 @@ def sort_groups(
     begin, end, h, bends, last, resting_stage, ends, index_a, index_b, first, size, points, row,
     fresh, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
-    normal, depth, point, offset_a, offset_b, resting, touching,
+    normal, depth, point, offset_a, offset_b, resting, on_joint, touching,
 ):  # fmt: skip
     """Say which manifolds rest at the start of the substep and prepare them, mark their bodies as touching.
 
@@ -57,7 +57,9 @@ def sort_groups(
             c = first[g, lane]
             if c < 0:
                 continue
-            lanes[r + of.TOGETHER, lane] = 1.0 if resting[c] else 0.0
+            a, b = index_a[g, lane], index_b[g, lane]
+            joined = (a < len(on_joint) and on_joint[a]) or (b < len(on_joint) and on_joint[b])
+            lanes[r + of.TOGETHER, lane] = 2.0 if joined else 1.0 if resting[c] else 0.0
             if measured:
                 continue
             moves = kind[c] >= 0
@@ -165,8 +167,9 @@ def find_resting(g, r, points, h, index_a, index_b, lanes, bodies):
     """
     a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
     felt_a, felt_b = gather(bodies, index_a, g, MASS_AND_FELT)[3:6], gather(bodies, index_b, g, MASS_AND_FELT)[3:6]
-    n, is_ball, together = three(lanes, r + of.NORMAL), load(lanes, r + of.BALL), load(lanes, r + of.TOGETHER)
-    zero, one = spread(0.0), spread(1.0)
+    n, together, zero, one = three(lanes, r + of.NORMAL), load(lanes, r + of.TOGETHER), spread(0.0), spread(1.0)
+    joined = together - 1.0
+    is_ball = choose(joined, zero, load(lanes, r + of.BALL))
     pressing = larger(zero, larger(dot(n, felt_a), -dot(n, felt_b)))
     # Without restitution there is no bounce to lose by resting, so that all that forces do counts.
     all_forces = root(larger(dot(felt_a, felt_a), dot(felt_b, felt_b)))
@@ -180,8 +183,10 @@ def find_resting(g, r, points, h, index_a, index_b, lanes, bodies):
         closing = -parting_at(q, lanes, parting)
         gap = -load(lanes, q + of.DEPTH)
         after = gap - closing * h - pressing * (0.5 * h * h)
-        # What forces kept together before or is inside one another, and does not bounce, rests however fast it closes.
-        bounces = choose(larger(choose(all_forces, together, zero), -SLOP - gap), restitution, one)
+        # What forces kept together before, is on a joint or inside one another, and does not bounce, rests however
+        # fast it closes.
+        known = larger(choose(all_forces, together, zero), joined)
+        bounces = choose(larger(known, -SLOP - gap), restitution, one)
         striking = choose(after, striking, choose(bounces, larger(striking, closing - limit), striking))
         touching = smaller(TOUCH - gap, -after)
         near = larger(near, choose(is_ball, touching, choose(gap - SLOP, zero, spread(SLOP)) - after))
