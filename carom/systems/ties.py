@@ -23,7 +23,7 @@ class Ties(Resource):
         self.structure, self.version = -1, 0
         nobody: Integers = np.zeros(0, np.int64)
         self.rows = self.row_a = self.row_b = self.body_a = self.body_b = nobody
-        self.restless = self.keys = nobody
+        self.restless = self.apart = self.keys = nobody
 
     def now(self, world: World) -> Ties:
         """Return the ties, found anew where entities have come or gone."""
@@ -45,14 +45,19 @@ class Ties(Resource):
         turns = ((joint.speed[self.rows] != 0.0) & joint.driven[self.rows]).any(axis=1)
         self.restless = _bodies(self.body_a[turns], self.body_b[turns])
         apart = ~joint.collide[self.rows]
-        owners = (np.where(body >= 0, body, row) for body, row in ((body_a, row_a), (body_b, row_b)))
-        self.keys = np.unique(_keys(*(of[there][apart] for of in owners)))
+        ends = (np.where(body >= 0, body, row) for body, row in ((self.body_a, self.row_a), (self.body_b, self.row_b)))
+        self.apart = np.where(apart, _keys(*ends), -1)
+        self.keys = np.unique(self.apart[apart])
         return not (np.array_equal(before[0], self.body_a) and np.array_equal(before[1], self.body_b))
 
     @property
     def bodies(self) -> Integers:
         """The bodies that are held, in order."""
         return _bodies(self.body_a, self.body_b)
+
+    def keeping_apart(self, a: int, b: int) -> Integers:
+        """Return the joints (rows) that keep two bodies, or what stands, given by their rows, from touching."""
+        return np.asarray(self.rows[self.apart == _keys(np.array(a), np.array(b))])
 
     def without_joined(self, world: World, pairs: Integers) -> Integers:
         """Return ``pairs`` (n, 2) of collider rows without those that joints keep from touching each other."""

@@ -13,6 +13,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.joint_break import JointBreak
 from carom.ecs.spatial import quaternion
+from carom.systems.detection.why import why_no_contact
 from carom.systems.energy import kinetic_energy, potential_energies
 from carom.systems.simulation import Simulation
 
@@ -215,9 +216,11 @@ def test_joined_bodies_touch_each_other_only_if_asked(collide: bool) -> None:
             name=name, collider={"box": {"size": (1.0, 0.2, 0.2)}}, body={}, transform={"position": (x, 0, 0)}
         )
     axis = {"a": "left", "b": "right", "at": (0.0, 0.0, 0.0), "axis": (0.0, 0.0, 1.0), "collide": collide}
-    simulation.add(joint={"hinge": axis})
+    simulation.add(name="pin", joint={"hinge": axis})
     simulation.step()
     assert (simulation.world.count(Contact) > 0) == collide
+    kept = "'left' and 'right' are held by 'pin', which keeps them from touching; its word collide lets them"
+    assert (why_no_contact(simulation, "left", "right") == kept) != collide
 
 
 def test_who_lands_on_joints_lands_with_all_of_them() -> None:

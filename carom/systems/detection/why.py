@@ -19,6 +19,7 @@ from carom.systems.kernels.islands import moves
 from carom.systems.layers import Layers
 from carom.systems.settings import Settings
 from carom.systems.shapes.plane import Plane
+from carom.systems.ties import Ties
 
 if TYPE_CHECKING:
     from carom.systems.simulation import Simulation
@@ -29,7 +30,7 @@ DOUBLINGS = 60  # of the reach, in search of the nearest points of a pair that d
 def why_no_contact(of: World | Simulation, a: int | str, b: int | str) -> str:
     """Say why the next step finds no contact of two entities (handles or names), or that it finds one.
 
-    Layers, bounds and shapes are asked in this order at the present poses; the first that keeps them apart is told, and
+    Layers, joints, bounds and shapes are asked in this order at the present poses; the first that keeps them apart is told, and
     whether they sleep.
     """
     world = of if isinstance(of, World) else of.world
@@ -98,6 +99,10 @@ class _Pair:
                 accepted = ", ".join(f"'{name}'" for name, bit in bits.items() if bit & mask) or "nobody"
                 refusal = f"which {self.names[other]} does not accept; it accepts {accepted}"
                 return f"{self.names[one]} is on layer '{on}', {refusal}"
+        owners = [body if body >= 0 else row for body, row in zip(self.bodies, self.rows, strict=True)]
+        for joint in self.world[Ties].now(self.world).keeping_apart(*owners):
+            held_by = self.world.name(self.world.entity(joint))
+            return f"{a} and {b} are held by '{held_by}', which keeps them from touching; its word collide lets them"
         if self.collider.sensor[self.rows].all():
             return f"{a} and {b} are both sensors, which do not notice each other"
         return ""
