@@ -15,6 +15,7 @@ from carom.tools.witness import Witness
 from carom.worlds import LoadedWorld, library, load_text, load_world
 from carom.worlds.expectation import Outcome
 
+JOINTED = ("spring_mass", "door", "double_pendulum", "spinning_top", "slider_crank", "newtons_cradle", "robot_arm")
 WEIGHT = r"gravity: \[0, (-[\d.]+), 0\]"
 
 
@@ -82,6 +83,16 @@ def test_expectations_hold(name: str, collision: str) -> None:
         ("orbit", r"mass: (100)\b", 1.05, 0.0),
         ("orbit", r"mass: (1)\b", 1.05, 0.0),
         ("orbit", r"constant: ([\d.]+)", 1.01, 0.0),
+        *[(name, WEIGHT, 1.01, 0.0) for name in JOINTED],
+        *[("spring_mass", rf"mass: ({mass})", 1.05, 0.0) for mass in ("1(?=}, material)", "1(?=, gravity)", "3")],
+        ("door", r"mass: (30)", 1.05, 0.0),
+        ("door", r"restitution: (0\.5)", 1.0, 0.1),
+        *[("double_pendulum", rf"mass: ({mass})}}", 1.05, 0.0) for mass in ("1", r"0\.6")],
+        ("spinning_top", r"mass: (1),", 1.05, 0.0),
+        *[("slider_crank", rf"mass: ({mass}),", 1.05, 0.0) for mass in ("3", r"0\.5", "2")],
+        ("newtons_cradle", r"mass: (0\.5)", 1.05, 0.0),
+        ("newtons_cradle", r"restitution: (1)", 1.0, -0.1),
+        *[("robot_arm", rf"mass: ({mass})}}", 1.05, 0.0) for mass in (12, 4, 2, 3)],
     ],
 )  # fmt: skip
 def test_a_quantity_that_is_off_is_noticed(name: str, pattern: str, factor: float, offset: float) -> None:
