@@ -30,8 +30,8 @@ DOUBLINGS = 60  # of the reach, in search of the nearest points of a pair that d
 def why_no_contact(of: World | Simulation, a: int | str, b: int | str) -> str:
     """Say why the next step finds no contact of two entities (handles or names), or that it finds one.
 
-    Layers, joints, bounds and shapes are asked in this order at the present poses; the first that keeps them apart is told, and
-    whether they sleep.
+    Layers, joints, bounds and shapes are asked in this order at the present poses; the first that keeps them apart is
+    told, and whether they sleep.
     """
     world = of if isinstance(of, World) else of.world
     handles = [world.find(one) if isinstance(one, str) else int(one) for one in (a, b)]
