@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from carom.ecs.spatial import quaternion
-from carom.tools.bench import contact_scenes, contacts
+from carom.tools.bench import contact_scenes, contacts, race
 from carom.tools.bench.contact_scenes import Scene, at_rest, bin_walls
-from carom.tools.bench.contacts import ROWS, Row, compare, quality, stepped
+from carom.tools.bench.contacts import ROWS, Row, compare, quality
 from carom.tools.bench.engines import Carom, rotation_vector
 from carom.tools.bench.overlap import box_overlap, lost, mean_overlap
+from carom.tools.bench.race import stepped
 
 
 @pytest.mark.parametrize(
@@ -109,6 +110,9 @@ def test_engines_take_turns() -> None:
         def poses(self) -> Any:
             raise NotImplementedError
 
+        def velocities(self) -> Any:
+            raise NotImplementedError
+
     timings = stepped([Told("a"), Told("b")], 24)
     assert "".join(order) == "a" * 10 + "b" * 10 + "a" * 10 + "b" * 10 + "a" * 4 + "b" * 4
     assert [timing.repeats for timing in timings] == [8, 8]
@@ -122,7 +126,7 @@ def test_a_scene_is_told_with_its_bounds(monkeypatch: pytest.MonkeyPatch) -> Non
         made.walls = bin_walls(10.0, 5.0)
         return made
 
-    monkeypatch.setattr(contacts, "ENGINES", {"carom": Carom, "json": Carom})  # a module that is always there
+    monkeypatch.setattr(race, "ENGINES", {"carom": Carom, "json": Carom})  # a module that is always there
     monkeypatch.setattr(contacts, "PEERS", ("json",))
     monkeypatch.setitem(ROWS, "two", Row(scene, 4.0, overlap=0.003, drift=0.1))
     figures = list(compare("two"))

@@ -9,6 +9,7 @@ BENCHES = {  # name on the command line: module
     "ecs": "table",
     "detect": "detect",
     "contacts": "contacts",
+    "joints": "joints",
     "motion": "motion",
     "render": "render",
     "record": "record",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,12 +17,21 @@ BALL = 0.5  # m, radius
 Wall = tuple[Floats, Floats]
 
 
+class Joints(NamedTuple):
+    """Ball joints: body ``b`` (m,) held by body ``a`` (m,), -1 for the world, at points (m, 3) where all begins."""
+
+    a: Integers
+    b: Integers
+    at: Floats
+
+
 @dataclass
 class Scene:
     """Bodies as arrays, each a ball or a box, and what stands still around them.
 
-    ``half`` (n, 3) has the half edges of boxes, m, and a ball's radius three times. ``walls`` are boxes along the axes
-    by centre and half edges, ``land`` the vertices and faces of ground that rises to ``height(x, y)``.
+    ``half`` (n, 3) has the half edges of boxes, m, and a ball's radius three times; a ball that is longer along y is a
+    capsule. ``walls`` are boxes along the axes by centre and half edges, ``land`` the vertices and faces of ground that
+    rises to ``height(x, y)``. Bodies with ``joints`` pass through everybody.
     """
 
     steps: int
@@ -33,6 +43,7 @@ class Scene:
     angular: Floats
     walls: tuple[Wall, ...] = ()
     land: tuple[Floats, Integers] | None = None
+    joints: Joints | None = None
 
     @property
     def count(self) -> int:

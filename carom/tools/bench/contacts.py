@@ -6,20 +6,18 @@ import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from importlib.util import find_spec
 from math import inf
-from statistics import median
 
 import numpy as np
 
 from carom.tools.bench import contact_scenes as scenes
 from carom.tools.bench.contact_scenes import Scene
 from carom.tools.bench.engines import ENGINES, Engine
-from carom.tools.bench.measure import By, Figure, Timing, figure, timed, timed_process
+from carom.tools.bench.measure import Figure, figure, timed, timed_process
 from carom.tools.bench.overlap import lost, mean_overlap
+from carom.tools.bench.race import OURS, race
 
-PEERS, OURS = ("rapier3d",), "carom"
-TURN = 10  # steps of one engine before it is another's turn: the first of them find a cold cache
+PEERS = ("rapier3d",)
 READ, READS = 10_000, 101
 FIRST_STEP = """
 from carom.systems.simulation import Simulation
@@ -68,29 +66,9 @@ def figures() -> Iterator[Figure]:
 def compare(name: str) -> Iterator[Figure]:
     """Step a scene by all engines that are installed, and tell what each took and what became of the bodies."""
     row, scene = ROWS[name], ROWS[name].scene()
-    there = {engine: make for engine, make in ENGINES.items() if engine == OURS or find_spec(engine)}
-    found = {engine: make(scene, row.threads) for engine, make in there.items()}
-    taken = dict(zip(found, stepped(list(found.values()), scene.steps), strict=True))
-    ours = taken[OURS]
-    for engine, theirs in taken.items():
-        yield figure(f"{name}, {engine}", "ms a step", theirs, inf, 1e3)
-        if engine != OURS:
-            wall, cpu = ours.wall / theirs.wall, ours.cpu / theirs.cpu
-            bound = row.ratio if engine in PEERS else inf
-            by: By = "cpu" if row.threads == 1 else "wall"
-            yield Figure(f"{name}, {OURS} by {engine}", "x", wall, cpu, bound, by, repeats=ours.repeats)
+    found = yield from race(name, scene, PEERS, row.ratio, row.threads)
     for engine, stood in found.items():
         yield from quality(f"{name}, {engine}", row, scene, stood, bounded=engine == OURS)
-
-
-def stepped(engines: list[Engine], steps: int) -> list[Timing]:
-    """Step all, in turns; return the median of each over the last third of its steps, when what falls has settled."""
-    taken: list[list[Timing]] = [[] for _ in engines]
-    for first in range(0, steps, TURN):
-        for engine, timings in zip(engines, taken, strict=True):
-            timings.extend(timed(engine.step, 1) for _ in range(min(TURN, steps - first)))
-    kept = [timings[-(steps // 3) :] for timings in taken]
-    return [Timing(median(t.wall for t in tail), median(t.cpu for t in tail), len(tail)) for tail in kept]
 
 
 def quality(name: str, row: Row, scene: Scene, engine: Engine, *, bounded: bool) -> Iterator[Figure]:

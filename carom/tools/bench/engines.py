@@ -8,11 +8,13 @@ from typing import Any, Protocol
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform
-from carom.ecs.column import Floats
+from carom.ecs.column import Floats, Integers
+from carom.systems.joints.many import join_many
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.simulation import Simulation
-from carom.tools.bench.contact_scenes import Scene
+from carom.tools.bench.contact_scenes import Joints, Scene
+from carom.tools.bench.joint_gaps import anchors
 
 DT, GRAVITY, FRICTION, DENSITY = 1.0 / 60.0, 9.81, 0.5, 1000.0
 ROUGH = {"friction": FRICTION, "restitution": 0.0, "density": DENSITY}
@@ -27,6 +29,9 @@ class Engine(Protocol):
 
     def poses(self) -> tuple[Floats, Floats]:
         """Return copies of all positions (n, 3) and rotations (n, 4)."""
+
+    def velocities(self) -> tuple[Floats, Floats]:
+        """Return copies of all velocities of centres of mass and angular velocities (n, 3), world frame."""
 
 
 class Carom:
@@ -43,17 +48,27 @@ class Carom:
             vertices, faces = scene.land
             field = HeightField(Geometry(vertices[:, [0, 2, 1]] * [1.0, 1.0, -1.0], faces))
             simulation.add(collider={"shape": field}, material=ROUGH, transform={"rotation": UPRIGHT})
-        for k in range(scene.count):
-            half = scene.half[k]
+        bodies = [
             simulation.add(
-                collider={"sphere": {"radius": half[0]}} if scene.ball[k] else {"box": {"size": 2.0 * half}},
+                collider={**shape_of(scene, k), "layer": "none" if scene.joints else "default"},
                 body={},
                 material=ROUGH,
                 transform={"position": scene.position[k], "rotation": scene.rotation[k]},
                 motion={"linear": scene.linear[k], "angular": scene.angular[k]},
                 visual=False,
             )
+            for k in range(scene.count)
+        ]
+        if scene.joints:
+            self._join(np.array(bodies, np.int64), scene.joints)
         self.rows = simulation.world.rows(RigidBody, Motion)
+
+    def _join(self, bodies: Integers, joints: Joints) -> None:
+        a, b, at = joints
+        for k in np.nonzero(a < 0)[0]:
+            self.simulation.add(joint={"ball": {"b": int(bodies[b[k]]), "at": at[k]}})
+        between = a >= 0
+        join_many(self.simulation.world, {"ball": {}}, bodies[a[between]], bodies[b[between]], at[between])
 
     def step(self) -> None:
         """Step by dt."""
@@ -63,6 +78,19 @@ class Carom:
         """Return copies of all positions (n, 3) and rotations (n, 4)."""
         transform = self.simulation.world[Transform]
         return np.array(transform.position[self.rows]), np.array(transform.rotation[self.rows])
+
+    def velocities(self) -> tuple[Floats, Floats]:
+        """Return copies of all velocities of centres of mass and angular velocities (n, 3), world frame."""
+        motion = self.simulation.world[Motion]
+        return np.array(motion.linear[self.rows]), np.array(motion.angular[self.rows])
+
+
+def shape_of(scene: Scene, k: int) -> dict[str, Any]:
+    """Return the words of body k's collider."""
+    x, y, _ = half = scene.half[k]
+    if not scene.ball[k]:
+        return {"box": {"size": 2.0 * half}}
+    return {"capsule": {"radius": x, "length": 2.0 * (y - x)}} if y > x else {"sphere": {"radius": x}}
 
 
 class Rapier:
@@ -81,6 +109,8 @@ class Rapier:
             vertices, faces = scene.land
             self.world.add_collider(shape.trimesh(vertices.astype(np.float32), faces.astype(np.uint32), **rough))
         self.handles = [self._add(rapier3d, scene, k, rough) for k in range(scene.count)]
+        if scene.joints:
+            self._join(rapier3d, scene, scene.joints)
 
     def _add(self, rapier3d: Any, scene: Scene, k: int, rough: dict[str, float]) -> Any:
         half, shape = scene.half[k].tolist(), rapier3d.Collider
@@ -90,9 +120,22 @@ class Rapier:
             angvel=scene.angular[k].tolist(),
             can_sleep=False,
         )
-        solid = shape.ball(half[0], **rough) if scene.ball[k] else shape.cuboid(*half, **rough)
+        if not scene.ball[k]:
+            solid = shape.cuboid(*half, **rough)
+        elif half[1] > half[0]:
+            solid = shape.capsule_y(half[1] - half[0], half[0], **rough)
+        else:
+            solid = shape.ball(half[0], **rough)
+        if scene.joints:
+            solid = solid.collision_groups(rapier3d.InteractionGroups.none())
         body = body.rotation(tuple(rotation_vector(scene.rotation[k]).tolist()))
         return self.world.add_body(body, colliders=[solid.density(DENSITY)])
+
+    def _join(self, rapier3d: Any, scene: Scene, joints: Joints) -> None:
+        stands = self.world.add_body(rapier3d.RigidBody.fixed())
+        for a, b, on_a, on_b in zip(joints.a.tolist(), joints.b.tolist(), *anchors(scene, joints), strict=True):
+            ball = rapier3d.SphericalJointBuilder().local_anchor1(tuple(on_a)).local_anchor2(tuple(on_b))
+            self.world.impulse_joints.insert(self.handles[a] if a >= 0 else stands, self.handles[b], ball.build())
 
     def step(self) -> None:
         """Step by dt."""
@@ -104,6 +147,13 @@ class Rapier:
         found = [(body.translation, body.rotation) for body in (bodies[handle] for handle in self.handles)]
         position = np.array([(place.x, place.y, place.z) for place, _ in found])
         return position, np.array([(turn.i, turn.j, turn.k, turn.w) for _, turn in found])
+
+    def velocities(self) -> tuple[Floats, Floats]:
+        """Return copies of all velocities of centres of mass and angular velocities (n, 3), world frame."""
+        bodies = self.world.rigid_bodies
+        found = [(body.linvel, body.angvel) for body in (bodies[handle] for handle in self.handles)]
+        linear, angular = (np.array([(v.x, v.y, v.z) for v in of]) for of in zip(*found, strict=True))
+        return linear, angular
 
 
 def rotation_vector(rotation: Floats) -> Floats:

@@ -1,0 +1,46 @@
+"""Race: one scene stepped by all engines in turns, so that what else the machine does meets all alike."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Sequence
+from importlib.util import find_spec
+from math import inf
+from statistics import median
+
+from carom.tools.bench.contact_scenes import Scene
+from carom.tools.bench.engines import ENGINES, Engine
+from carom.tools.bench.measure import By, Figure, Timing, figure, timed
+
+OURS = "carom"
+TURN = 10  # steps of one engine before it is another's turn: the first of them find a cold cache
+
+
+def race(
+    name: str, scene: Scene, peers: Sequence[str], ratio: float, threads: int = 1
+) -> Generator[Figure, None, dict[str, Engine]]:
+    """Yield what a step takes each engine that is installed, and us by each; return the engines as they are then.
+
+    Time by that of ``peers`` is at most ``ratio``: of the processor, of more threads than one on the wall.
+    """
+    there = {engine: make for engine, make in ENGINES.items() if engine == OURS or find_spec(engine)}
+    found = {engine: make(scene, threads) for engine, make in there.items()}
+    taken = dict(zip(found, stepped(list(found.values()), scene.steps), strict=True))
+    ours = taken[OURS]
+    for engine, theirs in taken.items():
+        yield figure(f"{name}, {engine}", "ms a step", theirs, inf, 1e3)
+        if engine != OURS:
+            wall, cpu = ours.wall / theirs.wall, ours.cpu / theirs.cpu
+            bound = ratio if engine in peers else inf
+            by: By = "cpu" if threads == 1 else "wall"
+            yield Figure(f"{name}, {OURS} by {engine}", "x", wall, cpu, bound, by, repeats=ours.repeats)
+    return found
+
+
+def stepped(engines: list[Engine], steps: int) -> list[Timing]:
+    """Step all, in turns; return the median of each over the last third of its steps, when what falls has settled."""
+    taken: list[list[Timing]] = [[] for _ in engines]
+    for first in range(0, steps, TURN):
+        for engine, timings in zip(engines, taken, strict=True):
+            timings.extend(timed(engine.step, 1) for _ in range(min(TURN, steps - first)))
+    kept = [timings[-(steps // 3) :] for timings in taken]
+    return [Timing(median(t.wall for t in tail), median(t.cpu for t in tail), len(tail)) for tail in kept]
