@@ -9,8 +9,10 @@ from pathlib import Path
 import pytest
 
 from carom.tools.cli import parser
+from carom.worlds import load_text
 
 PAGES = sorted((Path(__file__).resolve().parents[1] / "docs").glob("*.md"))
+WITH_WORLDS = [page for page in PAGES if "```yaml\ncarom:" in page.read_text()]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -23,6 +25,15 @@ def test_the_python_of_a_page_runs(page: Path, capsys: pytest.CaptureFixture[str
         exec(compile(block, str(page), "exec"), names)
     told = re.findall(r"^```text\n(.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL)
     assert capsys.readouterr().out == "".join(told)
+
+
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if "```yaml\ncarom:" in page.read_text()], ids=lambda p: p.stem
+)
+def test_the_worlds_of_a_page_are_worlds(page: Path) -> None:
+    """Every whole world file that a page shows can be read, with all that it expects."""
+    for block in re.findall(r"^```yaml\n(carom:.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL):
+        load_text(block, page.name)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

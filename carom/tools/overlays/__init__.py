@@ -1,6 +1,6 @@
 """Overlays, one file each; importing this package fills their registry."""
 
-from carom.tools.overlays import axes, bounds, contacts, forces, labels, stamp, trails, velocities, wireframe
+from carom.tools.overlays import axes, bounds, contacts, forces, joints, labels, stamp, trails, velocities, wireframe
 from carom.tools.overlays.overlay import OVERLAYS, Overlay
 
 __all__ = [
@@ -10,6 +10,7 @@ __all__ = [
     "bounds",
     "contacts",
     "forces",
+    "joints",
     "labels",
     "stamp",
     "trails",
