@@ -57,10 +57,10 @@ def wake_disturbed(world: World, dt: float) -> None:
     if not changes and not awake.asked and awake.idle:
         return
     awake.find(world)
-    ties, held = world[Ties], world[Ties].bodies
-    joined = Joint in changes.edited
-    if (joined or changes.structure or changes.restored) and ties.find(world):
-        joined |= not changes.restored
+    ties, joined = world[Ties], Joint in changes.edited
+    if joined or changes.structure or changes.restored:
+        held = ties.bodies
+        joined |= ties.find(world) and not changes.restored
     if changes.restored:  # what snapshots do not keep
         place_frozen(world, awake.sleepers)
         locate_contacts(world)
