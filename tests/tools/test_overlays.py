@@ -283,19 +283,3 @@ def test_a_free_body_diagram_is_on_the_scale_of_the_weight() -> None:
     assert isinstance(arrows, Arrows) and isinstance(labels, Labels)
     assert np.linalg.norm(arrows.ends - arrows.starts, axis=1).max() == pytest.approx(0.4 * TALL)
     assert labels.texts[0].startswith("normal ") and labels.texts[0].endswith(" kN")
-
-
-def test_joints_are_lines_from_anchor_to_anchor_and_dots_where_they_hold() -> None:
-    """Ropes and springs lead from a to b, whoever they are, before any step too; a hinge is where its b is held."""
-    simulation = Simulation()
-    simulation.add(name="post", transform={"position": (0.0, 3.0, 0.0)})
-    simulation.add(name="ball", body={"mass": 1.0}, transform={"position": (1.0, 2.0, 0.0)})
-    simulation.add(joint={"hinge": {"b": "ball", "at": (4.0, 0.0, 0.0), "axis": (0, 0, 1)}})
-    simulation.add(joint={"rope": {"a": "post", "b": "ball", "anchor_a": (0, -1, 0), "anchor_b": (0, 0, 1)}})
-    simulation.add(spring={"b": simulation.world.find("ball"), "anchor_a": (7.0, 7.0, 7.0)})
-    lines, points = marks("joints", simulation)
-    assert isinstance(lines, Lines) and isinstance(points, Points)
-    assert lines.starts.tolist() == [[0.0, 2.0, 0.0], [7.0, 7.0, 7.0]]
-    assert lines.ends.tolist() == [[1.0, 2.0, 1.0], [1.0, 2.0, 0.0]]
-    assert points.positions.tolist() == [[4.0, 0.0, 0.0]]
-    assert [len(mark[0]) for mark in marks("joints", Simulation())[:2]] == [0, 0]  # type: ignore[arg-type]

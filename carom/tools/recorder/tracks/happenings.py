@@ -1,4 +1,4 @@
-"""Happenings: impacts, and sensors entered and left, as lines of a log at the simulated time they happened."""
+"""Happenings: impacts, sensors entered and left and joints that break, as lines of a log at their simulated times."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from carom.ecs import World
 from carom.ecs.column import Integers
 from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
+from carom.ecs.relations.joint_break import JointBreak
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.stream import TIME, Stamp, Stream
@@ -36,7 +37,7 @@ class Happenings(Track):
         layout.texts.append(rrb.TextLogView(origin=PATH, name="Log", columns=columns))
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
-        """Keep a line for each impact, and each sensor entered or left in the last step."""
+        """Keep a line for each impact, sensor entered or left, and joint broken in the last step."""
         world = simulation.world
         impact = world[Impact]
         rows = self._kept(world, impact.a[: impact.count], impact.b[: impact.count])
@@ -48,10 +49,18 @@ class Happenings(Track):
             self._pending.append((Stamp(stamp.frame, time), "DEBUG", text))
         if len(rows) > MOST_LINES:
             self._pending.append((stamp, "DEBUG", f"{len(rows) - MOST_LINES} more impacts in this step"))
+        self._tell_breaks(world, stamp)
         for table, crosses in ((world[Enter], "enters"), (world[Exit], "leaves")):
             for row in self._kept(world, table.entity[: table.count], table.sensor[: table.count]).tolist():
                 text = f"{world.name(int(table.entity[row]))} {crosses} {world.name(int(table.sensor[row]))}"
                 self._pending.append((Stamp(stamp.frame, float(table.time[row])), "INFO", text))
+
+    def _tell_breaks(self, world: World, stamp: Stamp) -> None:
+        broken = world[JointBreak]
+        rows = self._kept(world, broken.a[: broken.count], broken.b[: broken.count])
+        names = world.names_told(broken.joint[rows])
+        for name, force, torque in zip(names, broken.force[rows], broken.torque[rows], strict=True):
+            self._pending.append((stamp, "WARN", f"{name} breaks under {force:.3g} N and {torque:.3g} N m"))
 
     def _kept(self, world: World, a: Integers, b: Integers) -> Integers:
         """Return the rows of a table of pairs in which somebody is chosen."""
