@@ -19,7 +19,7 @@ from carom.worlds.joint_terms import TURNS, WAYS, readings, spelled_out
 from carom.worlds.names import matching
 from carom.worlds.pictures import QUESTIONS, Pictures, check_drawn, read_camera
 
-NAME_PATTERN = r"[^\W\d][\w*-]*(?:\[[\d,*]*\])?"
+NAME_PATTERN = r"[^\W\d][\w*-]*(?:(?:\.\w+)*\[[\d,*]*\])?"  # rain[3,0,1], and rope.joint[2] of a chain
 COLUMN_TERM = re.compile(rf"({NAME_PATTERN})\.([\w.]+)")
 CALL_TERM = re.compile(r"(\w+)\s*\(([^()]*)\)")
 TERM_PATTERN = rf"\w+\s*\([^()]*\)|{NAME_PATTERN}(?:\.[\w.]+)?"

@@ -18,11 +18,14 @@ from carom.worlds import load_world
         ("camera_follow", 60),
         ("cannon", 240),
         ("dominoes", 1200),
+        ("double_pendulum", 480),
         ("jump", 78),
         ("line_of_sight", 600),
         ("mirror_room", 120),
+        ("newtons_cradle", 480),
         ("pong", 60),
         ("trap", 420),
+        ("whip", 240),
     ],
 )
 def test_a_world_leads_where_it_led_before(world: str, frames: int, carom_snapshot: Any) -> None:

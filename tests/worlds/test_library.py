@@ -15,7 +15,18 @@ from carom.tools.witness import Witness
 from carom.worlds import LoadedWorld, library, load_text, load_world
 from carom.worlds.expectation import Outcome
 
-JOINTED = ("spring_mass", "door", "double_pendulum", "spinning_top", "slider_crank", "newtons_cradle", "robot_arm")
+JOINTED = (
+    "spring_mass",
+    "door",
+    "double_pendulum",
+    "spinning_top",
+    "slider_crank",
+    "newtons_cradle",
+    "robot_arm",
+    "chain",
+    "whip",
+    "bridge",
+)
 WEIGHT = r"gravity: \[0, (-[\d.]+), 0\]"
 
 
@@ -92,6 +103,12 @@ def test_expectations_hold(name: str, collision: str) -> None:
         *[("slider_crank", rf"mass: ({mass}),", 1.05, 0.0) for mass in ("3", r"0\.5", "2")],
         ("newtons_cradle", r"mass: (0\.5)", 1.05, 0.0),
         ("newtons_cradle", r"restitution: (1)", 1.0, -0.1),
+        *[("chain", rf"mass: ({mass})}}\n    material: {look}", 1.05, 0.0)
+          for mass, look in ((r"0\.5", "gold"), (r"0\.5", "iron"))],
+        ("chain", r"mass: (50)", 1.05, 0.0),
+        ("whip", r"mass: (0\.1)}\n    material", 1.05, 0.0),
+        ("bridge", r"mass: (15)", 1.05, 0.0),
+        ("bridge", r"mass: (60)", 1.05, 0.0),
         *[("robot_arm", rf"mass: ({mass})}}", 1.05, 0.0) for mass in (12, 4, 2, 3)],
     ],
 )  # fmt: skip
