@@ -8,7 +8,6 @@ from carom.ecs import BodyType, Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial import quaternion
 from carom.systems.forces.law import Forces
-from carom.systems.forces.mutual_gravitation import MutualGravitation
 from carom.systems.forces.springs import spring_energy
 from carom.systems.kernels.observing import find_kinetic_energies, find_weights
 from carom.systems.settings import Settings
@@ -44,7 +43,7 @@ def kinetic_energy(world: World) -> float:
 
 
 def potential_energies(world: World) -> dict[str, float]:
-    """Return -s m g.x summed, -G m1 m2 / r (softened as the force is) and k (l - l0)^2 / 2, in J, by their forces.
+    """Return -s m g.x summed, k (l - l0)^2 / 2 and what force laws have, in J, by their forces.
 
     The scale s is what each body makes of gravity.
     """
@@ -55,25 +54,19 @@ def potential_energies(world: World) -> dict[str, float]:
         find_weights(
             rows, body.mass, body.gravity_scale, body.center_of_mass, pose.position, pose.rotation, gravity, weights
         )
-    laws = world[Forces].acting(MutualGravitation, world)
-    return {
-        "gravity": float(weights.sum()),
-        MutualGravitation.key: sum(_attraction_energy(world, acting, law) for law, acting in laws),
-        "springs": spring_energy(world),
-    }
+    energies = {"gravity": float(weights.sum()), "springs": spring_energy(world)}
+    for kind in world[Forces].entries:
+        if kind.conservative:
+            acting = world[Forces].acting(kind, world)
+            energies[kind.key] = sum(
+                law.energy(world[RigidBody].mass[rows], centers_of_mass(world, rows)) for law, rows in acting
+            )
+    return energies
 
 
 def potential_energy(world: World) -> float:
     """Return the energy of all `potential_energies` in J."""
     return sum(potential_energies(world).values())
-
-
-def _attraction_energy(world: World, rows: Integers, law: MutualGravitation) -> float:
-    mass, center = world[RigidBody].mass[rows], centers_of_mass(world, rows)
-    first, second = np.triu_indices(len(rows), 1)
-    gap = center[first] - center[second]
-    distance = np.sqrt((gap * gap).sum(axis=1) + law.softening**2)
-    return -law.constant * float((mass[first] * mass[second] / distance).sum())
 
 
 def total_energy(world: World) -> float:

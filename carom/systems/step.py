@@ -9,12 +9,18 @@ from carom.systems.awake import stirs
 from carom.systems.detection.bounds import place_colliders
 from carom.systems.detection.contacts import find_contacts
 from carom.systems.finish import check_finite, clear_inputs
+from carom.systems.forces.attraction import apply_attraction
 from carom.systems.forces.constant_push import apply_constant_push
 from carom.systems.forces.damping import apply_damping
 from carom.systems.forces.drag import apply_linear_drag, apply_quadratic_drag
 from carom.systems.forces.gravity import apply_gravity
+from carom.systems.forces.gravity_well import apply_gravity_well
+from carom.systems.forces.lift import apply_lift
+from carom.systems.forces.magnus import apply_magnus
 from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
 from carom.systems.forces.springs import apply_springs
+from carom.systems.forces.thruster import apply_thruster
+from carom.systems.forces.vortex import apply_vortex
 from carom.systems.forces.wind import apply_wind
 from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
@@ -53,8 +59,14 @@ STEP = Schedule(
         predict,  # bodies at the middle of the substep (verlet)
         clear_forces,
         apply_wind,  # before drags, which are relative to the medium
+        apply_vortex,
         apply_gravity,
         apply_mutual_gravitation,
+        apply_gravity_well,
+        apply_attraction,
+        apply_thruster,
+        apply_lift,
+        apply_magnus,
         apply_springs,
         apply_linear_drag,
         apply_quadratic_drag,

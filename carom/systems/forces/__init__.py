@@ -1,6 +1,31 @@
 """Forces, one file each; importing this package fills the registry of laws."""
 
-from carom.systems.forces import constant_push, drag, mutual_gravitation, wind
+from carom.systems.forces import (
+    attraction,
+    constant_push,
+    drag,
+    gravity_well,
+    lift,
+    magnus,
+    mutual_gravitation,
+    thruster,
+    vortex,
+    wind,
+)
 from carom.systems.forces.law import LAWS, Forces, Law
 
-__all__ = ["LAWS", "Forces", "Law", "constant_push", "drag", "mutual_gravitation", "wind"]
+__all__ = [
+    "LAWS",
+    "Forces",
+    "Law",
+    "attraction",
+    "constant_push",
+    "drag",
+    "gravity_well",
+    "lift",
+    "magnus",
+    "mutual_gravitation",
+    "thruster",
+    "vortex",
+    "wind",
+]

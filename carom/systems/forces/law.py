@@ -8,10 +8,10 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from carom.ecs.column import Integers
+from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.rigid_body import RigidBody
-from carom.ecs.errors import EntityError
+from carom.ecs.errors import DeclarationError, EntityError
 from carom.ecs.world import World
 from carom.systems.parameters import parameter, vector
 from carom.systems.registry import enter
@@ -28,11 +28,21 @@ class Law:
 
     key: ClassVar[str] = ""
     steady: ClassVar[bool] = True  # the same as long as the body stays where it is, so that it may fall asleep
+    conservative: ClassVar[bool] = False  # it has a potential energy, see `energy`
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         if "key" in vars(cls):
             enter(LAWS, cls.key, cls, clash="force laws have the key", mend="give one of them another key")
+
+    def energy(self, mass: Floats, center: Floats) -> float:
+        """Return the potential energy (J) of bodies of these masses (n,) with these centres of mass (n, 3)."""
+        raise NotImplementedError
+
+    def refuse_unless(self, fits: bool, word: str, fault: str) -> None:
+        """Raise DeclarationError, which says what is wrong with a word, unless it fits."""
+        if not fits:
+            raise DeclarationError(f"{self.key}.{word}: {fault}")
 
 
 @dataclass

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from carom.ecs import Force, RigidBody, Transform, World, system
+from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.systems.forces.law import Forces, Law, parameter
 from carom.systems.kernels.forces import add_attraction
@@ -19,8 +22,16 @@ class MutualGravitation(Law):
 
     key: ClassVar[str] = "mutual_gravitation"
     steady: ClassVar[bool] = False
+    conservative: ClassVar[bool] = True
     constant: float = parameter(unit="m3/(kg s2)", doc="gravitational constant G", default=NEWTON, above=0.0)
     softening: float = parameter(unit="m", doc="length below which the pull no longer grows", default=0.0)
+
+    def energy(self, mass: Floats, center: Floats) -> float:
+        """Return -G m1 m2 / r of every two (J), r softened as the force is."""
+        first, second = np.triu_indices(len(mass), 1)
+        gap = center[first] - center[second]
+        distance = np.sqrt((gap * gap).sum(axis=1) + self.softening**2)
+        return -self.constant * float((mass[first] * mass[second] / distance).sum())
 
 
 @system(reads=(Forces, Transform, RigidBody), adds=(Force,))
