@@ -23,7 +23,9 @@ class Ball(AxisJoint):
         unit="rad", doc="greatest angle between the axis of a and that of b", default=None, above=0.0, most=math.pi
     )
     twist: Limits | None = bounds(unit="rad", doc="least and greatest turn of b about the axis")
-    friction: float = parameter(unit="N m", doc="greatest torque of friction", default=0.0, least=0.0)
+    friction: float = parameter(
+        unit="N m", doc="greatest torque of friction about the axis and each of two across it", default=0.0, least=0.0
+    )
 
     def needs_axis(self) -> bool:
         """Tell whether swing or twist are limited."""

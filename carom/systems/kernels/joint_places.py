@@ -147,7 +147,7 @@ def place_cone(r, lanes, x, y, z, qx, qy, qz, qw):
     swings, scale = sine - TINY, 1.0 / larger(sine, spread(TINY))
     v, w = choose(swings, -(uz * scale), spread(1.0)), choose(swings, uy * scale, spread(0.0))
     keep_turned(r, 4, lanes, x, y, z, spread(0.0), v, w)
-    keep_turned(r, 5, lanes, x, y, z, spread(0.0), spread(0.0), spread(1.0))
+    keep_turned(r, 5, lanes, x, y, z, spread(0.0), -w, v)  # square to both, for friction alone
 
 
 @woven
