@@ -50,8 +50,8 @@ class Awake(Resource):
         if self.strangers or len(world.row_numbers(Path)):
             return False
         motion, rows = world[Motion], self.rows
-        held = (world[RigidBody].inverse_mass[rows], motion.linear[rows], motion.angular[rows])
-        return not any(values.any() for values in held)
+        moving = (world[RigidBody].inverse_mass, motion.linear, motion.angular)
+        return not any(values[rows].any() for values in moving)
 
     def look(self, world: World) -> Changes:
         """Return what has changed since the last look."""

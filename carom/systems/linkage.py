@@ -17,7 +17,6 @@ from carom.systems.kernels.joint_loads import hand_joints_over
 from carom.systems.kernels.joint_marks import mark_held
 from carom.systems.kernels.joint_places import measure_joints
 from carom.systems.kernels.lanes import WIDTH, aligned
-from carom.systems.kernels.packing import pack_poses
 from carom.systems.settings import Settings
 from carom.systems.ties import Ties
 
@@ -27,6 +26,7 @@ class Linkage(Resource):
 
     def __init__(self) -> None:
         self.groups = self.version = 0
+        self.measured = False  # where bodies are packed now
         self.holds = True  # bodies may be marked as held
         self.restored = -1
         self.awake = self.rows = np.zeros(0, np.int64)
@@ -48,6 +48,7 @@ class Linkage(Resource):
         self.rows, body_a, body_b = ties.rows[here], ties.body_a[here], ties.body_b[here]
         count, nobody = len(self.rows), len(body.inverse_mass)
         self._reserve(count)
+        self.measured = False
         self.groups, lanes = group_joints(
             self.rows, body_a, body_b, body.inverse_mass, nobody,
             joint.along, joint.about, joint.mode, joint.lower, joint.driven, joint.friction,
@@ -78,10 +79,11 @@ class Linkage(Resource):
         self.kinds, self.row, self.asks = (np.empty(count, np.int64) for _ in range(3))
         self.index_a, self.index_b, self.first, self.place = (np.empty((count, WIDTH), np.int64) for _ in range(4))
 
-    def measure(self, world: World, bodies: Floats) -> None:
-        """Find where joints are, of bodies that are packed."""
-        pack_poses(self.awake, world[Flight].center, world[Transform].rotation, bodies)
-        measure_joints(self.groups, self.kinds, self.row, self.index_a, self.index_b, self.lanes, bodies)
+    def measure(self, bodies: Floats) -> None:
+        """Find where joints are, of bodies that are packed, unless that is known."""
+        if not self.measured:
+            measure_joints(self.groups, self.kinds, self.row, self.index_a, self.index_b, self.lanes, bodies)
+            self.measured = True
 
     def start_warm(self, bodies: Floats) -> None:
         """Apply the impulses of the substep before."""

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Booleans, Floats
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -20,7 +20,14 @@ from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
 from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
-from carom.systems.kernels.packing import BODY_WIDTH, pack_bodies, pack_velocities, pack_ways, unpack_velocities
+from carom.systems.kernels.packing import (
+    BODY_WIDTH,
+    pack_bodies,
+    pack_moving,
+    pack_velocities,
+    pack_ways,
+    unpack_velocities,
+)
 from carom.systems.kernels.resting import press_groups, start_warm, sum_impulses
 from carom.systems.kernels.settling import sink_contacts
 from carom.systems.kernels.sorting import sort_groups
@@ -52,6 +59,7 @@ class Resting(Resource):
         self.hearers: list[Callable[[Stage, int], None]] = []
         self.count = self.groups = self.levels = 0
         self.structure = -1  # that of the world when contacts were detected
+        self.packed: Integers | None = None  # the rows of bodies whose poses are packed: those of this step
         self.start = np.zeros(1, np.int64)
         self.bodies, self.lanes = aligned(1, BODY_WIDTH), aligned(0, WIDTH)
         self._reserve(0)
@@ -71,7 +79,7 @@ class Resting(Resource):
             self.start = np.empty(2 * points + 1, np.int64)
         self.count = find_manifolds(points, contact.row_a, contact.row_b, contact.normal, self.start)
         if len(self.bodies) != nobody + 1:
-            self.bodies = aligned(nobody + 1, BODY_WIDTH)
+            self.bodies, self.packed = aligned(nobody + 1, BODY_WIDTH), None
         if len(self.group_of) < self.count:
             self._reserve(2 * self.count)
         self.groups, rows, self.levels = group_manifolds(
@@ -90,12 +98,18 @@ class Resting(Resource):
         )  # fmt: skip
 
     def pack(self, world: World) -> None:
-        """Write what the stage needs to know of bodies, as they are now."""
-        flight, motion, body = world[Flight], world[Motion], world[RigidBody]
+        """Write what the stage needs to know of bodies, as they are now; of those that have not moved, what moves."""
+        flight, motion, body, awake = world[Flight], world[Motion], world[RigidBody], world[Awake]
+        rows, rotation = awake.now(world), world[Transform].rotation
+        if self.packed is rows and not awake.strangers and pack_moving(
+            rows, flight.center, rotation, motion.linear, motion.angular, flight.felt, self.bodies
+        ):  # fmt: skip
+            return
         pack_bodies(
-            world[Awake].now(world), flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
-            body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation, self.bodies,
+            rows, flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
+            body.inverse_inertia, body.principal_axes, body.freedom, rotation, self.bodies,
         )  # fmt: skip
+        self.packed, world[Linkage].measured = rows, False
 
     def sort(self, world: World, h: float) -> tuple[int, int]:
         """Find which manifolds rest; return how many do, and how many of those are of balls on exact arcs."""
@@ -122,7 +136,7 @@ class Resting(Resource):
         rows, motion, linkage = world[Awake].now(world), world[Motion], world[Linkage]
         pack_velocities(rows, motion.linear, motion.angular, self.bodies)
         if linkage.groups:
-            linkage.measure(world, self.bodies)
+            linkage.measure(self.bodies)
             linkage.start_warm(self.bodies)
         self._together(
             world, start_warm, self.levels, self.level_ends,
@@ -150,7 +164,7 @@ class Resting(Resource):
         """Find how deep contacts have come to be."""
         if not self.groups:
             return
-        flight, contact = world[Flight], world[Contact]
+        flight, contact, self.packed = world[Flight], world[Contact], None
         pack_ways(world[Awake].now(world), flight.start_center, flight.center, flight.turned, self.bodies)
         share_out(
             world, self.groups,
@@ -165,7 +179,7 @@ class Resting(Resource):
         rows, motion, linkage, hard = world[Awake].now(world), world[Motion], world[Linkage], (0.0, 1.0)
         if linkage.groups:
             self.pack(world)
-            linkage.measure(world, self.bodies)
+            linkage.measure(self.bodies)
         else:
             pack_velocities(rows, motion.linear, motion.angular, self.bodies)
         self._solve(world, Stage("relax", RELAX_SWEEPS, h, hard, hard))
@@ -196,6 +210,8 @@ class Resting(Resource):
 
     def _together(self, world: World, kernel: Kernel, *arguments: Any) -> None:
         """Run a kernel that goes level by level in all threads at once."""
+        if not self.groups:
+            return
         parts, gate = parts_for(world, self.groups), np.zeros(1, np.int64)
         if parts == 1:
             kernel(0, 1, gate, *arguments)

@@ -10,7 +10,7 @@ from carom.ecs.component import Resource
 from carom.systems.awake import Awake
 from carom.systems.constants import FEW_ASTRAY, MOST_ASTRAY
 from carom.systems.detection.broad_index import Index
-from carom.systems.kernels.broad_cache import REBUILD, find_leavers, keep_overlapping
+from carom.systems.kernels.broad_cache import REBUILD, find_leavers, find_met, keep_overlapping
 from carom.systems.kernels.broad_pairs import renew_pairs
 from carom.systems.kernels.islands import find_lively
 
@@ -39,6 +39,8 @@ def overlapping(world: World) -> Integers:
 class BroadPhase(Resource):
     """The pairs whose fat bounds overlap, found anew for those that left theirs; a cache, droppable at any time.
 
+    Those that meet nobody, by their layer or mask, are looked up as little as if they were not there.
+
     Rows are compared with what they were when they were looked up, so nobody has to tell it of a change.
     """
 
@@ -58,11 +60,13 @@ class BroadPhase(Resource):
 
     def renewed(self, world: World) -> Integers:
         """Return the pairs (n, 2) whose fat bounds overlap, sorted."""
-        rows = world.row_numbers(Collider)
+        collider, there = world[Collider], world.row_numbers(Collider)
+        met: Integers = np.empty(len(there), np.int64)
+        rows = met[: find_met(there, collider.layer, collider.mask, met)]
         if not np.array_equal(rows, self.rows):
             if len(rows) and rows[-1] >= len(self.known):
                 self._make_room(world.capacity)
-            self.rows = rows.copy()
+            self.rows = rows
             return self._found_anew(world)
         leavers = self._leavers(world)
         astray = max(FEW_ASTRAY, MOST_ASTRAY * len(rows))

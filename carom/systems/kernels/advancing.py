@@ -99,7 +99,9 @@ def advance(lanes, bend):
     )  # fmt: skip
     uneven = (ix - iy) * (ix - iy) + (iy - iz) * (iy - iz)
     uneven = choose(ix * iy * iz, uneven, spread(0.0))
-    px, py, pz, pw = spun_in_lanes(qx, qy, qz, qw, wx, wy, wz, t)
+    px, py, pz, pw = qx, qy, qz, qw
+    if some(choose(uneven, spread(0.0), t)):
+        px, py, pz, pw = spun_in_lanes(qx, qy, qz, qw, wx, wy, wz, t)
     if some(uneven):
         ax, ay, az, aw = (
             load(lanes, PRINCIPAL), load(lanes, PRINCIPAL + 1), load(lanes, PRINCIPAL + 2), load(lanes, PRINCIPAL + 3)

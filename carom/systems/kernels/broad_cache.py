@@ -30,6 +30,16 @@ def meets_half_space(plane, box, size, pose_position, pose_rotation, lower, uppe
     return depth >= 0.0
 
 
+@kernel("met")
+def find_met(rows, layer, mask, met):
+    """Write the rows on a layer that others may accept and that accept any, and return their count."""
+    count = 0
+    for i in rows:
+        met[count] = i
+        count += 1 if layer[i] != 0 and mask[i] != 0 else 0
+    return count
+
+
 @kernel("fat_lower", "fat_upper", "known", "seat", "leavers")
 def find_leavers(
     anew, rows, shape, size, body_row, inverse_mass, layer, mask, sensor, pose_position, pose_rotation, lower, upper,

@@ -61,6 +61,15 @@ def fly(
     pairs, ends = pairs[:taken], ends[:taken]
     most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * near
 
+    # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
+    log, log_pair, log_count, kept = np.empty((64, WIDTH)), np.empty(64, np.int64), 0, np.empty((1, KEPT))
+    now, end, cut = start, min(h, until), 0
+    within = time_within_all(rows, h - now, center, detected_center, reach, linear, acceleration)
+    if within < end - now:
+        end = now + within
+    if not taken:
+        return end, DONE if end >= h else OUT_OF_REACH, events, cut, log_count, log_pair, log
+
     # Which pairs each body takes part in, as slices of one array.
     begin = np.zeros(len(inverse_mass) + 1, np.int64)
     for p in pairs:
@@ -88,12 +97,6 @@ def fly(
         if kind[pairs[m]] >= 0 or closing[pairs[m]]:
             seek[seek_count] = m
             seek_count += 1
-    # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
-    log, log_pair, log_count, kept = np.empty((64, WIDTH)), np.empty(64, np.int64), 0, np.empty((1, KEPT))
-    now, end, cut = start, min(h, until), 0
-    within = time_within_all(rows, h - now, center, detected_center, reach, linear, acceleration)
-    if within < end - now:
-        end = now + within
     way = np.zeros(len(inverse_mass) + 1)  # how far each body can fly; that of no body, at -1, is 0
     for i in rows:
         way[i] = way_within(i, h - now, linear, acceleration)

@@ -26,6 +26,8 @@ AXIS, PLACE, SPEED, AT, HELD, HOLD, SUM, SLOT_ROWS = 0, 3, 4, 5, 6, 7, 8, 9
 # fast it gives way to a unit impulse while what is locked holds; impulses of drive and friction, and their sums.
 IS_LIMITED, LOWER, UPPER, BOUNCE, IS_DRIVEN, STIFFNESS, DAMPING, YIELDS, TARGET, WANTED, MOST = range(11)
 RUBS, GIVE, DRIVE, DRIVE_SUM, RUB, RUB_SUM, BOUND_ROWS = range(11, 18)
+# Behind the triangle of points, which need not ask the bodies then: their inverse masses and upper halves of inertias.
+MASS_A, MASS_B, INVERSE_A, INVERSE_B, INERT_ROWS = 0, 3, 6, 12, 18
 
 # What a group asks for: a bit for each way with a limit, then with a drive, then with friction.
 LIMIT_BIT, DRIVE_BIT, FRICTION_BIT = 1, 1 << SLOTS, 1 << 2 * SLOTS
@@ -47,6 +49,15 @@ def factor(r, slots, i, j):
 def bound(r, slots, s):
     """Return the first row of what bounds way s."""
     return factor(r, slots, slots, 0) + BOUND_ROWS * s
+
+
+@woven
+def end_of(r, kind):
+    """Return the row behind a group of a kind that begins at r."""
+    slots = slots_of(kind)
+    if kind == POINTS:
+        return factor(r, slots, slots, 0) + INERT_ROWS
+    return bound(r, slots, slots if kind >= KINDS else 0)
 
 
 @woven
@@ -118,8 +129,7 @@ def group_joints(
         if lane == WIDTH or 2 * KINDS * level[n] + kind[n] != last:
             group, lane, last = group + 1, 0, 2 * KINDS * level[n] + kind[n]
             kinds[group], row[group] = kind[n], rows
-            slots = slots_of(kind[n])
-            rows = bound(rows, slots, slots if kind[n] >= KINDS else 0)
+            rows = end_of(rows, kind[n])
             for other in range(WIDTH):
                 index_a[group, other], index_b[group, other], first[group, other] = nobody, nobody, -1
         index_a[group, lane] = body_a[n] if body_a[n] >= 0 else nobody
@@ -143,7 +153,7 @@ def fill_joints(
     rows = address(lanes)
     for g in range(groups):
         r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
-        for k in range(bound(r, slots, slots if bounded else 0) - r):
+        for k in range(end_of(r, kinds[g]) - r):
             store(rows, r + k, spread(0.0))
         for s in range(slots if bounded else 0):
             store(rows, bound(r, slots, s) + DAMPING, spread(1.0))  # divides also where nobody is
@@ -164,6 +174,8 @@ def fill_joints(
             )  # fmt: skip
             for s in range(slots):
                 q = slot(r, s)
+                if kinds[g] == POINTS:
+                    lanes[q + AXIS + s, lane] = 1.0
                 lanes[q + PLACE, lane] = position[i, s]
                 if mode[i, s] == LOCKED:
                     lanes[q + HELD, lane], lanes[q + AT, lane] = 1.0, lower[i, s]

@@ -18,6 +18,7 @@ from carom.systems.kernels.joint_groups import (
     slot,
     slots_of,
 )
+from carom.systems.kernels.joint_points import WAYS, finish_point, hold_point, moved_point, three_of
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import TINY, about, dot, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, scatter, smaller, spread, store
@@ -31,17 +32,20 @@ def start_joints_warm(groups, kinds, row, index_a, index_b, lanes, bodies):
     lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
     for g in range(groups):
         r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
-        zero = spread(0.0)
-        push, twist = (zero, zero, zero), (zero, zero, zero)
-        for s in range(slots):
-            q = slot(r, s)
-            j = load(lanes, q + of.HOLD)
-            if bounded:
-                p = bound(r, slots, s)
-                j = j + load(lanes, p + of.DRIVE) + load(lanes, p + of.RUB)
-            push, twist = added(s, q, j, push, twist, lanes)
         a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
-        a, b = moved(g, r, push, twist, a, b, index_a, index_b, lanes, bodies)
+        if slots == WAYS:
+            a, b = moved_point(r, three_of(r, lanes, of.HOLD), a, b, lanes)
+        else:
+            zero = spread(0.0)
+            push, twist = (zero, zero, zero), (zero, zero, zero)
+            for s in range(slots):
+                q = slot(r, s)
+                j = load(lanes, q + of.HOLD)
+                if bounded:
+                    p = bound(r, slots, s)
+                    j = j + load(lanes, p + of.DRIVE) + load(lanes, p + of.RUB)
+                push, twist = added(s, q, j, push, twist, lanes)
+            a, b = moved(g, r, push, twist, a, b, index_a, index_b, lanes, bodies)
         scatter(bodies, index_a, g, VELOCITY, a)
         scatter(bodies, index_b, g, VELOCITY, b)
 
@@ -64,8 +68,9 @@ def solve_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a,
         a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
         if slots == 1:
             a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-        elif slots == 3:
-            a, b = hold(3, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+        elif slots == WAYS:
+            push = hold_point(r, rate, hardness, a, b, lanes)
+            a, b = moved_point(r, push, a, b, lanes)
         else:
             a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
         if kinds[g] >= KINDS and asks[g]:
@@ -79,8 +84,6 @@ def solve_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a,
                     a, b = limit(s, g, r, p, relaxing, rate, h, a, b, index_a, index_b, lanes, bodies)
             if slots == 1:
                 a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-            elif slots == 3:
-                a, b = hold(3, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
             else:
                 a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
         scatter(bodies, index_a, g, VELOCITY, a)
@@ -94,6 +97,9 @@ def finish_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
     for g in range(groups):
         r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
         a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+        if slots == WAYS:
+            finish_point(r, a, b, lanes)
+            continue
         along, turning = parting(r, a, b, lanes)
         for s in range(slots):
             q = slot(r, s)

@@ -9,6 +9,7 @@ from carom.ecs.components.joint import SLOTS
 from carom.systems.constants import IMMOVABLE
 from carom.systems.kernels import joint_groups as of
 from carom.systems.kernels.joint_groups import CONES, KINDS, LINES, POINTS, bound, factor, slot
+from carom.systems.kernels.joint_points import find_yielding_of_point, place_point
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_angles import arc_tangent, nearest_turn
 from carom.systems.kernels.lane_vectors import TINY, about, dot, keep, three
@@ -37,8 +38,8 @@ def measure_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
             place_line(r, lanes, a, d)
             find_yielding(1, g, r, bounded, index_a, index_b, lanes, bodies, scratch)
         elif kind == POINTS:
-            place_point(r, lanes, a, d)
-            find_yielding(3, g, r, bounded, index_a, index_b, lanes, bodies, scratch)
+            place_point(r, lanes, d)
+            find_yielding_of_point(g, r, index_a, index_b, lanes, bodies)
         else:
             place_frame(r, kind, lanes, a, b, d)
             find_yielding(6, g, r, bounded, index_a, index_b, lanes, bodies, scratch)
@@ -73,16 +74,6 @@ def place_line(r, lanes, a, d):
         choose(there, d[2] * scale, z),
     )
     store(lanes, q + of.PLACE, length)
-
-
-@woven
-def place_point(r, lanes, a, d):
-    """Measure along the axes of the world, which do for what is locked along all."""
-    zero, one = spread(0.0), spread(1.0)
-    for s in range(3):
-        q = slot(r, s)
-        keep(lanes, q + of.AXIS, one if s == 0 else zero, one if s == 1 else zero, one if s == 2 else zero)
-        store(lanes, q + of.PLACE, d[0] if s == 0 else d[1] if s == 1 else d[2])
 
 
 @woven
