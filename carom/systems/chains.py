@@ -12,8 +12,9 @@ from carom.ecs import Transform
 from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial import angles, quaternion, vector
-from carom.systems.joints.kind import JOINTS, PointJoint
+from carom.systems.joints.kind import JOINTS
 from carom.systems.joints.many import join_many
+from carom.systems.joints.point_joint import PointJoint
 from carom.systems.simulation import Simulation
 
 WORLD = -1

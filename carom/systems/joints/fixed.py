@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from carom.systems.joints.held import Held
-from carom.systems.joints.kind import PointJoint
+from carom.systems.joints.point_joint import PointJoint
 from carom.systems.joints.ways import Ways
 
 

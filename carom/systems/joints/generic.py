@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 from carom.systems.freedom import AXES
 from carom.systems.joints.declared import part
 from carom.systems.joints.held import Held
-from carom.systems.joints.two_axes import TwoAxisJoint
+from carom.systems.joints.two_axis_joint import TwoAxisJoint
 from carom.systems.joints.ways import AngularWay, LinearWay, Ways
 
 FREE, LOCKED = "free", "locked"

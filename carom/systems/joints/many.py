@@ -11,7 +11,8 @@ from carom.ecs import Transform, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.joint import LINE, Joint
 from carom.ecs.spatial import quaternion
-from carom.systems.joints.kind import JOINTS, PointJoint
+from carom.systems.joints.kind import JOINTS
+from carom.systems.joints.point_joint import PointJoint
 from carom.systems.joints.stating import joint_of
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from carom.systems.joints.held import Held
-from carom.systems.joints.kind import LineJoint
+from carom.systems.joints.line_joint import LineJoint
 from carom.systems.joints.ways import Ways
 from carom.systems.parameters import parameter
 

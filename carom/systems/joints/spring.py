@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from carom.systems.joints.declared import Steps
 from carom.systems.joints.held import Held
-from carom.systems.joints.kind import LineJoint
+from carom.systems.joints.line_joint import LineJoint
 from carom.systems.joints.ways import LinearMotor, Ways
 from carom.systems.parameters import parameter
 

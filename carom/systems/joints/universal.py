@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from carom.systems.joints.declared import Steps, bounds, part
 from carom.systems.joints.held import Held
-from carom.systems.joints.two_axes import TwoAxisJoint
+from carom.systems.joints.two_axis_joint import TwoAxisJoint
 from carom.systems.joints.ways import AngularMotor, Limits, Ways
 from carom.systems.parameters import parameter
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.ecs.spatial import vector
+from carom.systems.joints.axis_joint import AxisJoint
 from carom.systems.joints.declared import Steps, direction
 from carom.systems.joints.frames import along_axes
 from carom.systems.joints.held import Held
-from carom.systems.joints.kind import AxisJoint, Vector
+from carom.systems.joints.kind import Vector
 
 PARALLEL = 1e-6  # square of the sine below which two axes say nothing of a plane
 
