@@ -11,6 +11,7 @@ import pytest
 from carom.ecs import Motion, Transform, state_hash
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
+from carom.ecs.relations.touching import Touching
 from carom.systems.energy import kinetic_energy, potential_energy
 from carom.systems.simulation import Simulation
 from carom.tools.cli import main
@@ -89,7 +90,7 @@ def falling(path: Path, **options: Any) -> tuple[Simulation, list[dict[str, Any]
     )
     recorder = Recorder(path, every=1, **options)
     simulation.observers.append(recorder)
-    seen = []
+    seen, touches = [], "nobody"
     recorder.begin(simulation)
     for frame in range(121):
         if frame:
@@ -99,8 +100,12 @@ def falling(path: Path, **options: Any) -> tuple[Simulation, list[dict[str, Any]
         contact = world[SleepingContact if world[Motion].asleep[row] else Contact]
         live = slice(0, contact.count)
         sign = np.where(contact.b[live] == crate, 1.0, -1.0)[:, None] / simulation.settings.dt
+        before, touches = touches, "ground" if world[Touching].count else "nobody"
         seen.append(
             {
+                "frame": frame,
+                "before": before,
+                "touches": touches,
                 "position": world[Transform].position[row].tolist(),
                 "speed": float(np.linalg.norm(world[Motion].linear[row])),
                 "kinetic": kinetic_energy(world),
@@ -147,6 +152,10 @@ def test_a_promoted_body_has_a_path_a_label_curves_and_a_lane(tmp_path: Path) ->
     lane = series["/lanes/sleep/crate", "StateChange:state"]
     fell = [had["asleep"] for had in seen].index(True)
     assert list(zip(lane.frames, [value[0] for value in lane.values], strict=True)) == [(0, "awake"), (fell, "asleep")]
+    lane = series["/lanes/touching/crate", "StateChange:state"]
+    told = [(0, "nobody"), *((had["frame"], had["touches"]) for had in seen if had["touches"] != had["before"])]
+    assert {"nobody", "ground"} == {state for _, state in told}
+    assert list(zip(lane.frames, [value[0] for value in lane.values], strict=True)) == told
 
 
 def test_a_recording_of_nobody_visible_is_a_table_without_rows(world: Path, tmp_path: Path) -> None:

@@ -19,12 +19,13 @@ from carom.ecs import (
 )
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
+from carom.ecs.relations.touching import ContactBegin, ContactEnd
 from carom.systems.ledger import Ledger
 from carom.systems.simulation import Simulation
 from carom.tools.bench.killed import record_until_killed
 from carom.tools.recorder import Recorder
 from carom.tools.recorder.stream import application_id
-from carom.tools.recorder.tracks.contacts import closing_speeds
+from carom.tools.recorder.tracks.contacts import closing
 from carom.tools.recording import Recording
 
 RED, BLUE, GREY = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9), (0.4, 0.4, 0.4)
@@ -165,7 +166,8 @@ def test_contacts_are_recorded_with_both_colliders_and_exact_numbers(tmp_path: P
         touching = (contact.depth[: contact.count] >= 0.0) | (contact.impulse[: contact.count] > 0.0)
         columns = ("a", "b", "point", "normal", "depth", "impulse")
         rows = {name: getattr(contact, name)[: contact.count][touching] for name in columns}
-        seen[simulation.frame] = rows | {"speed": closing_speeds(simulation.world, rows)}
+        found = closing(simulation.world, np.nonzero(touching)[0], *(getattr(contact, name) for name in columns[:4]))
+        seen[simulation.frame] = rows | {"speed": found["speed"]}
     recorder.end(simulation)
     recording = Recording(tmp_path / "run.rrd")
     assert sum(len(rows["a"]) for rows in seen.values()) > 20
@@ -186,9 +188,10 @@ def test_speed_of_a_contact_is_that_of_both_surfaces_along_its_normal() -> None:
     simulation["other"].motion.linear = (-0.5, 1.0, 0.0)
     sides = {"a": np.array([one, one, floor]), "b": np.array([other, floor, floor])}
     rows = {**sides, "point": np.tile((0.1, 0.1, 0.0), (3, 1)), "normal": np.tile((1.0, 0.0, 0.0), (3, 1))}
-    assert closing_speeds(simulation.world, rows) == pytest.approx([3.0 - 0.2 + 0.5, 3.0 - 0.2, 0.0], abs=1e-6)
+    first = closing(simulation.world, np.arange(3), **rows)["speed"]
+    assert first == pytest.approx([3.0 - 0.2 + 0.5, 3.0 - 0.2, 0.0], abs=1e-6)
     simulation.world.despawn(other)
-    assert closing_speeds(simulation.world, rows)[0] == pytest.approx(2.8, abs=1e-6)
+    assert closing(simulation.world, np.arange(3), **rows)["speed"][0] == pytest.approx(2.8, abs=1e-6)
 
 
 def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) -> None:
@@ -196,8 +199,11 @@ def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) ->
     simulation = Simulation(dt=1 / 240)
     simulation.add(name="floor", collider={"plane": {}})
     ball(simulation, "ball", (0.0, 0.3, 0.0))
+    ball(simulation, "still", (1.0, 0.05, 0.0))
+    loud = simulation.settings.hit_speed
     struck: list[float] = []
     speeds: list[float] = []
+    others: list[tuple[float, str]] = []
     recorder = Recorder(tmp_path / "run.rrd")
     simulation.observers.append(recorder)
     recorder.begin(simulation)
@@ -206,6 +212,10 @@ def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) ->
         impact = simulation.world[Impact]
         struck += list(impact.time[: impact.count])
         speeds += list(impact.speed[: impact.count])
+        for kind, deed in ((ContactBegin, "touch"), (ContactEnd, "part")):
+            table = simulation.world[kind]
+            names = simulation.world.names_told(table.b[: table.count])
+            others += [(t, f"floor and {name} {deed}") for t, name in zip(table.time.tolist(), names, strict=False)]
     recorder.end(simulation)
     recording = Recording(tmp_path / "run.rrd")
     lines, table = recording.lines, recording.table("impacts").polars()
@@ -213,8 +223,14 @@ def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) ->
     assert table["time"].to_list() == struck
     assert table["speed"].to_list() == speeds
     assert set(table["b.name"]) == {"ball"}
-    assert [line.time for line in lines] == pytest.approx(struck, abs=1e-9)
-    assert lines[0].text.startswith("floor and ball strike at 2.21 m/s, ")
+    strikes = [line for line in lines if "strike" in line.text]
+    assert [line.time for line in strikes] == pytest.approx(struck, abs=1e-9)
+    assert strikes[0].text.startswith("floor and ball strike at 2.21 m/s, ")
+    assert [line.level for line in strikes] == ["INFO" if speed >= loud else "DEBUG" for speed in speeds]
+    told = [(line.time, line.text) for line in lines if line not in strikes]
+    assert {text for _, text in told} == {"floor and still touch", "floor and ball part"}
+    unheard = [(time, text) for time, text in others if time not in struck]
+    assert sorted(told) == [(pytest.approx(time, abs=1e-9), text) for time, text in sorted(unheard)]
 
 
 def test_plots_hold_energy_overlap_and_counts(tmp_path: Path) -> None:

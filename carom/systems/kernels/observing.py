@@ -44,17 +44,20 @@ def centre(i, position, rotation, center_of_mass):
     return position[i, 0] + x, position[i, 1] + y, position[i, 2] + z
 
 
-@kernel("speeds")
+@kernel("points", "normals", "speeds")
 def find_closing_speeds(
-    a, b, point, normal, alive, generations, row_shift, owner,
-    position, rotation, center_of_mass, linear, angular, speeds,
+    rows, a, b, point, normal, alive, generations, row_shift, owner,
+    position, rotation, center_of_mass, linear, angular, points, normals, speeds,
 ):  # fmt: skip
-    """Write how fast (n,) colliders a and b (n,), handles, close along the normal where they touch.
+    """Write where contacts ``rows`` (n,) are (n, 3) and how fast (n,) their colliders a and b, handles, close there.
 
-    ``owner`` is the row of the body that each row belongs to, -1 for none; who is gone does not move.
+    All are float32. ``owner`` is the row of the body that each row belongs to, -1 for none; who is gone does not move.
     """
-    for k in range(len(a)):
+    for m in range(len(rows)):
+        k = rows[m]
         px, py, pz = point[k, 0], point[k, 1], point[k, 2]
+        for c in range(3):
+            points[m, c], normals[m, c] = point[k, c], normal[k, c]
         speed, sign = 0.0, 1.0
         for handle in (a[k], b[k]):
             index = handle & INDEX_MASK
@@ -66,7 +69,7 @@ def find_closing_speeds(
                 x, y, z = x + linear[i, 0], y + linear[i, 1], z + linear[i, 2]
                 speed += sign * (x * normal[k, 0] + y * normal[k, 1] + z * normal[k, 2])
             sign = -1.0
-        speeds[k] = speed
+        speeds[m] = speed
 
 
 @kernel("places", "turns", "moved")
@@ -90,7 +93,8 @@ def compile_observing() -> None:
     """Look at nothing, for `carom warm`."""
     numbers, vectors, turns = np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 4))
     ids = np.zeros(0, np.int32)
-    bodies = numbers, vectors, turns, vectors, vectors, vectors, np.zeros(0, np.float32)
-    find_closing_speeds(numbers, numbers, vectors, vectors, np.zeros(0, np.bool_), ids, ids, *bodies)
     places, orientations = vectors.astype(np.float32), turns.astype(np.float32)
+    bodies, told = (vectors, turns, vectors, vectors, vectors), (places, places, np.zeros(0, np.float32))
+    contacts = numbers, numbers, numbers, vectors, vectors
+    find_closing_speeds(*contacts, np.zeros(0, np.bool_), ids, ids, numbers, *bodies, *told)
     note_poses(numbers, vectors, turns, numbers, places, orientations, places, orientations, np.zeros(0, np.bool_))

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from math import inf
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from carom.tools.recorder.tracks.bodies import ROOT
 COUNTS = (1000, 10_000)
 SECONDS, RATE = 9, 60
 EACH, ALWAYS = 0.1e-3, 0.3  # ms a body and frame, ms a frame
+AT_ONCE = 20  # chunks, about as many as there are in a second
 FRAMES, WARM = 100_000, 20_000
 FLAT = 16.0  # MiB: Rerun keeps where each block is, some 60 kB of it, and no more
 
@@ -41,7 +43,10 @@ def rolling(count: int) -> Simulation:
 
 
 def light() -> Iterator[Figure]:
-    """Step and observe in turns; the CPU time is that of all threads, and of a second's frames with what ends it."""
+    """Step and observe in turns; the CPU time is that of all threads, and of a second's frames with what ends it.
+
+    Beside it stands what Rerun alone takes to write the same chunks, as they were read back.
+    """
     for count in COUNTS:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "light.rrd"
@@ -52,6 +57,8 @@ def light() -> Iterator[Figure]:
             wall, cpu = (float(np.median([getattr(one, clock) for one in taken])) for clock in ("wall", "cpu"))
             bound = ALWAYS + EACH * count
             yield figure(f"light, {count} bodies that touch", "ms", Timing(wall, cpu, SECONDS), bound, 1e3 / RATE)
+            alone = rerun_alone(path, Path(folder) / "alone.rrd")
+            yield figure(f"of it Rerun's, {count} bodies", "ms", alone, inf, 1e3 / (1 + SECONDS * RATE))
             yield from _bytes(path, count)
 
 
@@ -62,6 +69,25 @@ def observed(simulation: Simulation, recorder: Recorder) -> Timing:
         simulation.step()
         taken.append(timed(partial(recorder.observe, simulation), 1))
     return Timing(sum(one.wall for one in taken), sum(one.cpu for one in taken), 1)
+
+
+def rerun_alone(path: Path, out: Path) -> Timing:
+    """Return what it takes to send the chunks of a recording, made before, to a file."""
+    import rerun
+    from rerun.chunk import RrdReader
+
+    chunks = RrdReader(path).stream().to_chunks()
+    recording = rerun.RecordingStream("alone")
+    recording.save(out)
+    taken = timed(partial(_send, recording, chunks), 1)
+    recording.disconnect()
+    return taken
+
+
+def _send(recording: Any, chunks: Sequence[Any]) -> None:
+    for first in range(0, len(chunks), AT_ONCE):
+        recording.send_chunks(chunks[first : first + AT_ONCE])
+        recording.flush()
 
 
 def _bytes(path: Path, count: int) -> Iterator[Figure]:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from carom.tools.recorder.stream import Stamp, Stream
 
 ROOT = "lanes"
+MOST_NAMES = 3  # in one state
 Color = tuple[int, int, int]
 
 
@@ -42,3 +43,8 @@ class Lanes:
             for stamp, state in changes:
                 stream.row(path, stamp, rerun.StateChange(state=state))
         self._pending.clear()
+
+
+def told(names: Sequence[str], there: str) -> str:
+    """Return names as a state, or how many are ``there``; empty for none."""
+    return f"{len(names)} {there}" if len(names) > MOST_NAMES else ", ".join(names)

@@ -58,6 +58,7 @@ class RowTrack(Track):
     def keep(self, stamp: Stamp, rows: Columns) -> None:
         """Keep rows, by the names of their columns."""
         self._pending.append((stamp, rows))
+        self.kept += sum(values.nbytes for values in rows.values())
 
     def write(self, stream: Stream) -> None:
         """Write the kept rows as one block."""
@@ -65,7 +66,7 @@ class RowTrack(Track):
             block = joined(self._pending)
             self.draw(block, stream)
             stream.rows(self.path, block.stamps, block.values(name for name in self.columns if name not in self.drawn))
-            self._pending = []
+            self._pending, self.kept = [], 0
 
 
 def number(unit: str, doc: str, *shape: int, dtype: str = "float64") -> Column:

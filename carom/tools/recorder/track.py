@@ -20,13 +20,15 @@ class Track(ABC):
     """What samples the world cheaply in recorded frames, and writes its samples in blocks about once a second.
 
     ``key`` is its name and ``detail`` the least level that has it. One with ``every_step`` sees every step, recorded
-    frame or not. An instance belongs to one recording, and tells of ``only`` these entities where some are chosen.
+    frame or not. An instance belongs to one recording, and tells of ``only`` these entities where some are chosen. One
+    that keeps much counts how many bytes are ``kept``, and writes when these make a block.
     """
 
     key: ClassVar[str] = ""
     detail: ClassVar[str] = "light"
     every_step: ClassVar[bool] = False
     only: Choice | None = None
+    kept: int = 0
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)

@@ -72,7 +72,9 @@ class Bodies(Track):
             self._regroup(world, stamp, stream)
         with world.faces(None):  # as within a system: else kernels are handed copies of columns
             self._last, moved = self.noted(world[Transform].position, world[Transform].rotation, self._last)
-        self._pending.append((stamp, self._last, moved))
+        if moved.any():
+            self._pending.append((stamp, self._last, moved))
+            self.kept += self._last.places.nbytes + self._last.turns.nbytes
 
     def noted(self, position: Floats, rotation: Floats, before: Poses) -> tuple[Poses, Booleans]:
         """Return the poses of all who are seen, and in which groups anybody was elsewhere before."""
@@ -90,7 +92,7 @@ class Bodies(Track):
     def write(self, stream: Stream) -> None:
         """Write the kept poses, one block per group."""
         write_poses(self._pending, list(self.groups.values()), stream.rows)
-        self._pending = []
+        self._pending, self.kept = [], 0
 
     def _changed(self, world: World) -> bool:
         visual = world[Visual]

@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from typing import ClassVar
 
 import numpy as np
-import numpy.typing as npt
 
 from carom.ecs import Collider, Motion, RigidBody, Transform, Visual, World
-from carom.ecs.column import Column
+from carom.ecs.column import Column, Floats, Integers
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.systems.compound import bodies_of
@@ -60,11 +59,12 @@ class Contacts(RowTrack):
 
     def rows(self, simulation: Simulation) -> Columns:
         """Return the points that touch."""
-        table = simulation.world[Contact]
-        touching = touching_rows(table)
-        rows = {name: getattr(table, name).take(touching, axis=0) for name in self.columns if name != "speed"}
-        speeds = closing_speeds(simulation.world, rows)
-        return rows | {"speed": speeds} | {name: rows[name].astype(np.float32) for name in ("point", "normal")}
+        world = simulation.world
+        with world.faces(None):  # as within a system: else kernels are handed copies of columns
+            table = world[Contact]
+            touching = touching_rows(table)
+            rows = {name: getattr(table, name).take(touching) for name in ("a", "b", "depth", "impulse")}
+            return rows | closing(world, touching, table.a, table.b, table.point, table.normal)
 
     def draw(self, block: Block, stream: Stream) -> None:
         """Write the points."""
@@ -88,14 +88,14 @@ class Contacts(RowTrack):
             stream.row(PATH, stamp, rerun.AnyValues(collider=entities, name=world.names_told(entities)))
 
 
-def closing_speeds(world: World, contacts: Columns) -> npt.NDArray[np.float32]:
-    """Return how fast (m/s) the two sides of each contact move against each other along its normal; below 0: part."""
-    slots, owners, speeds = world.slots, bodies_of(world), np.empty(len(contacts["a"]), np.float32)
-    with world.faces(None):  # as within a system: else kernels are handed copies of columns
+def closing(world: World, rows: Integers, a: Integers, b: Integers, point: Floats, normal: Floats) -> Columns:
+    """Return where contacts ``rows`` are, and how fast (m/s) both sides close along the normal; below 0: they part."""
+    count, slots, owners = len(rows), world.slots, bodies_of(world)
+    points, normals, speeds = (np.empty(shape, np.float32) for shape in ((count, 3), (count, 3), count))
+    with world.faces(None):
         motion, pose, centers = world[Motion], world[Transform], world[RigidBody].center_of_mass
         find_closing_speeds(
-            contacts["a"], contacts["b"], contacts["point"], contacts["normal"],
-            slots.alive, slots.generations, slots.row_shift, owners,
-            pose.position, pose.rotation, centers, motion.linear, motion.angular, speeds,
+            rows, a, b, point, normal, slots.alive, slots.generations, slots.row_shift, owners,
+            pose.position, pose.rotation, centers, motion.linear, motion.angular, points, normals, speeds,
         )  # fmt: skip
-    return speeds
+    return {"point": points, "normal": normals, "speed": speeds}

@@ -9,13 +9,15 @@ import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Column, Floats, Integers
+from carom.ecs.relations.touching import Touching
+from carom.systems.compound import bodies_of
 from carom.systems.energy import centers_of_mass, dynamic_rows, kinetic_energies
 from carom.systems.free_body import FRICTION, JOINT, NORMAL, loads
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Block, Columns
 from carom.tools.recorder.choice import Choice
-from carom.tools.recorder.lanes import Lanes
+from carom.tools.recorder.lanes import Lanes, told
 from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.rows import RowTrack, handle, number
 from carom.tools.recorder.stream import Stamp, Stream
@@ -27,6 +29,7 @@ LABELS = "world/labels"
 LABEL_RADIUS = -2.0  # negative: points of the screen
 LABEL_COLOR = (240, 240, 240)
 AXES = (255, 90, 60), (120, 210, 130), (90, 160, 255)
+NOBODY = "nobody"
 SLEEP = {"awake": (120, 210, 130), "asleep": (90, 110, 170)}
 PLOTS = {
     "position": ("position (m)", "xyz"),
@@ -37,7 +40,7 @@ PLOTS = {
 
 
 class Promoted(RowTrack):
-    """Chosen bodies that obey forces: where they are, how fast, their energy and what acts on them.
+    """Chosen bodies that obey forces: where they are, how fast, their energy, what acts on them and who touches them.
 
     Potential energy is that in gravity. Forces from outside and of laws are summed; those of contacts and joints are
     means of the step.
@@ -61,7 +64,7 @@ class Promoted(RowTrack):
     def __init__(self, patterns: Sequence[str] = ()) -> None:
         super().__init__()
         self.choice = Choice(patterns)
-        self._lanes = Lanes("sleep", SLEEP)
+        self._lanes, self._touching = Lanes("sleep", SLEEP), Lanes("touching", {NOBODY: (90, 90, 90)})
         self._there: dict[int, str] = {}
         self._names: dict[int, str] = {}
 
@@ -102,6 +105,7 @@ class Promoted(RowTrack):
         self._names |= names
         states = np.where(world[Motion].asleep[rows], "asleep", "awake").tolist()
         self._lanes.note_all(stamp, dict(zip(names.values(), states, strict=True)))
+        self._touching.note_all(stamp, dict(zip(names.values(), _touched(world, rows), strict=True)))
         super().sample(simulation, stamp, stream)
 
     def rows(self, simulation: Simulation) -> Columns:
@@ -144,6 +148,7 @@ class Promoted(RowTrack):
         """Write rows, labels, curves and lanes."""
         super().write(stream)
         self._lanes.write(stream)
+        self._touching.write(stream)
 
     def _bodies(self, world: World) -> Integers:
         """Return the rows of those chosen that obey forces."""
@@ -156,6 +161,16 @@ def own_path(root: str, name: str) -> str:
     import rerun
 
     return str(rerun.new_entity_path([*root.split("/"), name]))
+
+
+def _touched(world: World, rows: Integers) -> list[str]:
+    """Return whom each body (row) touches, by colliders of whatever it carries."""
+    touching, owners = world[Touching], bodies_of(world)
+    pairs = np.stack([touching.a[: touching.count], touching.b[: touching.count]], axis=1)
+    pairs = pairs[world.slots.live(pairs.ravel()).reshape(pairs.shape).all(axis=1)]
+    owned = owners[world.slots.rows(pairs.ravel())].reshape(pairs.shape)
+    found = [np.unique(pairs[:, ::-1][owned == row]) for row in rows.tolist()]
+    return [told(world.names_told(others), "touch it") or NOBODY for others in found]
 
 
 def _summed(body: Integers, force: Floats, rows: Integers) -> Floats:

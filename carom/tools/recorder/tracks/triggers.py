@@ -13,13 +13,12 @@ from carom.ecs.column import Column, Integers
 from carom.ecs.relations.enter import Inside
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Columns
-from carom.tools.recorder.lanes import Lanes
+from carom.tools.recorder.lanes import Lanes, told
 from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.rows import RowTrack
 from carom.tools.recorder.stream import Stamp, Stream
 
 EMPTY = "empty"
-MOST_NAMES = 3  # of occupants that a lane tells
 
 
 class Triggers(RowTrack):
@@ -54,7 +53,7 @@ class Triggers(RowTrack):
         for sensor, entity in zip(inside.sensor[: inside.count], inside.entity[: inside.count], strict=True):
             occupants[world.name(int(sensor))].append(world.name(int(entity)))
         names = [world.name(int(sensor)) for sensor in world.entities(sensors)]
-        self._lanes.note_all(stamp, {name: _told(occupants[name]) for name in names})
+        self._lanes.note_all(stamp, {name: told(occupants[name], "inside") or EMPTY for name in names})
 
     def rows(self, simulation: Simulation) -> Columns | None:
         """Return a row for each occupant of each sensor."""
@@ -70,7 +69,3 @@ class Triggers(RowTrack):
 def _sensors(world: World) -> Integers:
     rows = world.row_numbers(Collider)
     return np.asarray(rows[world[Collider].sensor[rows]])
-
-
-def _told(names: list[str]) -> str:
-    return f"{len(names)} inside" if len(names) > MOST_NAMES else ", ".join(names) or EMPTY
