@@ -11,7 +11,7 @@ from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.ecs.relations.joint_break import JointBreak
 from carom.systems.awake import Awake, stirs
-from carom.systems.kernels.joint_loads import judge_joints
+from carom.systems.kernels.joint_loads import clear_loads, judge_joints
 from carom.systems.linkage import Linkage
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
@@ -29,8 +29,8 @@ def join_bodies(world: World, dt: float) -> None:
             linkage.hand_over(world)
         linkage.find(world)
     if linkage.groups and begins:  # those that sleep go on bearing what they bore
-        joint, rows = world[Joint], linkage.rows
-        joint.effort[rows], joint.force[rows], joint.torque[rows], joint.limit[rows] = 0.0, 0.0, 0.0, 0
+        joint = world[Joint]
+        clear_loads(linkage.rows, joint.effort, joint.force, joint.torque, joint.limit)
     if linkage.groups or linkage.holds:
         linkage.mark(world, dt)
         linkage.holds = linkage.groups > 0

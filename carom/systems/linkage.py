@@ -35,8 +35,12 @@ class Linkage(Resource):
 
     def is_of(self, world: World) -> bool:
         """Tell whether the groups are of who is held and awake now."""
+        rows, before = world[Awake].now(world), self.awake
         same = self.version == world[Ties].now(world).version and self.restored == world.restored
-        return same and np.array_equal(self.awake, world[Awake].now(world))
+        if same and (rows is before or np.array_equal(rows, before)):
+            self.awake = rows  # who is found anew at the beginning of every step, to be told at once from then on
+            return True
+        return False
 
     def find(self, world: World) -> None:
         """Group the joints that hold somebody who is awake, and write what they hold into the lanes."""

@@ -14,6 +14,8 @@ from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
 
 def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     """Return the contact points of sorted ``pairs`` (n, 2), recycled where a pair has hardly moved since found."""
+    if not len(pairs):
+        return Found.room(0)
     recycled, stays = _recycled(world, pairs, reaches)
     count = len(recycled.row_a)
     if not count:

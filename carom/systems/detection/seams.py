@@ -11,6 +11,8 @@ from carom.systems.kernels.seams import hide_at_seams
 
 def without_seams(world: World, found: Found) -> Found:
     """Return what is found without what `hide_at_seams` hides."""
+    if not len(found.row_a):
+        return found
     collider, pose = world[Collider], world[ColliderPose]
     hidden = np.empty(len(found.row_a), np.bool_)
     number = hide_at_seams(

@@ -12,6 +12,16 @@ from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.lanes import WIDTH
 
 
+@kernel("effort", "force", "torque", "limit")
+def clear_loads(rows, effort, force, torque, limit):
+    """Begin a step in which joints have borne nothing yet."""
+    for i in rows:
+        for s in range(SLOTS):
+            effort[i, s], limit[i, s] = 0.0, 0
+        for k in range(3):
+            force[i, k], torque[i, k] = 0.0, 0.0
+
+
 @kernel(
     "lanes", "impulse", "drive_impulse", "friction_impulse", "position", "velocity",
     "limit", "effort", "force", "torque",
