@@ -58,44 +58,34 @@ def solve_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a,
     of the impulse that is there (Catto, Soft Constraints, GDC 2011), and stays there when ``relaxing``: the first
     pushes along the axes at the start of the way, the second takes what goes along those at its end, which keeps energy
     (Andersen, Rattle, J. Comput. Phys. 52, 24, 1983). The groups go in their order, and back when relaxing.
-
-    What limits, drives and rubs a way comes with all that locks answer to it, so that it moves the way by just what it
-    gives. There locks are hard: soft ones would leave to a limit what they do not hold themselves.
     """
     lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
     room = np.empty((SLOTS, WIDTH))
-    scratch, zero = address(room), spread(0.0)
-    still = (zero, zero, zero, zero, zero, zero, zero, zero)
+    scratch = address(room)
     for n in range(groups):
         g = groups - 1 - n if relaxing else n
-        r, slots, asked = row[g], slots_of(kinds[g]), asks[g] if kinds[g] >= KINDS else 0
-        hard = 1.0 if asked else hardness
+        r, slots = row[g], slots_of(kinds[g])
         a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
         if slots == 1:
-            a, b = hold(1, g, r, rate, hard, a, b, index_a, index_b, lanes, bodies, scratch)
+            a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
         elif slots == WAYS:
             push = hold_point(r, rate, hardness, a, b, lanes)
             a, b = moved_point(r, push, a, b, lanes)
         else:
-            a, b = hold(6, g, r, rate, hard, a, b, index_a, index_b, lanes, bodies, scratch)
-        if asked:
+            a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+        if kinds[g] >= KINDS and asks[g]:
             for s in range(slots):
-                if not asked & (FRICTION_BIT | DRIVE_BIT | LIMIT_BIT) << s:
-                    continue
                 p = bound(r, slots, s)
-                give, speed, total = load(lanes, p + of.GIVE), speed_of(s, r, a, b, lanes), spread(0.0)
-                if asked & FRICTION_BIT << s:
-                    total = rub(p, h, speed, lanes)
-                if asked & DRIVE_BIT << s:
-                    total = total + drive(s, r, p, relaxing, h, speed + give * total, lanes)
-                if asked & LIMIT_BIT << s:
-                    total = total + limit(s, r, p, relaxing, rate, h, speed + give * total, lanes)
-                more_a, more_b = given(s, g, r, total, still, still, index_a, index_b, lanes, bodies)
-                if slots == 1:
-                    more_a, more_b = hold(1, g, r, 0.0, 1.0, more_a, more_b, index_a, index_b, lanes, bodies, scratch)
-                else:
-                    more_a, more_b = hold(6, g, r, 0.0, 1.0, more_a, more_b, index_a, index_b, lanes, bodies, scratch)
-                a, b = summed(a, more_a), summed(b, more_b)
+                if asks[g] & FRICTION_BIT << s:
+                    a, b = rub(s, g, r, p, h, a, b, index_a, index_b, lanes, bodies)
+                if asks[g] & DRIVE_BIT << s:
+                    a, b = drive(s, g, r, p, relaxing, h, a, b, index_a, index_b, lanes, bodies)
+                if asks[g] & LIMIT_BIT << s:
+                    a, b = limit(s, g, r, p, relaxing, rate, h, a, b, index_a, index_b, lanes, bodies)
+            if slots == 1:
+                a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+            else:
+                a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
         scatter(bodies, index_a, g, VELOCITY, a)
         scatter(bodies, index_b, g, VELOCITY, b)
 
@@ -224,32 +214,24 @@ def given(s, g, r, j, a, b, index_a, index_b, lanes, bodies):
 
 
 @woven
-def summed(v, more):
-    """Return the sum of two velocities."""
-    return (
-        v[0] + more[0], v[1] + more[1], v[2] + more[2], v[3], v[4] + more[4], v[5] + more[5], v[6] + more[6], v[7]
-    )  # fmt: skip
-
-
-@woven
 def per(give):
     """Return 1 / give, 0 where nothing gives way."""
     return choose(give - TINY, 1.0 / larger(give, spread(TINY)), spread(0.0))
 
 
 @woven
-def rub(p, h, speed, lanes):
-    """Return the impulse by which friction stops a way, as far as it can."""
+def rub(s, g, r, p, h, a, b, index_a, index_b, lanes, bodies):
+    """Let friction stop a way, as far as it can."""
     before, most = load(lanes, p + of.RUB), load(lanes, p + of.RUBS) * h
-    after = before - speed * per(load(lanes, p + of.GIVE))
+    after = before - speed_of(s, r, a, b, lanes) * per(load(lanes, p + of.GIVE))
     after = larger(-most, smaller(most, after))
     store(lanes, p + of.RUB, after)
-    return after - before
+    return given(s, g, r, after - before, a, b, index_a, index_b, lanes, bodies)
 
 
 @woven
-def drive(s, r, p, relaxing, h, speed, lanes):
-    """Return the impulse of spring and damper, or the motor, stepped implicitly: stable however stiff they are.
+def drive(s, g, r, p, relaxing, h, a, b, index_a, index_b, lanes, bodies):
+    """Let spring and damper, or the motor, act on a way, stepped implicitly: stable however stiff they are.
 
     Their impulse is -h (k (x + h v' - target) + c (v' - speed)) for the velocity v' after it, the most force at most
     (Catto, Soft Constraints, GDC 2011). Springs have acted before the way; ``relaxing`` is none of theirs.
@@ -259,24 +241,26 @@ def drive(s, r, p, relaxing, h, speed, lanes):
     off = load(lanes, slot(r, s) + of.PLACE) - load(lanes, p + of.TARGET)
     wanted = (damping * load(lanes, p + of.WANTED) - stiff * off) / soft
     give = load(lanes, p + of.GIVE)
-    after = (give * before - (speed - wanted)) * per(give + load(lanes, p + of.YIELDS) / (soft * h))
+    after = (give * before - (speed_of(s, r, a, b, lanes) - wanted)) * per(
+        give + load(lanes, p + of.YIELDS) / (soft * h)
+    )
     most = load(lanes, p + of.MOST) * h
     after = larger(-most, smaller(most, after)) * load(lanes, p + of.IS_DRIVEN)
     if relaxing:
         after = choose(stiff, before, after)
     store(lanes, p + of.DRIVE, after)
-    return after - before
+    return given(s, g, r, after - before, a, b, index_a, index_b, lanes, bodies)
 
 
 @woven
-def limit(s, r, p, relaxing, rate, h, speed, lanes):
-    """Return the impulse that lets no way go past its nearer limit within the substep; bounce what has reached it."""
+def limit(s, g, r, p, relaxing, rate, h, a, b, index_a, index_b, lanes, bodies):
+    """Let no way go past the limit that is nearer, within the substep; bounce what has reached it."""
     q, zero = slot(r, s), spread(0.0)
     place, before = load(lanes, q + of.PLACE), load(lanes, q + of.HOLD)
     above, below = place - load(lanes, p + of.LOWER), load(lanes, p + of.UPPER) - place
     sign = choose(above - below, spread(-1.0), spread(1.0))
     gap = smaller(above, below)
-    opening, held = sign * speed, sign * before
+    opening, held = sign * speed_of(s, r, a, b, lanes), sign * before
     wanted = choose(gap, -gap / h, -gap * rate)
     if relaxing:
         came = -(sign * load(lanes, q + of.SPEED))
@@ -286,4 +270,4 @@ def limit(s, r, p, relaxing, rate, h, speed, lanes):
     limited = load(lanes, p + of.IS_LIMITED)
     j = choose(limited, sign * after - before, zero)
     store(lanes, q + of.HOLD, before + j)
-    return j
+    return given(s, g, r, j, a, b, index_a, index_b, lanes, bodies)
