@@ -10,11 +10,15 @@ from pathlib import Path
 import pytest
 from heaps import hashes, jointed_heap
 
-from carom.ecs import restore_snapshot, state_hash, take_snapshot
+from carom.ecs import RigidBody, System, Transform, World, restore_snapshot, state_hash, system, take_snapshot
 from carom.ecs.relations.joint_break import JointBreak
 from carom.ecs.snapshot import SAVED
+from carom.systems import resting
+from carom.systems.chains import add_chain
 from carom.systems.energy import total_energy
+from carom.systems.kernels.packing import pack_bodies
 from carom.systems.linkage import Linkage
+from carom.systems.simulation import Simulation
 from carom.systems.ties import Ties
 
 
@@ -60,6 +64,31 @@ def test_every_joule_is_booked() -> None:
         assert sum(ledger.entries.values()) == pytest.approx(ledger.change, abs=rounding)
     assert broken == 1
     assert {"joints", "drives", "joint friction"} <= {name for name, work in ledger.since.items() if abs(work) > 1e-3}
+
+
+@system(reads=(Transform,))
+def look(world: World, dt: float) -> None:
+    """Do nothing, which nobody can know."""
+
+
+def swinging(*systems: System) -> Simulation:
+    """Return a chain far from anybody, of links whose centres are beside their origins, with further systems."""
+    simulation = Simulation(dt=1.0 / 60.0)
+    links = add_chain(simulation, "chain", (0.0, 0.0, 0.0), (3.0, 1.0, 0.5), 6, radius=0.04)
+    with simulation.world.edit(RigidBody) as body:
+        body.center_of_mass[simulation.world.slots.rows(links)] = (0.01, 0.05, -0.02)
+    for one in systems:
+        simulation.schedule = simulation.schedule.insert(one, after="settle")
+    return simulation
+
+
+def test_bodies_that_have_not_moved_are_not_packed_again_and_nobody_can_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With a system in the frame that might change anything all is found anew, more often, and not a bit differs."""
+    packed: list[int] = []
+    monkeypatch.setattr(resting, "pack_bodies", lambda *arguments: (packed.append(0), pack_bodies(*arguments)))
+    expected, before = hashes(swinging(), 60), len(packed)
+    assert hashes(swinging(look), 60) == expected
+    assert before < len(packed) - before == 60 * 8
 
 
 PLAIN = """
