@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from math import inf
 from pathlib import Path
@@ -18,6 +19,7 @@ from carom.tools.bench.killed import lone_ball
 from carom.tools.bench.measure import Figure, Timing, figure, timed
 from carom.tools.reading import read
 from carom.tools.recorder import Recorder
+from carom.tools.recorder.stream import FRAME
 from carom.tools.recorder.tracks.bodies import ROOT
 
 COUNTS = (1000, 10_000)
@@ -25,7 +27,7 @@ SECONDS, RATE = 9, 60
 EACH, ALWAYS = 0.1e-3, 0.3  # ms a body and frame, ms a frame
 AT_ONCE = 20  # chunks, about as many as there are in a second
 FRAMES, WARM = 100_000, 20_000
-FLAT = 16.0  # MiB: Rerun keeps where each block is, some 60 kB of it, and no more
+FLAT = 16.0  # MiB: Rerun keeps where each chunk is, 6 kB of it, until the end, and blocks grow so that these are few
 
 
 def rolling(count: int) -> Simulation:
@@ -73,21 +75,46 @@ def observed(simulation: Simulation, recorder: Recorder) -> Timing:
 
 def rerun_alone(path: Path, out: Path) -> Timing:
     """Return what it takes to send the chunks of a recording, made before, to a file."""
-    import rerun
+    with _rerun(out) as send:
+        return timed(partial(send, _chunks(path)), 1)
+
+
+def kept_by_rerun(path: Path, out: Path) -> float:
+    """Return the memory (MiB) that grows while Rerun alone writes the chunks from frame WARM on, as a list of them."""
+    chunks = _chunks(path)
+    firsts = [batch.column(FRAME)[0].as_py() if FRAME in batch.schema.names else 0 for batch in map(_batch, chunks)]
+    with _rerun(out) as send:
+        send([chunk for chunk, first in zip(chunks, firsts, strict=True) if first < WARM])
+        before = resident()
+        send([chunk for chunk, first in zip(chunks, firsts, strict=True) if first >= WARM])
+        return resident() - before
+
+
+def _chunks(path: Path) -> list[Any]:
     from rerun.chunk import RrdReader
 
-    chunks = RrdReader(path).stream().to_chunks()
+    return list(RrdReader(path).stream().to_chunks())
+
+
+def _batch(chunk: Any) -> Any:
+    return chunk.to_record_batch()
+
+
+@contextmanager
+def _rerun(out: Path) -> Iterator[Callable[[Sequence[Any]], None]]:
+    """Lend what sends chunks to a file, as many at once as a recorder does."""
+    import rerun
+
     recording = rerun.RecordingStream("alone")
     recording.save(out)
-    taken = timed(partial(_send, recording, chunks), 1)
+
+    def send(chunks: Sequence[Any]) -> None:
+        for first in range(0, len(chunks), AT_ONCE):
+            recording.send_chunks(chunks[first : first + AT_ONCE])
+            recording.flush()
+
+    yield send
     recording.disconnect()
-    return taken
-
-
-def _send(recording: Any, chunks: Sequence[Any]) -> None:
-    for first in range(0, len(chunks), AT_ONCE):
-        recording.send_chunks(chunks[first : first + AT_ONCE])
-        recording.flush()
 
 
 def _bytes(path: Path, count: int) -> Iterator[Figure]:
@@ -102,7 +129,8 @@ def _bytes(path: Path, count: int) -> Iterator[Figure]:
 def memory() -> Iterator[Figure]:
     """Record a small world for long; what is held then and was not when all was warm."""
     with tempfile.TemporaryDirectory() as folder:
-        simulation, recorder = lone_ball(), Recorder(Path(folder) / "long.rrd", every=1)
+        path = Path(folder) / "long.rrd"
+        simulation, recorder = lone_ball(), Recorder(path, every=1)
         simulation.observers.append(recorder)
         recorder.begin(simulation)
         simulation.step(WARM)
@@ -111,6 +139,8 @@ def memory() -> Iterator[Figure]:
         grown = resident() - before
         recorder.end(simulation)
         yield Figure(f"memory grown in {FRAMES} frames, warm", "MiB", grown, grown, FLAT, "value")
+        kept = kept_by_rerun(path, Path(folder) / "alone.rrd")
+        yield Figure("of it Rerun's, where each chunk is", "MiB", kept, kept, inf, "value")
 
 
 def resident() -> float:

@@ -22,7 +22,7 @@ from carom.tools.recorder.tracks.promoted import Promoted
 from carom.tools.rigs import Rig
 
 FLUSH_AFTER = 0.9  # s of real time: a kill then loses less than the last second
-BLOCKS = 10  # of a second of simulated time: each as many more make blocks a second longer, as Rerun holds kB of each
+BLOCKS = 3  # of a second of simulated time: each as many more make blocks a second longer, as Rerun keeps kB of each
 BLOCK = 2 << 20  # bytes of one track: Rerun copies them several times, which takes a third in memory that caches hold
 SEND_AFTER = 1 / 30  # s of real time, so that what a viewer shows of a run moves
 
