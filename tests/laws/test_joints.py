@@ -144,6 +144,25 @@ def test_a_motor_ramps_up_and_keeps_its_speed() -> None:
     assert simulation[joint].joint.position[3] == pytest.approx(5.0 * (239 / 240 - 0.25), abs=0.005)
 
 
+@pytest.mark.parametrize("inertia", [1e-4, 1e-2, 1.0])
+@pytest.mark.parametrize("dt", [1 / 60, 1 / 240])
+def test_a_motor_that_drives_against_its_limit_stands_there(inertia: float, dt: float) -> None:
+    """Whatever inertia the body at the end of the arm has of its own: the limit holds, to rounding, from then on."""
+    simulation = weightless(dt)
+    place, body = {"position": (0.5, 0.0, 0.0)}, {"mass": 2.0, "inertia": (inertia,) * 3}
+    simulation.add(name="arm", collider=BALL, body=body, transform=place)
+    words = {"b": "arm", "at": (0.0, 0.0, 0.0), "axis": (0.0, 1.0, 0.0), "limits": (-0.1, 0.2)}
+    joint = simulation.add(joint={"hinge": words | {"motor": {"speed": 2.0, "most": 3.0}}})
+    angles = []
+    for _ in range(round(1.0 / dt)):
+        simulation.step()
+        angles.append(float(simulation[joint].joint.position[3]))
+    assert max(angles) < 0.2 + 1e-9
+    assert angles[len(angles) // 2 :] == pytest.approx([0.2] * (len(angles) - len(angles) // 2), abs=1e-9)
+    view = simulation[joint].joint
+    assert (view.limit[3], view.effort[3]) == (1, pytest.approx(3.0, rel=1e-9))
+
+
 def test_friction_slows_a_slider_and_lets_it_stand() -> None:
     """2 N on 1 kg take 4 m/s in 2 s of 5 m/s, and the rest in another half; then nothing moves."""
     simulation = weightless()

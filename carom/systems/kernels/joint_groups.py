@@ -23,9 +23,10 @@ AXIS, PLACE, SPEED, AT, HELD, HOLD, SUM, SLOT_ROWS = 0, 3, 4, 5, 6, 7, 8, 9
 # Then the triangle of D and L of the locked ways' L D L^T (the inverse of D on the diagonal), and in a group with
 # limits, drives or friction rows of each way: whether it has limits, which, and with which restitution; whether it is
 # driven, how stiffly and damped, 0 where it yields to nothing, where to and how fast, and the most force; friction; how
-# fast it gives way to a unit impulse while what is locked holds; impulses of drive and friction, and their sums.
+# fast it gives way to a unit impulse while what is locked holds, and while nothing does; impulses of drive and
+# friction, and their sums.
 IS_LIMITED, LOWER, UPPER, BOUNCE, IS_DRIVEN, STIFFNESS, DAMPING, YIELDS, TARGET, WANTED, MOST = range(11)
-RUBS, GIVE, DRIVE, DRIVE_SUM, RUB, RUB_SUM, BOUND_ROWS = range(11, 18)
+RUBS, GIVE, ALONE, DRIVE, DRIVE_SUM, RUB, RUB_SUM, BOUND_ROWS = range(11, 19)
 # Behind the triangle of points, which need not ask the bodies then: their inverse masses and upper halves of inertias.
 MASS_A, MASS_B, INVERSE_A, INVERSE_B, INERT_ROWS = 0, 3, 6, 12, 18
 

@@ -77,11 +77,11 @@ def solve_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a,
             for s in range(slots):
                 p = bound(r, slots, s)
                 if asks[g] & FRICTION_BIT << s:
-                    a, b = rub(s, g, r, p, h, a, b, index_a, index_b, lanes, bodies)
+                    a, b = rub(s, g, r, p, hardness, h, a, b, index_a, index_b, lanes, bodies)
                 if asks[g] & DRIVE_BIT << s:
-                    a, b = drive(s, g, r, p, relaxing, h, a, b, index_a, index_b, lanes, bodies)
+                    a, b = drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodies)
                 if asks[g] & LIMIT_BIT << s:
-                    a, b = limit(s, g, r, p, relaxing, rate, h, a, b, index_a, index_b, lanes, bodies)
+                    a, b = limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes, bodies)
             if slots == 1:
                 a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
             else:
@@ -220,17 +220,24 @@ def per(give):
 
 
 @woven
-def rub(s, g, r, p, h, a, b, index_a, index_b, lanes, bodies):
+def giving(p, hardness, lanes):
+    """Return how fast a way gives way to a unit impulse, while what is locked holds with ``hardness``."""
+    alone = load(lanes, p + of.ALONE)
+    return alone - hardness * (alone - load(lanes, p + of.GIVE))
+
+
+@woven
+def rub(s, g, r, p, hardness, h, a, b, index_a, index_b, lanes, bodies):
     """Let friction stop a way, as far as it can."""
     before, most = load(lanes, p + of.RUB), load(lanes, p + of.RUBS) * h
-    after = before - speed_of(s, r, a, b, lanes) * per(load(lanes, p + of.GIVE))
+    after = before - speed_of(s, r, a, b, lanes) * per(giving(p, hardness, lanes))
     after = larger(-most, smaller(most, after))
     store(lanes, p + of.RUB, after)
     return given(s, g, r, after - before, a, b, index_a, index_b, lanes, bodies)
 
 
 @woven
-def drive(s, g, r, p, relaxing, h, a, b, index_a, index_b, lanes, bodies):
+def drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodies):
     """Let spring and damper, or the motor, act on a way, stepped implicitly: stable however stiff they are.
 
     Their impulse is -h (k (x + h v' - target) + c (v' - speed)) for the velocity v' after it, the most force at most
@@ -240,7 +247,7 @@ def drive(s, g, r, p, relaxing, h, a, b, index_a, index_b, lanes, bodies):
     soft = larger(damping + stiff * h, spread(TINY))  # 0 in lanes without a joint
     off = load(lanes, slot(r, s) + of.PLACE) - load(lanes, p + of.TARGET)
     wanted = (damping * load(lanes, p + of.WANTED) - stiff * off) / soft
-    give = load(lanes, p + of.GIVE)
+    give = giving(p, hardness, lanes)
     after = (give * before - (speed_of(s, r, a, b, lanes) - wanted)) * per(
         give + load(lanes, p + of.YIELDS) / (soft * h)
     )
@@ -253,7 +260,7 @@ def drive(s, g, r, p, relaxing, h, a, b, index_a, index_b, lanes, bodies):
 
 
 @woven
-def limit(s, g, r, p, relaxing, rate, h, a, b, index_a, index_b, lanes, bodies):
+def limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes, bodies):
     """Let no way go past the limit that is nearer, within the substep; bounce what has reached it."""
     q, zero = slot(r, s), spread(0.0)
     place, before = load(lanes, q + of.PLACE), load(lanes, q + of.HOLD)
@@ -266,7 +273,7 @@ def limit(s, g, r, p, relaxing, rate, h, a, b, index_a, index_b, lanes, bodies):
         came = -(sign * load(lanes, q + of.SPEED))
         bounces = choose(held, choose(came - BOUNCE_SPEED, came * load(lanes, p + of.BOUNCE), zero), zero)
         wanted = choose(bounces, bounces, wanted)
-    after = larger(zero, held + (wanted - opening) * per(load(lanes, p + of.GIVE)))
+    after = larger(zero, held + (wanted - opening) * per(giving(p, hardness, lanes)))
     limited = load(lanes, p + of.IS_LIMITED)
     j = choose(limited, sign * after - before, zero)
     store(lanes, q + of.HOLD, before + j)

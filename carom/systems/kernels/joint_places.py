@@ -214,6 +214,7 @@ def find_yielding(slots, g, r, bounded, index_a, index_b, lanes, bodies, scratch
     if bounded:
         for s in range(slots):
             give = load(scratch, triangle(s, s))
+            store(lanes, bound(r, slots, s) + of.ALONE, give)
             for j in range(slots):
                 rest = load(scratch, triangle(max(s, j), min(s, j))) * load(lanes, slot(r, j) + of.HELD)
                 for k in range(j):
