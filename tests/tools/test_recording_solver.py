@@ -20,6 +20,7 @@ from carom.systems.progress import Progress
 from carom.systems.simulation import Simulation
 from carom.systems.solving import Solving
 from carom.tools.cli import main
+from carom.tools.reading import read
 from carom.tools.recorder import Recorder
 from carom.tools.recording import Recording
 from carom.worlds import load_text
@@ -191,7 +192,7 @@ def test_ways_of_measuring_are_counted(tmp_path: Path) -> None:
 
 
 def test_every_system_that_ran_has_its_milliseconds(tmp_path: Path) -> None:
-    """Also a Python force without a name; from `full` on."""
+    """Also a Python force without a name; from `full` on. The dearest are beside each other, all others below them."""
     simulation, path = load_text(WORLD).simulation, tmp_path / "a.rrd"
     simulation.force_function(lambda world, rows: np.zeros((len(rows), 3)))
     recorder = Recorder(path, every=1, detail="full")
@@ -206,6 +207,11 @@ def test_every_system_that_ran_has_its_milliseconds(tmp_path: Path) -> None:
     assert rows["frame"].to_list() == [1, 2, 3]
     assert rows.row(2, named=True) == {"frame": 3, "time": 0.05} | spent
     assert table.arrow().schema.field("lambda").metadata[b"unit"] == b"ms"
+    names = [at.removeprefix("/plots/milliseconds/") for at, _ in read(path).series if "milliseconds" in at]
+    seen = {name for name in names if "/" not in name}
+    assert len(seen) == 8 and {name.removeprefix("others/") for name in names} == spent.keys()
+    middle = {name: sorted(rows[name])[1] for name in spent if rows[name].is_not_nan().all()}
+    assert min(middle[name] for name in seen & middle.keys()) >= max(middle[name] for name in middle.keys() - seen)
 
 
 def test_joints_alone_leave_no_contact_open(tmp_path: Path) -> None:

@@ -28,6 +28,10 @@ class Curves(Track):
     def read(self, simulation: Simulation) -> Mapping[str, float]:
         """Return the numbers of this frame by the names of their curves, which may be others in every frame."""
 
+    def path(self, name: str) -> str:
+        """Return the path of a curve, always the same."""
+        return f"{ROOT}/{self.key}/{name}"
+
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the plot."""
         layout.plot(f"{ROOT}/{self.key}", self.title)
@@ -43,5 +47,5 @@ class Curves(Track):
         for name in sorted({name for _, values in self._pending for name in values}):
             held = [(stamp, values[name]) for stamp, values in self._pending if name in values]
             stamps, curve = zip(*held, strict=True)
-            stream.rows(f"{ROOT}/{self.key}/{name}", stamps, rerun.Scalars.columns(scalars=curve))
+            stream.rows(self.path(name), stamps, rerun.Scalars.columns(scalars=curve))
         self._pending = []

@@ -28,11 +28,12 @@ class Layout:
         self.overrides: defaultdict[str, list[Any]] = defaultdict(list)
         self.lanes = False
 
-    def plot(self, path: str, name: str) -> None:
-        """Add the curves below a path, in one plot."""
+    def plot(self, path: str, name: str, hidden: str = "") -> None:
+        """Add the curves below a path, in one plot, but for those in a ``hidden`` folder of it."""
         import rerun.blueprint as rrb
 
-        self.plots.append(rrb.TimeSeriesView(origin=path, name=name))
+        contents = ["+ $origin/**", *([f"- $origin/{hidden}/**"] if hidden else [])]
+        self.plots.append(rrb.TimeSeriesView(origin=path, contents=contents, name=name))
 
     def plot_first(self, name: str, plots: Mapping[str, str]) -> None:
         """Add plots by their paths, one behind the other, before those that are there."""

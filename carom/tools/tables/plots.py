@@ -18,7 +18,8 @@ ABOUT = {f"/{path}": {"unit": quantity.unit, "doc": quantity.title} for path, qu
 def plots(source: Source) -> dict[str, str]:
     """Return the path of each plot by its name: ``/plots/energy`` of ``energy``."""
     curves = [path for path, component in source.series if path.startswith(ROOT) and component == VALUES]
-    return {path.removeprefix(ROOT): path for path in (curve.rpartition("/")[0] for curve in curves)}
+    names = dict.fromkeys(curve.removeprefix(ROOT).partition("/")[0] for curve in curves)
+    return {name: f"{ROOT}{name}" for name in names}
 
 
 def plot(source: Source, path: str) -> list[Flat]:
@@ -26,7 +27,7 @@ def plot(source: Source, path: str) -> list[Flat]:
     track = TRACKS.get(path.removeprefix(ROOT))
     drawn = {"unit": track.unit, "doc": track.title} if track and issubclass(track, Curves) else ABOUT.get(path)
     about = drawn or {"unit": "1", "doc": path[1:]}
-    curves = [at for at, component in source.series if at.rpartition("/")[0] == path and component == VALUES]
+    curves = [at for at, component in source.series if at.startswith(f"{path}/") and component == VALUES]
     rows = {curve: source.rows(curve, {"value": VALUES}) for curve in curves}
     frames = np.unique(np.concatenate([row.frame for row in rows.values()]))
     columns = list(source.keys(frames))
