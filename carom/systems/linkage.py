@@ -11,7 +11,8 @@ from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.systems.awake import Awake
 from carom.systems.constants import JOINT_HARDNESS, JOINT_RATE
-from carom.systems.kernels.joint_groups import fill_joints, group_joints
+from carom.systems.kernels.joint_filling import fill_joints
+from carom.systems.kernels.joint_groups import group_joints
 from carom.systems.kernels.joint_impulses import finish_joints, solve_joints, start_joints_warm
 from carom.systems.kernels.joint_loads import hand_joints_over
 from carom.systems.kernels.joint_marks import mark_held

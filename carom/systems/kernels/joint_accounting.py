@@ -6,7 +6,7 @@ from __future__ import annotations
 from carom.systems.kernels import joint_groups as of
 from carom.systems.kernels.accounting import gained, given
 from carom.systems.kernels.joint_groups import KINDS, bound, slot, slots_of
-from carom.systems.kernels.joint_impulses import added, moved
+from carom.systems.kernels.joint_motion import added, moved
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.lanes import address, gather, spread, store
 from carom.systems.kernels.packing import VELOCITY

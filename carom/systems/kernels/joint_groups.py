@@ -7,8 +7,7 @@ import numpy as np
 
 from carom.ecs.components.joint import LIMITED, LINE, LOCKED, SLOTS, SWING_TWIST
 from carom.systems.kernels.kernel import inlined, kernel, woven
-from carom.systems.kernels.lanes import WIDTH, address, spread, store
-from carom.systems.kernels.spatial import product, turn
+from carom.systems.kernels.lanes import WIDTH
 
 # Kinds of groups by the ways that their joints hold: the line between the anchors, the three coordinates of a point,
 # and the six of a frame by either measure of turns; each once without limits, drives and friction, and once with.
@@ -138,95 +137,3 @@ def group_joints(
         first[group, lane], place[group, lane] = joints[n], n
         lane += 1
     return group + 1, rows
-
-
-@kernel("asks", "lanes")
-def fill_joints(
-    groups, kinds, index_a, index_b, first, place, row, nobody, center_of_mass,
-    row_a, row_b, position_of, rotation_of, anchor_a, anchor_b, frame_a, frame_b, mode, lower, upper, restitution,
-    driven, stiffness, damping, target, speed, most, friction, impulse, drive_impulse, friction_impulse,
-    position, velocity, asks, lanes,
-):  # fmt: skip
-    """Write what joints hold into the lanes of their groups; of what stands, anchors and frames are in the world.
-
-    ``row_a`` and ``row_b`` are the rows of whom each joint holds (-1 for the world).
-    """
-    rows = address(lanes)
-    for g in range(groups):
-        r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
-        for k in range(end_of(r, kinds[g]) - r):
-            store(rows, r + k, spread(0.0))
-        for s in range(slots if bounded else 0):
-            store(rows, bound(r, slots, s) + DAMPING, spread(1.0))  # divides also where nobody is
-        asks[g] = 0
-        for lane in range(WIDTH):
-            lanes[r + FRAME_A + 3, lane] = lanes[r + FRAME_B + 3, lane] = 1.0
-            i = first[g, lane]
-            if i < 0:
-                continue
-            a, b = row_a[place[g, lane]], row_b[place[g, lane]]
-            write_side(
-                r + LEVER_A, r + FRAME_A, lane, i, index_a[g, lane] == nobody, a, center_of_mass,
-                position_of, rotation_of, anchor_a, frame_a, lanes,
-            )  # fmt: skip
-            write_side(
-                r + LEVER_B, r + FRAME_B, lane, i, index_b[g, lane] == nobody, b, center_of_mass,
-                position_of, rotation_of, anchor_b, frame_b, lanes,
-            )  # fmt: skip
-            for s in range(slots):
-                q = slot(r, s)
-                if kinds[g] == POINTS:
-                    lanes[q + AXIS + s, lane] = 1.0
-                lanes[q + PLACE, lane] = position[i, s]
-                if mode[i, s] == LOCKED:
-                    lanes[q + HELD, lane], lanes[q + AT, lane] = 1.0, lower[i, s]
-                lanes[q + HOLD, lane], lanes[q + SPEED, lane] = impulse[i, s], velocity[i, s]
-                if bounded:
-                    asks[g] |= write_bounds(
-                        bound(r, slots, s), lane, i, s, mode, lower, upper, restitution, driven, stiffness, damping,
-                        target, speed, most, friction, drive_impulse, friction_impulse, lanes,
-                    )  # fmt: skip
-
-
-@inlined
-def write_side(lever, frame, lane, i, stands, row, center_of_mass, position, rotation, anchor, frames, lanes):
-    """Write the lever and the frame of joint i on one of the two that it holds."""
-    x, y, z = anchor[i, 0], anchor[i, 1], anchor[i, 2]
-    qx, qy, qz, qw = frames[i, 0], frames[i, 1], frames[i, 2], frames[i, 3]
-    if not stands:
-        x, y, z = x - center_of_mass[row, 0], y - center_of_mass[row, 1], z - center_of_mass[row, 2]
-    elif row >= 0:
-        tx, ty, tz, tw = rotation[row, 0], rotation[row, 1], rotation[row, 2], rotation[row, 3]
-        x, y, z = turn(tx, ty, tz, tw, x, y, z)
-        x, y, z = x + position[row, 0], y + position[row, 1], z + position[row, 2]
-        qx, qy, qz, qw = product(tx, ty, tz, tw, qx, qy, qz, qw)
-    for k, value in enumerate((x, y, z)):
-        lanes[lever + k, lane] = value
-    for k, value in enumerate((qx, qy, qz, qw)):
-        lanes[frame + k, lane] = value
-
-
-@inlined
-def write_bounds(
-    q, lane, i, s, mode, lower, upper, restitution, driven, stiffness, damping, target, speed, most, friction,
-    drive_impulse, friction_impulse, lanes,
-):  # fmt: skip
-    """Write what bounds a way; return what it asks for."""
-    asks = 0
-    if mode[i, s] == LIMITED:
-        asks |= LIMIT_BIT << s
-        lanes[q + IS_LIMITED, lane], lanes[q + BOUNCE, lane] = 1.0, restitution[i]
-        lanes[q + LOWER, lane], lanes[q + UPPER, lane] = lower[i, s], upper[i, s]
-    rigid = damping[i, s] == np.inf
-    if driven[i, s] and (damping[i, s] > 0.0 or stiffness[i, s] > 0.0):
-        asks |= DRIVE_BIT << s
-        lanes[q + IS_DRIVEN, lane] = 1.0
-        if not rigid:
-            lanes[q + STIFFNESS, lane], lanes[q + DAMPING, lane] = stiffness[i, s], damping[i, s]
-            lanes[q + YIELDS, lane] = 1.0
-        lanes[q + TARGET, lane], lanes[q + WANTED, lane] = target[i, s], speed[i, s]
-        lanes[q + MOST, lane], lanes[q + DRIVE, lane] = most[i, s], drive_impulse[i, s]
-    if friction[i, s] > 0.0:
-        asks |= FRICTION_BIT << s
-        lanes[q + RUBS, lane], lanes[q + RUB, lane] = friction[i, s], friction_impulse[i, s]
-    return asks
