@@ -97,6 +97,11 @@ def reaches(world: World) -> Floats:
     middle = transform.position[rows] + quaternion.rotate(transform.rotation[rows], collider.bound_center[rows])
     away = np.linalg.norm(middle - centers_of_mass(world, belongs[rows]), axis=1)
     found = np.zeros(len(belongs))
-    size = np.linalg.norm(collider.bound_half[rows], axis=1) + collider.bound_radius[rows]
-    np.maximum.at(found, belongs[rows], away + size)
+    np.maximum.at(found, belongs[rows], away + bounding_radii(world, rows))
     return found
+
+
+def bounding_radii(world: World, rows: Integers) -> Floats:
+    """Return the radii (n,) in m of balls about the bounds of colliders, around their middles; inf without an end."""
+    collider = world[Collider]
+    return np.asarray(np.linalg.norm(collider.bound_half[rows], axis=1) + collider.bound_radius[rows])

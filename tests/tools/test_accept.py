@@ -8,29 +8,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from unlike import PLACE, leave_unlike
 
-from carom.ecs import World
 from carom.tools.cli import main
-from carom.tools.snapshot_kit.case import ABOUT, leave
-from carom.tools.snapshot_kit.golden import Actual, Golden
+from carom.tools.snapshot_kit.case import ABOUT
 from carom.tools.snapshot_kit.picture import read_picture, write_picture
-from carom.tools.snapshot_kit.state import state_golden
-
-PLACE = "tests/__carom__/test_game/start"
 
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a project, in it a golden whose picture is white where the report of a run has a black one."""
     monkeypatch.chdir(tmp_path)
-    golden, state = Golden(tmp_path / PLACE), state_golden(World())
-    golden.path.parent.mkdir(parents=True)
-    golden.file(".json").write_text(state.text())
-    write_picture(golden.file(".png"), np.full((8, 8, 3), 255, np.uint8))
-    actual = Actual(state, np.zeros((8, 8, 3), np.uint8))
-    verdict = golden.verdict(actual, 0.0)
-    assert verdict is not None
-    leave(tmp_path / "report", tmp_path, "tests/test_game.py::test_start", golden, actual, verdict)
+    black = np.zeros((8, 8, 3), np.uint8)
+    leave_unlike(tmp_path, "report", "tests/test_game.py::test_start", black + 255, black)
     return tmp_path
 
 
@@ -179,6 +169,15 @@ def test_what_is_no_report_is_refused(project: Path, capsys: pytest.CaptureFixtu
         f"tests holds no check that did not pass; {accepted}",
     ]
     assert lines[3].startswith("report: carom-cases/start-") and "is no case of this version of carom" in lines[3]
+
+
+def test_a_golden_that_is_no_text_is_refused(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """As what no version of carom writes."""
+    edit(project, golden=5)
+    (case,) = (project / "report").rglob("case.json")
+    assert main(["accept", "report", "--yes"]) == 2
+    name = case.relative_to(project / "report").as_posix()
+    assert capsys.readouterr().err == f"report: {name} is no case of this version of carom: its golden is no text\n"
 
 
 @pytest.mark.parametrize(

@@ -8,13 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browser import Browser, browser
+from unlike import leave_unlike
 
-from carom.ecs import World
-from carom.tools.snapshot_kit.case import Case, cases, leave
-from carom.tools.snapshot_kit.golden import Actual, Golden
-from carom.tools.snapshot_kit.picture import Picture, write_picture
+from carom.tools.snapshot_kit.case import Case, cases
+from carom.tools.snapshot_kit.picture import Picture
 from carom.tools.snapshot_kit.report import markdown, page
-from carom.tools.snapshot_kit.state import state_golden
 
 RED, BLUE = (200, 30, 30), (30, 60, 200)
 
@@ -27,16 +25,9 @@ def plain(color: tuple[int, int, int]) -> Picture:
 @pytest.fixture
 def report(tmp_path: Path) -> Path:
     """Return a report with one case: red was expected, blue is there."""
-    golden, state = Golden(tmp_path / "tests" / "__carom__" / "test_game" / "start"), state_golden(World())
-    golden.path.parent.mkdir(parents=True)
-    golden.file(".json").write_text(state.text())
-    write_picture(golden.file(".png"), plain(RED))
-    actual = Actual(state, plain(BLUE))
-    verdict = golden.verdict(actual, 0.0)
-    assert verdict is not None
-    leave(tmp_path / "carom-report", tmp_path, "tests/test_game.py::test_<start>", golden, actual, verdict)
-    (tmp_path / "carom-report" / "index.html").write_text(page(list(cases(tmp_path / "carom-report"))))
-    return tmp_path / "carom-report" / "index.html"
+    folder = leave_unlike(tmp_path, "carom-report", "tests/test_game.py::test_<start>", plain(RED), plain(BLUE))
+    (folder / "index.html").write_text(page(list(cases(folder))))
+    return folder / "index.html"
 
 
 @pytest.fixture
@@ -105,7 +96,7 @@ def test_it_says_what_a_terminal_says(shown: Browser) -> None:
 
 def test_markdown_keeps_to_its_cells() -> None:
     """Bars and lines within a text do not break the table."""
-    case = Case("test_a.py::test_b[x|y]", "__carom__/test_a/b", "physics", "physics: a\nb | c", 3, {})
+    case = Case("test_a.py::test_b[x|y]", "__carom__/test_a/b", "physics", "a\nb | c", 3, {})
     assert markdown([case]) == (
         "## Snapshots that do not pass\n"
         "\n"

@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from carom.ecs import Collider, Motion, Transform, Visual, World
+from carom.systems.compound import bounding_radii
 from carom.tools.cameras import Camera, Vector, front
 from carom.tools.recorder import about
 from carom.tools.recorder.lanes import ROOT as LANES
@@ -64,8 +65,7 @@ def blueprint(
 def default_camera(world: World, up: Vector = (0.0, 1.0, 0.0)) -> Camera:
     """Return a camera that has everything bounded in view, from in front, above and a little to the right."""
     rows = world.row_numbers(Collider, Transform)
-    collider = world[Collider]
-    reach = np.linalg.norm(collider.bound_half[rows], axis=1) + collider.bound_radius[rows]
+    reach = bounding_radii(world, rows)
     finite = np.isfinite(reach)
     axes = np.column_stack([np.cross(up, front(up)), up, front(up)])
     if not finite.any():

@@ -46,7 +46,7 @@ class Change:
         """Return what changes, in one line."""
         if self.golden.digests() == {ending: digest(content) for ending, content in self.files.items()}:
             return f"  {self.case.golden}: is so already"
-        what = "new" if self.case.kind == "new" else self.case.what
+        what = "new" if self.case.kind == "new" else str(self.case)
         return f"  {self.case.golden}: {what}{'; IT HAS CHANGED SINCE THAT RUN' if self.overtaken else ''}"
 
 

@@ -38,6 +38,10 @@ class Case:
     expected: str = ""
     actual: str = ""
 
+    def __str__(self) -> str:
+        """Return the line that a failure begins with."""
+        return self.what if self.kind == "new" else f"{self.kind}: {self.what}"
+
     @property
     def again(self) -> str:
         """The command that runs the check again."""
@@ -57,7 +61,11 @@ class Case:
     @classmethod
     def read(cls, text: str) -> Case:
         """Return what `leave` wrote; raise ValueError or TypeError for anything else."""
-        return cls(**json.loads(text))
+        case = cls(**json.loads(text))
+        for name in ("test", "golden", "kind", "what"):
+            if not isinstance(getattr(case, name), str):
+                raise TypeError(f"its {name} is no text")
+        return case
 
 
 def leave(report: Path, root: Path, test: str, golden: Golden, actual: Actual, verdict: Verdict) -> tuple[Case, Path]:
@@ -65,7 +73,7 @@ def leave(report: Path, root: Path, test: str, golden: Golden, actual: Actual, v
     fault = verdict.fault
     parts = {"entity": fault.entity, "column": fault.column, "expected": fault.expected, "actual": fault.actual}
     place = golden.path.relative_to(root).as_posix()
-    case = Case(test, place, verdict.kind, str(verdict), actual.state.frame, golden.digests(), **parts)
+    case = Case(test, place, verdict.kind, fault.what, actual.state.frame, golden.digests(), **parts)
     folder = report / CASES / case.folder
     folder.mkdir(parents=True, exist_ok=True)
     (report / ".gitignore").write_text("*\n", encoding="utf-8")

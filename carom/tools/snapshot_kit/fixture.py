@@ -88,7 +88,7 @@ class CaromSnapshot:
             return
         self._frames.record(simulation, folder / RECORDING, case.test, camera)
         lines = (
-            case.what,
+            str(case),
             f"  left in {self._kit.shown(folder)}",
             f"  its last frames: carom view {self._kit.shown(folder / RECORDING)}",
             f"  again: {case.again}",

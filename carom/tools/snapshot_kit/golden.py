@@ -26,10 +26,6 @@ class Verdict:
     kind: str
     fault: StateFault
 
-    def __str__(self) -> str:
-        """Return the line that a failure begins with."""
-        return self.fault.what if self.kind == "new" else f"{self.kind}: {self.fault.what}"
-
 
 @dataclass(frozen=True)
 class Golden:

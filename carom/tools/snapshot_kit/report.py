@@ -32,7 +32,7 @@ def _article(case: Case, folder: Path) -> str:
     lines = "".join(f"<dt>{name}</dt><dd><code>{escape(command)}</code></dd>" for name, command in commands)
     return (
         f'<article id="{escape(folder.name)}"><h2><b class="{escape(case.kind)}">{escape(case.kind)}</b> '
-        f"{escape(case.test)} <i>{escape(Path(case.golden).name)}</i></h2><p>{escape(_what(case))}</p>"
+        f"{escape(case.test)} <i>{escape(Path(case.golden).name)}</i></h2><p>{escape(case.what)}</p>"
         f"{_compare(folder)}<table>{table}</table><dl>{lines}</dl></article>"
     )
 
@@ -52,14 +52,10 @@ def _picture(path: Path, name: str) -> str:
 
 def markdown(cases: Sequence[Case]) -> str:
     """Return the cases as a section for the summary of a CI run."""
-    rows = [f"| {case.kind} | `{_cell(case.test)}` | {_cell(_what(case))} | `{_cell(case.again)}` |" for case in cases]
+    rows = [f"| {case.kind} | `{_cell(case.test)}` | {_cell(case.what)} | `{_cell(case.again)}` |" for case in cases]
     head = ["## Snapshots that do not pass", "", "| layer | test | what | again |", "| --- | --- | --- | --- |"]
     tail = ["", "To take them over: download the report of this run and `carom accept REPORT.zip`.", ""]
     return "\n".join([*head, *rows, *tail])
-
-
-def _what(case: Case) -> str:
-    return case.what.removeprefix(f"{case.kind}: ")  # which stands beside it
 
 
 def _cell(text: str) -> str:

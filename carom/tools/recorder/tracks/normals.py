@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.ecs import Collider, RigidBody, World
 from carom.ecs.relations.contact import Contact
+from carom.systems.compound import bounding_radii
 from carom.systems.simulation import Simulation
 from carom.systems.touching import touching_rows
 from carom.tools.recorder.block import Columns, joined
@@ -62,7 +63,5 @@ class Normals(Track):
 
 def typical_radius(world: World) -> float:
     """Return the median half extent (m) of the bodies that move, 1 where there are none."""
-    rows = world.row_numbers(RigidBody, Collider)
-    collider = world[Collider]
-    radii = np.linalg.norm(collider.bound_half[rows], axis=1) + collider.bound_radius[rows]
+    radii = bounding_radii(world, world.row_numbers(RigidBody, Collider))
     return float(np.median(radii)) if len(radii) else 1.0
