@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 
-from carom.ecs.errors import CaromError, did_you_mean
 from carom.tools.coloring import MODES
 from carom.tools.overlays import OVERLAYS
 from carom.tools.quantities import quantity
 from carom.worlds.builder import LoadedWorld
-from carom.worlds.errors import WordError
+from carom.worlds.errors import Fault, WordError
+from carom.worlds.names import known
+from carom.worlds.reader import read
 
 
 @dataclass(frozen=True)
@@ -32,25 +34,38 @@ def look_of(
 ) -> Look:
     """Return the look a world file states, except for what is stated here.
 
-    Raises CaromError for every unknown overlay, mode of colour and quantity at once.
+    Raises WorldError for every unknown overlay, mode of colour and quantity at once, those of the file at their places.
     """
     render = loaded.render
     wanted = tuple(dict.fromkeys(render.overlays if overlays is None else overlays))
-    color = render.color if color is None else color
-    faults = [_unknown("overlay", name, OVERLAYS) for name in wanted if name not in OVERLAYS]
-    faults += [_unknown("mode of colour", name, MODES) for name in (color,) if name not in MODES]
     measured = tuple(dict.fromkeys(render.plots if plots is None else plots))
-    for text in measured:
-        try:
-            quantity(text, loaded.simulation.world)
-        except WordError as fault:
-            faults.append(fault.line("plot"))
+    mode = render.color if color is None else color
+    faults: list[tuple[str, str, WordError]] = []
+    for key, words, check in (
+        ("overlays", wanted, partial(known, "overlay", choices=sorted(OVERLAYS))),
+        ("color", (mode,), partial(known, "mode of colour", choices=sorted(MODES))),
+        ("plots", measured, partial(quantity, world=loaded.simulation.world)),
+    ):
+        for word in words:
+            try:
+                check(word)
+            except WordError as fault:
+                faults.append((key, word, fault))
     if faults:
-        raise CaromError("\n".join(f"{loaded.path}: {fault}" for fault in faults))
-    return Look(wanted, color, render.wireframe if wireframe is None else wireframe, measured)
+        stated = {"overlays": overlays, "color": color, "plots": plots}
+        _refuse(loaded, [key for key in stated if stated[key] is not None], faults)
+    return Look(wanted, mode, render.wireframe if wireframe is None else wireframe, measured)
 
 
-def _unknown(kind: str, name: str, choices: Iterable[str]) -> str:
-    names = sorted(choices)
-    parts = f"no {kind} is named {name!r}", f"accepted: {', '.join(names)}", did_you_mean(name, names)
-    return "; ".join(filter(None, parts))
+def _refuse(loaded: LoadedWorld, stated: list[str], faults: list[tuple[str, str, WordError]]) -> None:
+    """Raise WorldError for words by their keys; they stand in the file but for keys that were stated otherwise."""
+    source = read(loaded.source_text, loaded.path)
+    for key, word, fault in faults:
+        if key in stated:
+            told = fault.what, fault.received, fault.accepted, fault.hint
+            source.faults.append(Fault(loaded.path, 0, 0, key, *told))
+        else:
+            words = getattr(loaded.render, key)
+            number = () if isinstance(words, str) else (words.index(word),)
+            source.report_value(("render", key, *number), fault)
+    source.refuse_if_faulty()

@@ -74,9 +74,10 @@ def test_run_draws_its_last_picture_with_all_it_has_seen(world: Path, tmp_path: 
 def test_unknown_words_end_with_2_and_say_what_there_is(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """From the command line and, found by check, from the file."""
     assert main(["render", str(world), "--out", "a.png", "--overlay", "stmp"]) == 2
-    assert "no overlay is named 'stmp'; accepted: axes, bounds, contacts, " in capsys.readouterr().err
+    assert "overlays: unknown overlay; received 'stmp'; accepted: axes, bounds, contacts, " in capsys.readouterr().err
     world.write_text(WORLD.replace("height: 120", "height: 120, color: sped, plots: [enrgy]"))
     assert main(["check", str(world)]) == 2
     said = capsys.readouterr().err
-    assert "no mode of colour is named 'sped'; " in said and "did you mean 'speed'?" in said
-    assert "plot: is no value of the world; received 'enrgy'" in said
+    line = 1 + WORLD[: WORLD.index("height: 120")].count("\n")
+    assert f"{world}:{line}:" in said and ": render.color: unknown mode of colour; received 'sped'; " in said
+    assert ": render.plots.0: is no value of the world; received 'enrgy'" in said and said.count(f":{line}:") == 2

@@ -259,10 +259,10 @@ def test_unknown_names_are_told_all_at_once() -> None:
     with pytest.raises(CaromError) as caught:
         look_of(loaded, ["conacts", "stamp"], "sped")
     assert str(caught.value) == (
-        f"bounce.yaml: no overlay is named 'conacts'; accepted: {', '.join(sorted(OVERLAYS))}; "
-        "did you mean 'contacts'?\n"
-        "bounce.yaml: no mode of colour is named 'sped'; "
-        "accepted: energy, entity, island, kind, layer, material, sleep, speed; did you mean 'speed'?"
+        "bounce.yaml: color: unknown mode of colour; received 'sped'; "
+        "accepted: energy, entity, island, kind, layer, material, sleep, speed; did you mean 'speed'?\n"
+        f"bounce.yaml: overlays: unknown overlay; received 'conacts'; accepted: {', '.join(sorted(OVERLAYS))}; "
+        "did you mean 'contacts'?"
     )
 
 

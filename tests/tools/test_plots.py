@@ -67,7 +67,7 @@ def test_what_is_no_quantity_is_told() -> None:
     with pytest.raises(CaromError) as caught:
         look_of(loaded, plots=["enrgy"])
     assert str(caught.value) == (
-        "bounce.yaml: plot: is no value of the world; received 'enrgy'; accepted: energy, momentum, overlap, counts, "
+        "bounce.yaml: plots: is no value of the world; received 'enrgy'; accepted: energy, momentum, overlap, counts, "
         "<entity>.<column>, speed(entity), spin(entity), kinetic_energy(entity), load(entity), "
         "distance(entity, entity) or sees(entity, entity); did you mean 'energy'?"
     )
