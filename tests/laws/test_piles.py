@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from carom.ecs import Motion
 from carom.ecs.relations.contact import Contact
@@ -11,6 +12,7 @@ from carom.tools.bench.engines import Carom
 from carom.tools.bench.overlap import lost
 
 
+@pytest.mark.slow
 def test_a_pile_of_a_thousand_boxes_comes_to_rest() -> None:
     """After 15 s, nobody asleep, all are slower than 1 mm/s, no overlap is deeper than 2 cm, and none is lost."""
     scene = box_pile(1000)

@@ -19,7 +19,7 @@ def flying(
     position: tuple[float, float, float], velocity: tuple[float, float, float], **settings: object
 ) -> tuple[Simulation, int]:
     """Return a ball of 1 kg in a world without gravity, one substep a step."""
-    simulation = Simulation(**{"dt": 1 / 240, "gravity": (0.0, 0.0, 0.0), "substeps": 1, **settings})
+    simulation = Simulation(**{"dt": 1 / 240, "gravity": (0.0, 0.0, 0.0), "substeps": 1, "checked": False, **settings})
     motion, place = {"linear": velocity}, {"position": position}
     return simulation, simulation.add(collider=BALL, body={"mass": 1.0}, transform=place, motion=motion)
 

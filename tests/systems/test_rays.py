@@ -42,7 +42,7 @@ def finite(hits: Hits) -> bool:
     return all(bool(np.isfinite(column).all()) for column in numbers)
 
 
-@pytest.mark.parametrize("far", [3.0, 1e5])
+@pytest.mark.parametrize("far", [3.0, pytest.param(1e5, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", SOLIDS)
 def test_distances_points_and_normals_are_exact(name: str, far: float) -> None:
     """Of every convex shape, turned and moved, from near and from 100 km: against a search along the ray."""

@@ -143,6 +143,7 @@ def pale_rim(picture: np.ndarray, name: str) -> float:
     return float(np.mean(found))
 
 
+@pytest.mark.slow
 def test_a_browser_shows_it(recorded: Path, tmp_path: Path) -> None:
     """Rerun's web viewer, served by carom on ports of its own, draws the three balls with WebGL in a real browser."""
     words = [sys.executable, "-m", "carom.tools.cli", "view", "--web", str(recorded)]

@@ -165,6 +165,7 @@ def hued_pixels(picture: npt.NDArray[np.uint8], name: str) -> npt.NDArray[np.int
     return np.argwhere((degrees > least) & (degrees < most) & (saturation > least_saturation) & (high > least_value))
 
 
+@pytest.mark.slow
 def test_the_balls_of_a_break_are_seen_where_the_simulation_has_them(tmp_path: Path, viewer: Any) -> None:
     """The demo's recording, its balls told apart by colour, through the world's own camera."""
     path = tmp_path / "billiards.rrd"

@@ -153,8 +153,9 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         ),
         (
             "forces: [{wnd: {velocity: [1, 0, 0]}}]\n",
-            ("w.yaml:2:11: forces.0.wnd: unknown key; received 'wnd'; accepted: constant_push, linear_drag, "
-            "quadratic_drag, mutual_gravitation, wind, entities; did you mean 'wind'?"),
+            ("w.yaml:2:11: forces.0.wnd: unknown key; received 'wnd'; accepted: attraction, constant_push, linear_drag, "
+            "quadratic_drag, gravity_well, lift, magnus, mutual_gravitation, thruster, vortex, wind, entities; "
+            "did you mean 'wind'?"),
         ),
         (
             "forces: [{wind: {velocity: [1, 0, 0]}, entities: [ball]}]\n",
