@@ -27,9 +27,7 @@ def test_the_python_of_a_page_runs(page: Path, capsys: pytest.CaptureFixture[str
     assert capsys.readouterr().out == "".join(told)
 
 
-@pytest.mark.parametrize(
-    "page", [page for page in PAGES if "```yaml\ncarom:" in page.read_text()], ids=lambda p: p.stem
-)
+@pytest.mark.parametrize("page", WITH_WORLDS, ids=lambda page: page.stem)
 def test_the_worlds_of_a_page_are_worlds(page: Path) -> None:
     """Every whole world file that a page shows can be read, with all that it expects."""
     for block in re.findall(r"^```yaml\n(carom:.*?)^```", page.read_text(), re.MULTILINE | re.DOTALL):
