@@ -45,12 +45,17 @@ class Landings(Resource):
         self._contacts, self._speed = rows[order[first]], closing[order[first]]
 
     def tell(self, world: World, h: float) -> None:
-        """Append those that were pressed to the impacts; what they did to energy is told of contacts."""
+        """Append those that were pressed to the impacts, once; what they did to energy is told of contacts.
+
+        After relaxing; or before contacts are found anew in the middle of the flight, since manifolds are others then:
+        what the next substep finds to stop is not in the impulse.
+        """
         resting, contact = world[Resting], world[Contact]
         if not len(self._manifolds):
             return
-        group, lane = resting.group_of[self._manifolds], resting.lane_of[self._manifolds]
-        row, points = resting.row[group], np.diff(resting.start)[self._manifolds]
+        manifolds, self._manifolds = self._manifolds, self._manifolds[:0]
+        group, lane = resting.group_of[manifolds], resting.lane_of[manifolds]
+        row, points = resting.row[group], np.diff(resting.start)[manifolds]
         impulse, rubbed = np.zeros(len(row)), np.zeros((len(row), 3))
         for p in range(int(points.max())):
             there = points > p

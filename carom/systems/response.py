@@ -119,7 +119,7 @@ def hand_impulses_over(world: World, dt: float) -> None:
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads, Joint),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ledger, Ties,
+        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ledger, Ties, Landings,
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:
@@ -136,6 +136,7 @@ def drift(world: World, dt: float) -> None:
         if reason == DONE:
             return
         _finish(world, ended=False)
+        world[Landings].tell(world, dt)
         world[Resting].hand_over(contact)
         detect_again(world, world[Progress].left + dt - at)
         world[Fast].let_go(contact)

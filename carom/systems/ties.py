@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import RigidBody, World
+from carom.ecs import ColliderPose, RigidBody, World
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.joint import Joint
-from carom.systems.compound import bodies_of
 from carom.systems.ends import ends_there
 
 
@@ -63,7 +62,7 @@ class Ties(Resource):
         """Return ``pairs`` (n, 2) of collider rows without those that joints keep from touching each other."""
         if not len(self.now(world).keys):
             return pairs
-        bodies = bodies_of(world)[pairs]
+        bodies = world[ColliderPose].body_row[pairs]
         owners = np.where(bodies >= 0, bodies, pairs)
         keys = _keys(owners[:, 0], owners[:, 1])
         place = np.minimum(np.searchsorted(self.keys, keys), len(self.keys) - 1)

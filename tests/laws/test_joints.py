@@ -242,16 +242,21 @@ def test_joined_bodies_touch_each_other_only_if_asked(collide: bool) -> None:
     assert (why_no_contact(simulation, "left", "right") == kept) != collide
 
 
-def test_who_lands_on_joints_lands_with_all_of_them() -> None:
-    """Two masses on a rod that fall flat stop at once: an impact each, of all its momentum, and the rod holds."""
-    simulation = Simulation(dt=1 / 60)
+def add_dumbbell(simulation: Simulation) -> None:
+    """Add a floor, and two masses on a rod that fall flat on it."""
     simulation.add(name="floor", collider={"plane": {}})
     for name, x in (("left", -0.5), ("right", 0.5)):
         place, down = {"position": (x, 1.0, 0.0)}, {"linear": (0.0, -5.0, 0.0)}
-        simulation.add(
-            name=name, collider={"sphere": {"radius": 0.1}}, body={"mass": 2.0}, transform=place, motion=down
-        )
-    joint = simulation.add(joint={"fixed": {"a": "left", "b": "right", "at": (0.0, 1.0, 0.0)}})
+        ball = {"sphere": {"radius": 0.1}}
+        simulation.add(name=name, collider=ball, body={"mass": 2.0}, transform=place, motion=down)
+    simulation.add(name="rod", joint={"fixed": {"a": "left", "b": "right", "at": (0.0, 1.0, 0.0)}})
+
+
+def test_who_lands_on_joints_lands_with_all_of_them() -> None:
+    """Two masses on a rod that fall flat stop at once: an impact each, of all its momentum, and the rod holds."""
+    simulation = Simulation(dt=1 / 60)
+    add_dumbbell(simulation)
+    joint = simulation.world.find("rod")
     gaps, impacts = [], []
     for _ in range(20):
         simulation.step()
@@ -322,3 +327,31 @@ def test_a_turned_world_swings_alike() -> None:
         simulation.step(240)
         ends.append(quaternion.rotate(quaternion.conjugate(turn), simulation["1"].transform.position))
     assert ends[0] == pytest.approx(ends[1], abs=1e-9)  # a double pendulum makes more of rounding
+
+
+def test_a_landing_is_told_whatever_is_detected_meanwhile() -> None:
+    """What a ball strikes leaves its reach, so that contacts are found anew, in other places: no landing is lost."""
+    told = []
+    for struck in (0, 60):
+        simulation = Simulation(dt=1 / 60)
+        hard, ball = {"restitution": 1.0}, {"sphere": {"radius": 0.1}}
+        for number in range(struck):  # one after the other in every substep
+            if number == 20:  # before and behind those who land
+                add_dumbbell(simulation)
+            place = {"position": (0.4 * number, 5.0 + 0.06 * (number % 2), 5.0)}
+            simulation.add(collider=ball, body={"mass": 0.1}, material=hard, transform=place)
+        if struck:
+            place, fast = {"position": (-0.3, 5.03, 5.0)}, {"linear": (100.0, 0.0, 0.0)}
+            simulation.add(collider=ball, body={"mass": 1e4}, material=hard, transform=place, motion=fast)
+        else:
+            add_dumbbell(simulation)
+        landing, found = {simulation.world.find(name) for name in ("left", "right")}, []
+        for _ in range(12):
+            simulation.step()
+            impact = simulation.world[Impact]
+            rows = [row for row in range(impact.count) if landing & {impact.a[row], impact.b[row]}]
+            found += [(float(impact.speed[row]), float(impact.impulse[row])) for row in rows]
+        told.append(found)
+    quiet, busy = np.array(told[0]), np.array(told[1])
+    assert busy[:, 0] == pytest.approx(quiet[:, 0], rel=1e-12)
+    assert (busy[:, 1] > 0.5 * quiet[:, 1]).all()  # it came down within the substep, and is stopped in the next
