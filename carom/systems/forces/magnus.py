@@ -29,5 +29,5 @@ def apply_magnus(world: World, dt: float) -> None:
     """Add Magnus forces, by the velocities at the middle of the substep."""
     for law, rows in world[Forces].acting(Magnus, world):
         force, motion = world[Force], world[Motion]
-        factor = law.coefficient * pi * law.radius**3 * law.density
+        factor = law.coefficient * pi * (law.radius * law.radius * law.radius) * law.density
         add_magnus(rows, factor, motion.linear, motion.angular, force.medium, force.force)
