@@ -5,12 +5,17 @@ from __future__ import annotations
 import os
 
 import pytest
+from hypothesis import settings
 
 collect_ignore = ["example_game"]  # a project of its own: .ci/run installs it and runs its tests
 
 CHECK = "CAROM_CHECK"
 # Long runs of systems that other tests check; guarding every call would double their time.
 UNCHECKED = ("test_mirror_room", "test_rolling")
+
+# The same examples in every run, as long as they take: what passed passes everywhere.
+settings.register_profile("repeatable", derandomize=True, deadline=None)
+settings.load_profile("repeatable")
 
 # Simulations read it when they are made, in this process and in those that tests start.
 os.environ.setdefault(CHECK, "1")

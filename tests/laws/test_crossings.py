@@ -75,7 +75,7 @@ def test_a_falling_ball(dt: float, sensor: dict[str, Any], top: float, bottom: f
     assert times(simulation, round(1.0 / dt)) == wanted
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(
     side=st.floats(-0.9, 0.9), speed=st.floats(0.5, 60.0), rise=st.floats(-3.0, 6.0), radius=st.floats(0.01, 0.4)
 )  # fmt: skip

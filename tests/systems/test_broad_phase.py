@@ -144,7 +144,7 @@ def stand_or_move(world: World, entity: int) -> None:
 
 
 @given(st.integers(0, 2**32), st.integers(2, 40), st.sampled_from([0.01, 1.0, 30.0]))
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_the_pairs_are_those_of_brute_force(seed: int, count: int, spread: float) -> None:
     """Whatever comes, goes, moves, grows, stands still, changes layer or is restored, as a cache saw all or none."""
     generator = np.random.default_rng(seed)

@@ -92,7 +92,7 @@ def crowds(draw: st.DrawFn) -> Simulation:
 
 
 @given(crowds())
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_the_broad_phase_finds_the_pairs_of_brute_force(simulation: Simulation) -> None:
     """Every pair that something can push, or that a sensor notices, with bounds that overlap and layers that accept.
 

@@ -105,7 +105,7 @@ def test_what_is_placed_is_measured_and_held(seed: int) -> None:
     assert joint.position[every][locked] == pytest.approx(joint.lower[every][locked], abs=1e-9)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(seed=st.integers(0, 10**6))
 def test_the_jacobian_is_the_slope_of_poses(seed: int) -> None:
     """Central differences of places and turns, for a point off the middle of the last body."""

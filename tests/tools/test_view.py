@@ -93,7 +93,7 @@ def test_the_viewer_opens_at_the_frame_with_the_entity_selected(
         shown.start()
         deadline = time.monotonic() + viewer.PATIENCE
         rims: dict[str, float] = {}
-        while not (rims and rims["green"] > 0.5):
+        while len(rims) < len(COLORS) or rims["green"] <= 0.5:  # its first pictures lack some balls
             assert time.monotonic() < deadline, rims
             time.sleep(0.5)
             if not viewer.listens(url):
