@@ -27,6 +27,7 @@ from carom.worlds.reader import Source, read
 from carom.worlds.run import RunPlan, plan
 from carom.worlds.schema import VERSION, document
 from carom.worlds.sections import RecordingWords, Render
+from carom.worlds.variables import Variables
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -140,6 +141,8 @@ def _checked(source: Source, data: dict[str, Any]) -> dict[str, Any]:
         if key not in sections:
             hint = did_you_mean(key, sections)
             source.report((key,), "unknown key", received=repr(key), accepted=", ".join(sections), hint=hint)
+    if source.computes or "variables" in data:
+        data = _computed(source, data)
     prefabs = data.get("prefabs")
     prefabs = prefabs if isinstance(prefabs, dict) else {}
     values: dict[str, Any] = {}
@@ -156,6 +159,13 @@ def _checked(source: Source, data: dict[str, Any]) -> dict[str, Any]:
         if values[key] is None and collection(key) is None:
             values[key] = section.get_default(call_default_factory=True)
     return values
+
+
+def _computed(source: Source, data: dict[str, Any]) -> dict[str, Any]:
+    """Return the data with its expressions replaced by what they come to."""
+    variables = Variables(source, ("variables",), data.get("variables"))
+    variables.settle_all()
+    return {key: value if key == "variables" else variables.fill(value, (key,)) for key, value in data.items()}
 
 
 def _simulation(source: Source, values: dict[str, Any], checked: bool | None, options: dict[str, Any]) -> Simulation:

@@ -9,6 +9,7 @@ from pydantic import BeforeValidator, WithJsonSchema
 
 from carom.ecs.errors import did_you_mean
 from carom.worlds.errors import WordError, shown
+from carom.worlds.values import EXPRESSION
 
 Color = tuple[float, float, float, float]
 NAMED = {
@@ -44,6 +45,7 @@ SCHEMA = {
         {"type": "array", "items": SHARE, "minItems": 3, "maxItems": 4},
         {"type": "string", "pattern": f"^{HEX.pattern}$"},
         {"enum": list(NAMED)},
+        EXPRESSION,
     ]
 }
 ColorWord = Annotated[Color, BeforeValidator(_read), WithJsonSchema(SCHEMA)]

@@ -12,6 +12,7 @@ import numpy as np
 from carom.ecs import World
 from carom.ecs.column import Booleans, Floats
 from carom.worlds.errors import WordError
+from carom.worlds.parsing import Parser
 from carom.worlds.terms import TERM_PATTERN, Term, read_term
 from carom.worlds.units import NUMBER, read_quantity
 
@@ -25,7 +26,6 @@ COMPARE: dict[str, Callable[[Floats, Floats], Booleans]] = {
     "<": np.less, "<=": np.less_equal, ">": np.greater, ">=": np.greater_equal, "==": np.equal, "!=": np.not_equal
 }  # fmt: skip
 FORM = "comparisons such as 'left.position.y < 0', 'speed(left) > 3 m/s', joined by and, or, not"
-DEEPEST = 32
 
 
 class Verdict(NamedTuple):
@@ -62,10 +62,9 @@ class Condition:
 
 def read_condition(text: str, world: World) -> Condition:
     """Return the condition a text states; raise WordError."""
-    parser = _Parser(text, world)
+    parser = _Conditions(text, world)
     evaluate = parser.either(0)
-    if parser.tokens:
-        raise parser.fault(f"is no condition at {parser.tokens[0][1]!r}")
+    parser.end()
     counts = {len(term.names) for term in parser.terms} - {1}
     if len(counts) > 1:
         accepted = "patterns that mean equally many"
@@ -73,30 +72,17 @@ def read_condition(text: str, world: World) -> Condition:
     return Condition(text, tuple(parser.terms), evaluate)
 
 
-class _Parser:
-    """Reads tokens from the left: or binds loosest, then and, then not, then comparisons."""
+class _Conditions(Parser):
+    """Or binds loosest, then and, then not, then comparisons."""
+
+    TOKEN, KIND, FORM = TOKEN, "condition", FORM
 
     def __init__(self, text: str, world: World) -> None:
-        self.text, self.world = text, world
+        super().__init__(text)
+        self.world = world
         self.terms: list[Term] = []
-        self.tokens: list[tuple[str, str]] = []
-        at = 0
-        while text[at:].strip():
-            found = TOKEN.match(text, at)
-            if found is None:
-                raise self.fault(f"is no condition at {text[at:].strip()!r}")
-            self.tokens.append((str(found.lastgroup), found[str(found.lastgroup)]))
-            at = found.end()
-
-    def fault(self, what: str) -> WordError:
-        return WordError(what, received=repr(self.text), accepted=FORM)
-
-    def take(self, *wanted: str) -> str | None:
-        return self.tokens.pop(0)[1] if self.tokens and self.tokens[0][1] in wanted else None
 
     def either(self, depth: int) -> Evaluate:
-        if depth > DEEPEST:
-            raise self.fault(f"is nested deeper than {DEEPEST} levels")
         parts = [self.both(depth)]
         while self.take("or"):
             parts.append(self.both(depth))
@@ -117,9 +103,8 @@ class _Parser:
 
     def comparison(self, depth: int) -> Evaluate:
         if self.take("("):
-            inner = self.either(depth + 1)
-            if not self.take(")"):
-                raise self.fault("lacks a closing bracket")
+            inner = self.either(self.enter(depth))
+            self.close()
             return inner
         operands, marks = [self.operand()], []
         while mark := self.take(*COMPARE):

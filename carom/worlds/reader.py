@@ -16,6 +16,9 @@ MOST_CHARACTERS = 32_000_000  # a file of a million bodies; above it is no world
 MOST_REPEATED = 200_000  # values that come from aliases: a "billion laughs" file is short and unfolds without end
 DEEPEST = 64
 
+OPENING = "${"  # of an expression
+QUOTE = 'inside {...} and [...] an expression stands in quotes: "${...}"'
+
 Position = tuple[int, int]
 
 
@@ -48,10 +51,14 @@ class Source:
     warnings: list[str] = field(default_factory=list)
     excused: set[str] = field(default_factory=set)  # names of entities that were reported and so do not exist
     inherits: dict[Path, Path] = field(default_factory=dict)  # an entity or prefab to the prefab it extends
+    computes: bool = False  # whether a text of it has an expression
+    unusable: set[Path] = field(default_factory=set)  # where an expression was reported, so that nothing else is there
 
     def report(self, path: Path, what: str, *, received: str = "", accepted: str = "", hint: str = "") -> None:
         """Note a fault at the nearest part of ``path`` that the file has, or that a prefab has for it."""
         found = self.locate(path)
+        if any(found[: len(there)] == there[: len(found)] for there in self.unusable):
+            return
         words = ".".join(map(str, (*found, *path[len(path) - self._missing(path) :])))
         line, column = self.position(path)
         self.faults.append(Fault(self.name, line, column, words, what, received, accepted, hint))
@@ -113,7 +120,8 @@ def read(text: str, name: str) -> Source:
         mark = fault.problem_mark or fault.context_mark
         place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
         problem = " ".join(part for part in (fault.context, fault.problem) if part)
-        raise WorldError([Fault(name, *place, "", f"is not YAML: {problem}")]) from None
+        hint = QUOTE if OPENING in "".join(text.split("\n")[place[0] - 1 : place[0]]) else ""
+        raise WorldError([Fault(name, *place, "", f"is not YAML: {problem}", hint=hint)]) from None
     except yaml.YAMLError as fault:
         raise WorldError([Fault(name, 1, 1, "", f"is not YAML: {str(fault).splitlines()[0]}")]) from None
     return source
@@ -206,6 +214,7 @@ class _Builder:
         tag = event.tag or self.loader.resolve(yaml.ScalarNode, event.value, event.implicit)
         text, kind = event.value, tag.removeprefix("tag:yaml.org,2002:")
         if kind in ("str", "!"):
+            self.source.computes = self.source.computes or OPENING in text
             return text
         if kind == "null":
             return None

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field, create_model
+from pydantic import Field, WithJsonSchema, create_model
 
 from carom.ecs import Collider, Motion, RigidBody, Transform, Visual
 from carom.ecs.components.rigid_body import BodyType
@@ -41,6 +41,10 @@ from carom.worlds.sections import (
 from carom.worlds.values import Flag, Name, Words, either, word_of
 
 VERSION = 1
+Variable = Annotated[
+    Any,
+    WithJsonSchema({"type": ["number", "string", "boolean", "array", "object"]}),
+]
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
@@ -116,6 +120,7 @@ def document() -> type[Words]:
         **setting_fields(in_step=False),
         step=(step, Field(None, description="how time advances")),
         run=(Run, Field(None, description="how long a run takes")),
+        variables=(dict[str, Variable], Field({}, description="values by name, for ${table.length / 2}")),
         materials=(dict[Name, material], Field({}, description="materials by name")),  # type: ignore[valid-type]
         layers=(dict[Name, LayersMet], Field({}, description="layers, each with those it collides with, or all")),
         prefabs=(dict[Name, prefab], Field({}, description="prefabs by name")),  # type: ignore[valid-type]

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 
 from carom.ecs.errors import did_you_mean
 from carom.worlds.errors import WordError, shown
+from carom.worlds.quantity import Dimension, Quantity, fits, quantity
 
-Dimension = tuple[int, int, int, int, int]  # powers of kg, m, s, rad, px
 LONGEST_VALUE = 80  # characters: longer texts are no numbers, and their fractions would grow without bound
 
 
@@ -72,6 +72,9 @@ def read_quantity(
     """
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise WordError(f"must be {kind_of(unit)}", received=shown(value), accepted=accepted(unit))
+    if isinstance(value, Quantity) and not fits(value.dimension, parse_unit(unit).dimension):
+        received = f"{shown(value)}, which is {kind_of(value.unit)}"
+        raise WordError(f"must be {kind_of(unit)}", received=received, accepted=accepted(unit))
     number = _parse(value, unit) if isinstance(value, str) else float(value)
     if not math.isfinite(number):
         raise WordError("must be finite", received=shown(value), accepted=accepted(unit))
@@ -99,14 +102,34 @@ def _parse(text: str, unit: str) -> float:
     if given.dimension != parse_unit(unit).dimension:
         received = f"{shown(text)}, which is {kind_of(name)}"
         raise WordError(f"must be {kind_of(unit)}", received=received, accepted=accepted(unit))
+    return _exact(text, over, under, given.factor if name else 1)
+
+
+def _exact(text: str, over: str, under: str | None, factor: Fraction | int) -> float:
     divisor = Fraction(under or 1)
     if not divisor:
         raise WordError("divides by zero", received=shown(text))
     try:
-        factor = given.factor if name else 1
         return float(Fraction(over) / divisor * factor)
     except OverflowError:
         return math.inf
+
+
+def read_any(text: str) -> float | None:
+    """Return the number of a text in whatever unit it states, None where it does not begin with a number.
+
+    Raises WordError for a unit that is not known.
+    """
+    found = VALUE.fullmatch(text) if len(text) <= LONGEST_VALUE else None
+    if found is None:
+        return None
+    over, under, name = found.groups()
+    try:
+        unit = parse_unit(name)
+    except WordError as fault:
+        fault.received = shown(text)
+        raise
+    return quantity(_exact(text, over, under, unit.factor), unit.dimension)
 
 
 @cache

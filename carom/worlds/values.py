@@ -23,7 +23,12 @@ from carom.worlds.errors import WordError, shown
 from carom.worlds.units import read_quantity
 
 Vector3 = tuple[float, float, float]
+EXPRESSION = {"type": "string", "pattern": r"\$\{", "description": "an expression: ${table.length / 2}"}
 NAME = re.compile(r"[^\W\d][\w-]*")
+
+
+def _or_expression(node: dict[str, Any]) -> dict[str, Any]:
+    return {"anyOf": [node, EXPRESSION]}
 
 
 class Words(BaseModel):
@@ -66,12 +71,12 @@ class In:
         bounds = {"exclusiveMinimum": self.above, "minimum": self.least, "maximum": self.most}
         number = {"type": "number"} | {key: bound for key, bound in bounds.items() if bound is not None}
         text = {"type": "string", "pattern": r"^\s*[-+.0-9]", "description": "a number with a unit"}
-        item = {"anyOf": [number, text], "x-unit": self.unit}
+        item = {"anyOf": [number, text, EXPRESSION], "x-unit": self.unit}
         inner: Any = schema
         while "size" not in inner.get("metadata", {}) and "schema" in inner:  # inside validators that come after
             inner = inner["schema"]
         size = inner.get("metadata", {}).get("size")
-        return {"type": "array", "items": item, "minItems": size, "maxItems": size} if size else item
+        return _or_expression({"type": "array", "items": item, "minItems": size, "maxItems": size}) if size else item
 
 
 def either(plain: Any, other: Any, form: type = dict) -> Any:
@@ -98,7 +103,7 @@ def _read_flag(value: Any) -> bool:
 
 
 Name = Annotated[str, BeforeValidator(_read_name)]
-Flag = Annotated[bool, BeforeValidator(_read_flag)]
+Flag = Annotated[bool, BeforeValidator(_read_flag), WithJsonSchema(_or_expression({"type": "boolean"}))]
 
 
 @dataclass(frozen=True)
@@ -123,7 +128,7 @@ class Whole:
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         """Return an integer with its bound."""
         bounds = {"minimum": self.least} | ({} if self.most is None else {"maximum": self.most})
-        return {"type": "integer", **bounds}
+        return _or_expression({"type": "integer", **bounds})
 
 
 @dataclass(frozen=True)
@@ -155,4 +160,4 @@ def word_of(*choices: str) -> Any:
             raise WordError("unknown word", received=shown(value), accepted=", ".join(choices))
         return str(value)
 
-    return Annotated[str, BeforeValidator(read), WithJsonSchema({"enum": list(choices)})]
+    return Annotated[str, BeforeValidator(read), WithJsonSchema(_or_expression({"enum": list(choices)}))]
