@@ -13,7 +13,7 @@ from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import levels
 from carom.ecs.spatial import quaternion
-from carom.systems.energy import centers_of_mass
+from carom.systems.bodies import centers_of_mass
 from carom.systems.mass import Part, rigid_body
 from carom.systems.settings import Settings
 from carom.systems.shapes import BY_NUMBER, Shape

@@ -4,26 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import BodyType, Motion, RigidBody, Transform, World
+from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial import quaternion
+from carom.systems.bodies import centers_of_mass, dynamic_rows
 from carom.systems.forces.law import Forces
 from carom.systems.forces.springs import spring_energy
 from carom.systems.kernels.observing import find_kinetic_energies, find_weights
 from carom.systems.settings import Settings
-
-
-def dynamic_rows(world: World) -> Integers:
-    """Return the rows of the bodies that obey forces."""
-    rows = world.row_numbers(Transform, Motion, RigidBody)
-    return np.asarray(rows[world[RigidBody].type[rows] == BodyType.DYNAMIC])
-
-
-def centers_of_mass(world: World, rows: Integers, poses: Transform | None = None) -> Floats:
-    """Return centres of mass (n, 3) in m, world frame, now or at other poses of all rows."""
-    transform = world[Transform] if poses is None else poses
-    offset = quaternion.rotate(transform.rotation[rows], world[RigidBody].center_of_mass[rows])
-    return np.asarray(transform.position[rows] + offset)
 
 
 def kinetic_energies(world: World, rows: Integers) -> Floats:
@@ -45,7 +33,8 @@ def kinetic_energy(world: World) -> float:
 def potential_energies(world: World) -> dict[str, float]:
     """Return -s m g.x summed, k (l - l0)^2 / 2 and what force laws have, in J, by their forces.
 
-    The scale s is what each body makes of gravity.
+    The scale s is what each body makes of gravity. Laws with a region or a time window have none: a body does not get
+    back in it, or later, what it left there.
     """
     rows, gravity = dynamic_rows(world), np.array(world[Settings].gravity, np.float64)
     weights = np.empty(len(rows))
@@ -55,11 +44,11 @@ def potential_energies(world: World) -> dict[str, float]:
             rows, body.mass, body.gravity_scale, body.center_of_mass, pose.position, pose.rotation, gravity, weights
         )
     energies = {"gravity": float(weights.sum()), "springs": spring_energy(world)}
-    for kind in world[Forces].entries:
+    for kind, entries in world[Forces].entries.items():
         if kind.conservative:
-            acting = world[Forces].acting(kind, world)
+            held = [(law, reach.rows(world)) for law, reach in entries if reach.conserves]
             energies[kind.key] = sum(
-                law.energy(world[RigidBody].mass[rows], centers_of_mass(world, rows)) for law, rows in acting
+                law.energy(world[RigidBody].mass[rows], centers_of_mass(world, rows)) for law, rows in held
             )
     return energies
 

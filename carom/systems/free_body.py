@@ -15,9 +15,10 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.ecs.spatial import quaternion
 from carom.systems.awake import Awake
+from carom.systems.bodies import centers_of_mass, dynamic_rows
 from carom.systems.ends import ends_there
-from carom.systems.energy import centers_of_mass, dynamic_rows
-from carom.systems.settings import Random
+from carom.systems.forces.law import Forces
+from carom.systems.settings import Random, time_of
 from carom.systems.simulation import Simulation
 
 APPLY = "apply_"  # what names of systems begin with, and those of forces do not
@@ -63,7 +64,8 @@ def applied(simulation: Simulation) -> list[Loads]:
     parts = {EXTERNAL: world[ExternalForce].force[rows]}
     before = np.zeros((len(rows), 3))
     drawn = world[Random].state()
-    with world.faces(Instead(world, {Force: sums, Awake: everyone})):
+    forces = world[Forces].at(world, time_of(world))
+    with world.faces(Instead(world, {Force: sums, Awake: everyone, Forces: forces})):
         for _, system in simulation.schedule:
             if Force in system.adds:
                 system(world, step)

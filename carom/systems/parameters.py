@@ -42,9 +42,9 @@ def parameter(
     return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, **bounds})
 
 
-def vector(*, unit: str, doc: str, default: Any = dataclasses.MISSING) -> Any:
-    """Declare a parameter that is a vector of three numbers."""
-    return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, "width": 3})
+def vector(*, unit: str, doc: str, default: Any = dataclasses.MISSING, above: float | None = None) -> Any:
+    """Declare a parameter that is a vector of three numbers and, if any, the value each must lie above."""
+    return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, "width": 3, "above": above})
 
 
 def number_fault(metadata: Mapping[str, Any], received: Any) -> str:

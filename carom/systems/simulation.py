@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -25,6 +25,7 @@ from carom.ecs.components.force import Force
 from carom.ecs.components.motion import Motion
 from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
+from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import Materials, add_entities, add_entity
 from carom.systems.awake import Awake
 from carom.systems.bookkeeping import Bookkeeping
@@ -40,12 +41,15 @@ from carom.systems.detection.sensors import Sensing
 from carom.systems.finish import find_not_finite
 from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
+from carom.systems.forces.reach import read_reach
+from carom.systems.forces.region import Region
 from carom.systems.interpolation import EarlierPoses
 from carom.systems.landings import Landings
 from carom.systems.layers import Layers
 from carom.systems.ledger import Ledger
 from carom.systems.linkage import Linkage
 from carom.systems.observer import Observer
+from carom.systems.parameters import WordFault
 from carom.systems.places import extended
 from carom.systems.progress import Progress
 from carom.systems.queries.asked import Asked
@@ -104,10 +108,26 @@ class Simulation:
         """Define layers, each with the layers it collides with (None: all)."""
         self.world[Layers].define(accepts)
 
-    def force(self, law: str | Law, entities: Iterable[int] | None = None, **words: Any) -> None:
-        """Let a force law act, on these entities or on every body: ``force("wind", velocity=(5, 0, 0))``."""
-        made = LAWS[law](**words) if isinstance(law, str) else law
-        self.world[Forces].add(made, None if entities is None else tuple(entities))
+    def force(
+        self,
+        law: str | Law,
+        entities: Iterable[int] | None = None,
+        *,
+        region: Region | Mapping[str, Any] | None = None,
+        layers: Sequence[str] | None = None,
+        during: tuple[float, float | str] | None = None,
+        **words: Any,
+    ) -> None:
+        """Let a force law act, on these entities or on every body: ``force("wind", velocity=(5, 0, 0))``.
+
+        ``region={"sphere": {"radius": 2}}`` is where it acts, ``layers=["leaves"]`` on whose colliders, and when
+        ``during=(0.5, 2)`` or ``(0.5, "end")``, in s. Raises DeclarationError for what is wrong with these.
+        """
+        faults: list[WordFault] = []
+        reach = read_reach(self.world[Layers], faults, entities, region, layers, during)
+        if faults:
+            raise DeclarationError("; ".join(map(str, faults)))
+        self.world[Forces].add(LAWS[law](**words) if isinstance(law, str) else law, reach)
 
     def force_function(self, function: Callable[[World, Integers], npt.ArrayLike], name: str | None = None) -> System:
         """Let a Python function ``(world, rows) -> forces (n, 3) in N`` act on every body in every substep."""

@@ -27,11 +27,12 @@ from carom.ecs.components.spring import Spring
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake, stirs
+from carom.systems.bodies import centers_of_mass
 from carom.systems.compound import bodies_of
 from carom.systems.constants import SLEEP_TIME
 from carom.systems.detection.bounds import reach_within
-from carom.systems.energy import centers_of_mass
 from carom.systems.forces.law import Forces
+from carom.systems.forces.reach import NOBODY
 from carom.systems.forces.springs import bodies_on_springs
 from carom.systems.kernels.islands import find_sleepers, time_stillness
 from carom.systems.links import islands, joins_islands, links
@@ -53,8 +54,8 @@ PLACED = {Transform, Motion, ExternalForce}
 def wake_disturbed(world: World, dt: float) -> None:
     """Wake who was changed from outside since the last step, and see whether there is anything to do."""
     awake = world[Awake]
-    changes = awake.look(world)
-    if not changes and not awake.asked and awake.idle:
+    changes, turned = awake.look(world), _turned(world)
+    if not changes and not awake.asked and not len(turned) and awake.idle:
         return
     awake.find(world)
     ties, joined = world[Ties], Joint in changes.edited
@@ -71,7 +72,7 @@ def wake_disturbed(world: World, dt: float) -> None:
         else:
             asked = [world.row(entity) for entity in awake.asked if entity in world]
             bodies = bodies_of(world)[asked] if asked else np.zeros(0, np.int64)
-            disturbed = [bodies[bodies >= 0], bodies_on_springs(world)]  # springs may be new
+            disturbed = [bodies[bodies >= 0], turned, bodies_on_springs(world)]  # springs may be new
             if awake.strangers or changes.edited & PLACED:
                 disturbed.append(_changed(world, awake.sleepers))
             if changes.structure:
@@ -98,9 +99,8 @@ def fall_asleep(world: World, dt: float) -> None:
         pushed = (force.force[awake.sleepers] != 0.0) | (force.torque[awake.sleepers] != 0.0)
         awake.asked += world.entities(awake.sleepers[pushed.any(axis=1)]).tolist()
     motion.still[world[Ties].now(world).restless] = -dt  # who is turned by a motor
-    for law in world[Forces].entries:
-        for _, rows in () if law.steady else world[Forces].acting(law, world):
-            motion.still[rows] = -dt  # who is pushed another way in every step
+    for _, rows in world[Forces].restless(world):
+        motion.still[rows] = -dt  # who is pushed another way in every step
     motion.still[bodies_on_springs(world)] = -dt  # and who is pulled another way as soon as the other end moves
     time_stillness(
         awake.rows, dt, body.inverse_mass, body.inertia, body.sleeps, motion.linear, motion.angular, motion.still
@@ -184,6 +184,15 @@ def _among(rows: Integers, mask: Booleans) -> Booleans:
     """Tell which rows are in a mask; -1 is not."""
     found: Booleans = mask[rows] & (rows >= 0)
     return found
+
+
+def _turned(world: World) -> Integers:
+    """Return who comes to be pushed in this step, or is pushed no more, since the time window of a law says so."""
+    forces, settings = world[Forces], world[Settings]
+    if not forces.limits:
+        return NOBODY
+    begin = (world.frame - 1) * settings.dt  # and the half of the last substep in which that was too early to tell
+    return forces.turned(world, begin - settings.dt / settings.substeps, begin + settings.dt)
 
 
 def _changed(world: World, rows: Integers) -> Integers:

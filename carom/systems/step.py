@@ -15,6 +15,7 @@ from carom.systems.forces.damping import apply_damping
 from carom.systems.forces.drag import apply_linear_drag, apply_quadratic_drag
 from carom.systems.forces.gravity import apply_gravity
 from carom.systems.forces.gravity_well import apply_gravity_well
+from carom.systems.forces.law import choose_bodies
 from carom.systems.forces.lift import apply_lift
 from carom.systems.forces.magnus import apply_magnus
 from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
@@ -58,6 +59,7 @@ STEP = Schedule(
         look_ahead,  # once more for all bodies that are faster now than was foreseen
         predict,  # bodies at the middle of the substep (verlet)
         clear_forces,
+        choose_bodies,  # whom laws with a region, layers or a time window act on
         apply_wind,  # before drags, which are relative to the medium
         apply_vortex,
         apply_gravity,

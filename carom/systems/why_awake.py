@@ -15,7 +15,7 @@ from carom.systems.forces.law import Forces
 from carom.systems.forces.springs import bodies_on_springs
 from carom.systems.kernels.islands import find_surface_speeds
 from carom.systems.links import islands, links
-from carom.systems.settings import Settings
+from carom.systems.settings import Settings, time_of
 
 if TYPE_CHECKING:
     from carom.systems.simulation import Simulation
@@ -54,10 +54,9 @@ def why_awake(of: World | Simulation, entity: int | str) -> str:
         return told(fastest, f"moves at {speed[fastest]:.3g} m/s; at {SLEEP_SPEED:g} m/s or less it may fall asleep")
     for restless in island[~body.sleeps[island]]:
         return told(restless, "may not fall asleep: its body says so (sleeps)")
-    for law in world[Forces].entries:
-        for _, rows in () if law.steady else world[Forces].acting(law, world):
-            for pulled in island[np.isin(island, rows)]:
-                return told(pulled, f"is pushed another way in every step, by {law.key}")
+    for law, rows in world[Forces].at(world, time_of(world)).restless(world):
+        for pulled in island[np.isin(island, rows)]:
+            return told(pulled, f"is pushed another way in every step, by {law.key}")
     for pulled in island[np.isin(island, bodies_on_springs(world))]:
         return told(pulled, "is pulled by a spring, so another way as soon as its other end moves")
     moving, held = _supports_of(world, island)

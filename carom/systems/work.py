@@ -15,7 +15,7 @@ from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
-from carom.systems.energy import dynamic_rows
+from carom.systems.bodies import dynamic_rows
 from carom.systems.kernels.accounting import find_work
 from carom.systems.kernels.joint_accounting import DROVE, ENTRIES, HELD, RUBBED, find_joint_work
 from carom.systems.kernels.lanes import WIDTH, aligned

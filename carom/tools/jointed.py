@@ -12,8 +12,8 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.components.joint import LIMITED, LINE, LOCKED, Joint
 from carom.ecs.components.spring import Spring
 from carom.ecs.spatial import quaternion
+from carom.systems.bodies import centers_of_mass
 from carom.systems.ends import ends_there
-from carom.systems.energy import centers_of_mass
 
 ARC = 25  # points of an arc
 COILS = 8

@@ -9,6 +9,10 @@ from typing import Any
 
 from carom.ecs.errors import DeclarationError, EntityError, did_you_mean
 from carom.ecs.hierarchy import compose
+from carom.systems.forces import LAWS, Forces
+from carom.systems.forces.reach import read_reach
+from carom.systems.layers import Layers
+from carom.systems.parameters import WordFault
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.worlds import library
@@ -196,10 +200,10 @@ def _forces(source: Source, simulation: Simulation, forces: list[Any]) -> None:
         if words is None:
             continue
         stated = words.model_dump(exclude_unset=True)
-        patterns = stated.pop("entities", None)
+        patterns, *limits = (stated.pop(word, None) for word in ("entities", "region", "layers", "during"))
         if len(stated) != 1:
-            received = ", ".join(stated) or "none"
-            source.report(("forces", index), "must state one force", received=received, accepted=", ".join(_laws()))
+            received, accepted = ", ".join(stated) or "none", ", ".join(sorted(LAWS))
+            source.report(("forces", index), "must state one force", received=received, accepted=accepted)
             continue
         found: list[str] = []
         for number, pattern in enumerate(patterns or ()):
@@ -209,8 +213,12 @@ def _forces(source: Source, simulation: Simulation, forces: list[Any]) -> None:
                 source.report_value(("forces", index, "entities", number), fault)
         ((key, parameters),) = stated.items()
         entities = None if patterns is None else [simulation.world.find(name) for name in found]
+        wrong: list[WordFault] = []
+        reach = read_reach(simulation.world[Layers], wrong, entities, *limits)
+        for word in wrong:
+            source.report_value(("forces", index, *word.steps), word)
         try:
-            simulation.force(key, entities, **parameters)
+            simulation.world[Forces].add(LAWS[key](**parameters), reach)
         except DeclarationError as fault:
             source.report(("forces", index, key), str(fault))
 
@@ -219,9 +227,3 @@ def _named(entities: Any) -> set[str]:
     """Return the names a file gives its entities, whatever else is wrong with them."""
     items = entities if isinstance(entities, list) else []
     return {item["name"] for item in items if isinstance(item, dict) and isinstance(item.get("name"), str)}
-
-
-def _laws() -> list[str]:
-    from carom.systems.forces import LAWS
-
-    return sorted(LAWS)

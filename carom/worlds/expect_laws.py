@@ -11,7 +11,8 @@ import numpy as np
 from carom.ecs import World
 from carom.ecs.column import Floats
 from carom.ecs.relations.contact import Contact
-from carom.systems.energy import angular_momenta, dynamic_rows, kinetic_energy, momenta, potential_energy
+from carom.systems.bodies import dynamic_rows
+from carom.systems.energy import angular_momenta, kinetic_energy, momenta, potential_energy
 from carom.systems.simulation import Simulation
 from carom.worlds.condition import Condition
 from carom.worlds.errors import WordError

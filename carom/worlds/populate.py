@@ -155,10 +155,7 @@ class Populator:
             faults: list[WordFault] = []
             made = read_joint(world, words, faults)
             for fault in faults:
-                told = WordError(
-                    fault.what, received=fault.received, accepted=fault.accepted, hint=fault.hint, name=fault.name
-                )
-                self.source.report_value((*path, *fault.steps), told)
+                self.source.report_value((*path, *fault.steps), fault)
             if made is not None:
                 with world.edit(Joint) as table:
                     for name, value in vars(made).items():

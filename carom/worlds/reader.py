@@ -10,6 +10,7 @@ from typing import Any
 
 import yaml
 
+from carom.systems.parameters import WordFault
 from carom.worlds.errors import Fault, Path, WordError, WorldError, shown
 
 MOST_CHARACTERS = 32_000_000  # a file of a million bodies; above it is no world
@@ -68,7 +69,7 @@ class Source:
         line, column = self.position(path)
         self.warnings.append(str(Fault(self.name, line, column, ".".join(map(str, path)), what)))
 
-    def report_value(self, path: Path, fault: WordError) -> None:
+    def report_value(self, path: Path, fault: WordError | WordFault) -> None:
         """Note a value that could not be read, unless it only names what was itself reported."""
         if fault.name.partition("[")[0] not in self.excused:
             self.report(path, fault.what, received=fault.received, accepted=fault.accepted, hint=fault.hint)

@@ -12,6 +12,7 @@ from carom.ecs import Collider, Motion, RigidBody, Transform, Visual
 from carom.ecs.components.rigid_body import BodyType
 from carom.systems.assembly import COLLIDER_COLUMNS
 from carom.systems.extensions import load_extensions
+from carom.systems.forces.region import Region
 from carom.systems.freedom import AXES
 from carom.systems.mass import PASSED_ON
 from carom.worlds.camera import Camera
@@ -21,6 +22,7 @@ from carom.worlds.generated import (
     law_fields,
     material_model,
     own_fields,
+    parameter_model,
     setting_fields,
     shape_fields,
 )
@@ -37,6 +39,7 @@ from carom.worlds.sections import (
     RecordingWords,
     Render,
     Run,
+    TimeWindow,
 )
 from carom.worlds.values import Flag, Name, Words, either, word_of
 
@@ -109,6 +112,9 @@ def document() -> type[Words]:
     force = _model(
         "Force", "One force law and whom it acts on.", **law_fields(),
         entities=(names, Field(None, description="names, or patterns like shell_* and rain[*]; every body by default")),
+        region=(parameter_model(Region), Field(None, description="where centres of mass are that it acts on")),
+        layers=(names, Field(None, description="layers of the colliders of whom it acts on")),
+        during=(TimeWindow, Field(None, description="when it acts: [0.5 s, 2 s], or [0.5 s, end] for good")),
     )  # fmt: skip
     step = _model("Step", "How time advances.", **setting_fields(in_step=True))
     return _model(

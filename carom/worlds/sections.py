@@ -6,9 +6,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field, WrapValidator, model_validator
 
+from carom.systems.forces.reach import END
 from carom.systems.paths import REPEATS
 from carom.worlds.errors import WordError, shown
 from carom.worlds.rotation import RotationWord
+from carom.worlds.units import read_quantity
 from carom.worlds.values import Flag, In, Vector3, Whole, Words, either, word_of
 
 Length = Annotated[float, In("m")]
@@ -17,6 +19,18 @@ Count = Annotated[int, Whole(1)]
 DETAILS = ("light", "full", "solver")  # how much a recording holds, each with all of those before it
 WORLD, NOBODY = "world", "nobody"  # what may hold the end of a chain beside entities
 LayersMet = Annotated[list[str] | Literal["all"], WrapValidator(lambda value, handler: _layers_met(value))]
+Time = Annotated[float, In("s", least=0.0)]
+TimeWindow = Annotated[tuple[Time, Time | Literal["end"]], WrapValidator(lambda value, handler: _time_window(value))]
+
+
+def _time_window(value: Any) -> tuple[float, float | str]:
+    if not isinstance(value, list) or len(value) != 2:
+        raise WordError("is no time window", received=shown(value), accepted="[0.5 s, 2 s], or [0.5 s, end] for good")
+    start = read_quantity(value[0], "s", least=0.0)
+    end = value[1] if value[1] == END else read_quantity(value[1], "s")
+    if isinstance(end, float) and end <= start:
+        raise WordError("must end after it starts", received=shown(value))
+    return start, end
 
 
 def _layers_met(value: Any) -> list[str] | None:
@@ -49,7 +63,7 @@ class ChainWords(Words):
 class KeyframeWords(Words):
     """A pose at a time; what it leaves out is as in the keyframe before, or at first in transform."""
 
-    at: Annotated[float, In("s", least=0.0)] = Field(description="simulated time (s)")
+    at: Time = Field(description="simulated time (s)")
     position: Lengths | None = Field(None, description="position of the origin in the world (m)")
     rotation: RotationWord | None = Field(None, description="unit quaternion xyzw, body to world")
 
@@ -148,5 +162,5 @@ class Expect(Words):
     visible: str | None = Field(
         None, description="what a camera shows then, at the end by default, such as 'crate >= 400 px from main'"
     )
-    at: Annotated[float, In("s", least=0.0)] | None = Field(None, description="time of the values (s)")
+    at: Time | None = Field(None, description="time of the values (s)")
     when: When | None = Field(None, description="event of the values")

@@ -12,9 +12,10 @@ from faults import error
 from carom.ecs import Collider, ColliderPose, DeclarationError, Motion, Parent, RigidBody, Transform
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
+from carom.systems.bodies import centers_of_mass
 from carom.systems.compound import bodies_of, reaches
 from carom.systems.detection.bounds import reach_within
-from carom.systems.energy import angular_momentum, centers_of_mass, kinetic_energy
+from carom.systems.energy import angular_momentum, kinetic_energy
 from carom.systems.simulation import Simulation
 from carom.worlds import WorldError, load_text
 

@@ -11,7 +11,7 @@ import pytest
 
 from carom.ecs import ColliderPose, Motion, RigidBody, World
 from carom.ecs.relations.contact import Contact
-from carom.systems.energy import centers_of_mass
+from carom.systems.bodies import centers_of_mass
 from carom.systems.free_body import loads
 from carom.systems.simulation import Simulation
 from carom.tools.reading import read

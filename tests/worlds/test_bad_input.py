@@ -154,12 +154,33 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         (
             "forces: [{wnd: {velocity: [1, 0, 0]}}]\n",
             ("w.yaml:2:11: forces.0.wnd: unknown key; received 'wnd'; accepted: attraction, constant_push, linear_drag, "
-            "quadratic_drag, gravity_well, lift, magnus, mutual_gravitation, thruster, vortex, wind, entities; "
+            "quadratic_drag, gravity_well, lift, magnus, mutual_gravitation, thruster, vortex, wind, entities, region, layers, during; "
             "did you mean 'wind'?"),
         ),
         (
             "forces: [{wind: {velocity: [1, 0, 0]}, entities: [ball]}]\n",
             "w.yaml:2:51: forces.0.entities.0: unknown entity; received 'ball'; accepted: none is defined",
+        ),
+        (
+            "forces: [{wind: {velocity: [1, 0, 0]}, region: {box: {size: 1}, sphere: {radius: 1}}}]\n",
+            ("w.yaml:2:55: forces.0.region.box.size: must be a list of 3 numbers; received 1; accepted: numbers in m"),
+        ),
+        (
+            "forces: [{wind: {velocity: [1, 0, 0]}, region: {box: {size: [1, 1, 1]}, sphere: {radius: 1}}}]\n",
+            "w.yaml:2:40: forces.0.region: must state exactly one shape, box or sphere",
+        ),
+        (
+            "forces: [{wind: {velocity: [1, 0, 0]}, layers: [default, dust]}]\n",
+            ("w.yaml:2:58: forces.0.layers.1: unknown layer; received 'dust'; accepted: none, default"),
+        ),
+        (
+            "forces: [{wind: {velocity: [1, 0, 0]}, during: 2 s}]\n",
+            ("w.yaml:2:40: forces.0.during: is no time window; received '2 s'; "
+            "accepted: [0.5 s, 2 s], or [0.5 s, end] for good"),
+        ),
+        (
+            "forces: [{wind: {velocity: [1, 0, 0]}, during: [2 s, 1 s]}]\n",
+            "w.yaml:2:40: forces.0.during: must end after it starts; received ['2 s', '1 s']",
         ),
         ("run: {}\n", "w.yaml:2:1: run: must state one end; received none; accepted: duration, frames or until"),
         (

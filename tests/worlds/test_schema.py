@@ -51,6 +51,8 @@ def test_library_worlds_are_valid(validator: Any, name: str) -> None:
         "{carom: 1, entities: [{joint: {rope: {b: door, length: -1}}}]}",
         "{carom: 1, entities: [{joint: {hinge: {b: door, motor: {sped: 1}}}}]}",
         "{carom: 1, entities: [{joint: {generic: {b: door, x: fre}}}]}",
+        "{carom: 1, forces: [{wind: {velocity: [1, 0, 0]}, region: {sphere: {radius: 0}}}]}",
+        "{carom: 1, forces: [{wind: {velocity: [1, 0, 0]}, during: [start, 1]}]}",
         "{carom: 1, step: {dt: 0}}",
         "{carom: 1, materials: {ivory: {friction: {value: 1, combine: often}}}}",
         "{carom: 1, expect: [{at: 1, ball.position: {is: 3}}]}",

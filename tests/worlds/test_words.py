@@ -11,6 +11,7 @@ from carom.ecs import Collider, Combine, RigidBody, Transform, Visual
 from carom.ecs.components.path import Repeat
 from carom.ecs.relations.keyframe import Keyframe
 from carom.systems.forces.law import Forces
+from carom.systems.forces.region import Region, SphereRegion
 from carom.systems.layers import Layers
 from carom.worlds import LoadedWorld, WorldError, load_text
 
@@ -80,12 +81,18 @@ entities:
     transform: {position: [10, 0, 0]}
     collider: {sphere: {radius: 0.1}}
 forces:
-  - {wind: {velocity: [1, 0, 0]}, entities: ["rain[*,0,1]"]}
+  - wind: {velocity: [1, 0, 0]}
+    entities: ["rain[*,0,1]"]
+    region: {sphere: {radius: 3 ft, position: [0, 1, 0]}}
+    layers: [default, none]
+    during: [500 ms, end]
 """).simulation.world
     assert world.names()[:3] == ["rain[0,0,0]", "rain[0,0,1]", "rain[1,0,0]"]
     assert list(world[world.find("rain[3,0,1]")].transform.position) == [10.75, 3, 0.5]
-    (((_, entities),),) = world[Forces].entries.values()
-    assert [world.name(entity) for entity in entities or ()] == [f"rain[{i},0,1]" for i in range(4)]
+    (((_, reach),),) = world[Forces].entries.values()
+    assert [world.name(entity) for entity in reach.entities or ()] == [f"rain[{i},0,1]" for i in range(4)]
+    assert reach.region == Region(sphere=SphereRegion(0.9144, (0.0, 1.0, 0.0)))
+    assert (reach.layers, reach.during) == ((1, 0), (0.5, math.inf))
 
 
 def test_jitter_is_drawn_from_the_seed_in_the_order_of_the_file() -> None:

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
+from carom.ecs import Collider, Parent, RigidBody, Transform, World, system
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
-from carom.ecs.components.rigid_body import RigidBody
-from carom.ecs.errors import DeclarationError, EntityError
-from carom.ecs.world import World
+from carom.ecs.errors import DeclarationError
+from carom.systems.forces.reach import NOBODY, Reach
 from carom.systems.parameters import parameter, vector
+from carom.systems.progress import Progress
 from carom.systems.registry import enter
 
 LAWS: dict[str, type[Law]] = {}
 L = TypeVar("L", bound="Law")
+EVERYBODY = Reach()
 
 __all__ = ["LAWS", "Forces", "Law", "parameter", "vector"]
 
@@ -27,13 +29,17 @@ class Law:
     """One force of a world; parameters are fields declared by `parameter`, and ``key`` is its word in files."""
 
     key: ClassVar[str] = ""
-    steady: ClassVar[bool] = True  # the same as long as the body stays where it is, so that it may fall asleep
     conservative: ClassVar[bool] = False  # it has a potential energy, see `energy`
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         if "key" in vars(cls):
             enter(LAWS, cls.key, cls, clash="force laws have the key", mend="give one of them another key")
+
+    @property
+    def steady(self) -> bool:
+        """Whether it is the same as long as the body stays where it is, so that it may fall asleep."""
+        return True
 
     def energy(self, mass: Floats, center: Floats) -> float:
         """Return the potential energy (J) of bodies of these masses (n,) with these centres of mass (n, 3)."""
@@ -47,33 +53,53 @@ class Law:
 
 @dataclass
 class Forces(Resource):
-    """The force laws of a world, each with the entities it acts on (None: every body)."""
+    """The force laws of a world, each with whom it acts on, where and when."""
 
-    entries: dict[type[Law], list[tuple[Any, tuple[int, ...] | None]]] = field(default_factory=dict)
+    entries: dict[type[Law], list[tuple[Any, Reach]]] = field(default_factory=dict)
+    limits: dict[Reach, Integers] = field(default_factory=dict)  # with whom each acts on in this substep
 
-    def add(self, law: Law, entities: tuple[int, ...] | None = None) -> None:
+    def add(self, law: Law, reach: Reach = EVERYBODY) -> None:
         """Let a law act from now on."""
-        self.entries.setdefault(type(law), []).append((law, entities))
+        self.entries.setdefault(type(law), []).append((law, reach))
+        if reach.limited:
+            self.limits[reach] = NOBODY
 
     @property
     def count(self) -> int:
         """How many laws there are."""
         return sum(map(len, self.entries.values()))
 
+    def choose(self, world: World, time: float) -> None:
+        """Find whom limited laws act on at a time (s), by where bodies are now."""
+        for reach in self.limits:
+            self.limits[reach] = reach.rows(world) if reach.acts_at(time) else NOBODY
+
+    def at(self, world: World, time: float) -> Forces:
+        """Return these laws as they act at a time (s) on bodies as they are now, for who looks on from outside."""
+        now = Forces(self.entries, dict(self.limits))
+        now.choose(world, time)
+        return now
+
     def acting(self, kind: type[L], world: World) -> Sequence[tuple[L, Integers]]:
-        """Return each law of a kind with the rows of the living bodies it acts on."""
+        """Return each law of a kind with the rows of the living bodies it acts on in this substep."""
         entries = self.entries.get(kind)
         if entries is None:  # most laws of most worlds, in every substep
             return ()
-        bodies = world.row_numbers(RigidBody)
-        return [(law, bodies if entities is None else _rows(world, entities)) for law, entities in entries]
+        return [(law, self.limits[reach] if reach.limited else reach.rows(world)) for law, reach in entries]
+
+    def restless(self, world: World) -> Iterator[tuple[Law, Integers]]:
+        """Yield each law that pushes another way in every step, with the rows of the bodies it acts on."""
+        for kind in self.entries:
+            yield from ((law, rows) for law, rows in self.acting(kind, world) if not law.steady)
+
+    def turned(self, world: World, begin: float, end: float) -> Integers:
+        """Return the rows of bodies on which laws begin or cease to act after ``begin`` (s) and not after ``end``."""
+        turning = [reach.rows(world) for reach in self.limits if reach.turns_within(begin, end)]
+        return np.concatenate(turning) if turning else NOBODY
 
 
-def _rows(world: World, entities: tuple[int, ...]) -> Integers:
-    rows = []
-    for entity in entities:
-        try:
-            rows.append(world.row(entity))
-        except EntityError:
-            continue  # despawned: its forces went with it
-    return np.array(rows, np.int64)
+@system(reads=(Progress, RigidBody, Transform, Collider, Parent), writes=(Forces,))
+def choose_bodies(world: World, dt: float) -> None:
+    """Find whom laws with a region, layers or a time window act on, as things are in the middle of the substep."""
+    if world[Forces].limits:
+        world[Forces].choose(world, world[Progress].clock + 0.5 * dt)

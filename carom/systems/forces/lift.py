@@ -19,7 +19,6 @@ class Lift(Law):
     """
 
     key: ClassVar[str] = "lift"
-    steady: ClassVar[bool] = True
     area: float = parameter(unit="m2", doc="area A of the wing", above=0.0)
     lift_coefficient: float = parameter(unit="1", doc="lift coefficient CL; below 0 it presses down", default=1.0)
     density: float = parameter(unit="kg/m3", doc="density rho of the medium", default=1.225, above=0.0)

@@ -21,10 +21,14 @@ class MutualGravitation(Law):
     """F = G m1 m2 / r^2 between centres of mass; with softening s, r^2 becomes r^2 + s^2 (Plummer)."""
 
     key: ClassVar[str] = "mutual_gravitation"
-    steady: ClassVar[bool] = False
     conservative: ClassVar[bool] = True
     constant: float = parameter(unit="m3/(kg s2)", doc="gravitational constant G", default=NEWTON, above=0.0)
     softening: float = parameter(unit="m", doc="length below which the pull no longer grows", default=0.0)
+
+    @property
+    def steady(self) -> bool:
+        """Whether it stays the same: no, it changes as soon as anybody moves."""
+        return False
 
     def energy(self, mass: Floats, center: Floats) -> float:
         """Return -G m1 m2 / r of every two (J), r softened as the force is."""

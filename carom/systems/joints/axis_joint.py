@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.ecs.spatial import quaternion
-from carom.systems.joints.declared import Steps, direction
+from carom.systems.declared import Steps, direction
 from carom.systems.joints.frames import X, along_axes, shortest_turn
 from carom.systems.joints.held import Held
 from carom.systems.joints.kind import Vector

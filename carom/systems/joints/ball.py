@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from carom.ecs.components.joint import EULER, SWING_TWIST
+from carom.systems.declared import bounds
 from carom.systems.joints.axis_joint import AxisJoint
-from carom.systems.joints.declared import bounds
 from carom.systems.joints.held import Held
 from carom.systems.joints.ways import Limits, Ways
 from carom.systems.parameters import parameter

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from carom.systems.declared import part
 from carom.systems.freedom import AXES
-from carom.systems.joints.declared import part
 from carom.systems.joints.held import Held
 from carom.systems.joints.two_axis_joint import TwoAxisJoint
 from carom.systems.joints.ways import AngularWay, LinearWay, Ways

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from carom.systems.declared import bounds, part
 from carom.systems.joints.axis_joint import AxisJoint
-from carom.systems.joints.declared import bounds, part
 from carom.systems.joints.held import Held
 from carom.systems.joints.ways import AngularMotor, Limits, Ways
 from carom.systems.parameters import parameter

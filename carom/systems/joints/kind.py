@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from carom.ecs.components.joint import Joint
-from carom.systems.joints.declared import Stated, Steps, flag, whom
+from carom.systems.declared import Stated, Steps, flag, whom
 from carom.systems.joints.held import Held
 from carom.systems.joints.ways import Ways
 from carom.systems.parameters import parameter, vector

@@ -10,7 +10,7 @@ import numpy as np
 
 from carom.ecs.components.joint import EULER, LINE
 from carom.ecs.spatial.vector import distance
-from carom.systems.joints.declared import Steps
+from carom.systems.declared import Steps
 from carom.systems.joints.held import Held
 from carom.systems.joints.kind import JointKind
 from carom.systems.parameters import parameter

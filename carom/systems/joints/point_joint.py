@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.ecs.components.joint import AXES, EULER
 from carom.ecs.spatial import quaternion
-from carom.systems.joints.declared import Steps
+from carom.systems.declared import Steps
 from carom.systems.joints.held import Held
 from carom.systems.joints.kind import JointKind, Vector
 from carom.systems.parameters import parameter, vector

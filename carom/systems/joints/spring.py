@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from carom.systems.joints.declared import Steps
+from carom.systems.declared import Steps
 from carom.systems.joints.held import Held
 from carom.systems.joints.line_joint import LineJoint
 from carom.systems.joints.ways import LinearMotor, Ways

@@ -8,7 +8,7 @@ from typing import Any
 from carom.ecs import World
 from carom.ecs.components.joint import Joint
 from carom.ecs.errors import DeclarationError, did_you_mean
-from carom.systems.joints.declared import read_words
+from carom.systems.declared import read_words
 from carom.systems.joints.held import WORLD, Held, find_held
 from carom.systems.joints.kind import JOINTS, JointKind
 from carom.systems.parameters import WordFault

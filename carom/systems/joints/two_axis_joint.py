@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from carom.ecs.spatial import vector
+from carom.systems.declared import Steps, direction
 from carom.systems.joints.axis_joint import AxisJoint
-from carom.systems.joints.declared import Steps, direction
 from carom.systems.joints.frames import along_axes
 from carom.systems.joints.held import Held
 from carom.systems.joints.kind import Vector

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from carom.systems.joints.declared import Steps, bounds, part
+from carom.systems.declared import Steps, bounds, part
 from carom.systems.joints.held import Held
 from carom.systems.joints.two_axis_joint import TwoAxisJoint
 from carom.systems.joints.ways import AngularMotor, Limits, Ways

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from carom.ecs.components.joint import FREE, LIMITED, LOCKED, SLOTS, Joint
-from carom.systems.joints.declared import Stated, Steps, bounds, part
+from carom.systems.declared import Stated, Steps, bounds, part
 from carom.systems.parameters import parameter
 
 COLUMNS = ("mode", "lower", "upper", "driven", "stiffness", "damping", "target", "speed", "most", "friction")

@@ -12,7 +12,7 @@ import numpy as np
 
 from carom.ecs import Transform, World
 from carom.ecs.column import Floats, Integers
-from carom.systems.energy import centers_of_mass
+from carom.systems.bodies import centers_of_mass
 from carom.systems.registry import enter
 from carom.systems.simulation import Simulation
 from carom.tools.batch import Batch

@@ -11,7 +11,7 @@ import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
-from carom.systems.energy import centers_of_mass
+from carom.systems.bodies import centers_of_mass
 from carom.systems.settings import time_of
 from carom.tools.marks import Lines, Mark, tinted
 from carom.tools.overlays.overlay import Overlay, Seen

@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.ecs import RigidBody, World
 from carom.ecs.column import Column
-from carom.systems.energy import dynamic_rows
+from carom.systems.bodies import dynamic_rows
 from carom.systems.free_body import FRICTION, JOINT, NORMAL, loads
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation

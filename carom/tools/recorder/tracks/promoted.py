@@ -10,8 +10,9 @@ import numpy as np
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Column, Floats, Integers
 from carom.ecs.relations.touching import Touching
+from carom.systems.bodies import centers_of_mass, dynamic_rows
 from carom.systems.compound import bodies_of
-from carom.systems.energy import centers_of_mass, dynamic_rows, kinetic_energies
+from carom.systems.energy import kinetic_energies
 from carom.systems.free_body import FRICTION, JOINT, NORMAL, loads
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation

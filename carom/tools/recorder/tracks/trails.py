@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Integers
-from carom.systems.energy import centers_of_mass
+from carom.systems.bodies import centers_of_mass
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.layout import Layout

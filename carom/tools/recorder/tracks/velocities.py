@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Column
-from carom.systems.energy import centers_of_mass
+from carom.systems.bodies import centers_of_mass
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Block, Columns
 from carom.tools.recorder.layout import Layout

@@ -1,4 +1,4 @@
-"""Declarations of what joints take beside plain numbers, and reading the words of a file or of Python by them."""
+"""Declarations of what joints and regions take beside plain numbers, and reading words of files or Python by them."""
 
 from __future__ import annotations
 
