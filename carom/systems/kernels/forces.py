@@ -35,23 +35,6 @@ def add_weight(rows, mass, scale, gx, gy, gz, force):
         force[i, 2] += heavy * gz
 
 
-@kernel("force")
-def add_attraction(rows, mass, position, constant, softening, force):
-    """Add G m1 m2 r / (r^2 + s^2)^(3/2) between every two bodies, equal and opposite."""
-    for s in range(len(rows)):
-        i = rows[s]
-        for t in range(s + 1, len(rows)):
-            j = rows[t]
-            dx = position[j, 0] - position[i, 0]
-            dy = position[j, 1] - position[i, 1]
-            dz = position[j, 2] - position[i, 2]
-            squared = dx * dx + dy * dy + dz * dz + softening * softening
-            pull = constant * mass[i] * mass[j] / (squared * sqrt(squared))
-            for k, d in enumerate((dx, dy, dz)):
-                force[i, k] += pull * d
-                force[j, k] -= pull * d
-
-
 @kernel("drag", "drag_flow")
 def add_linear_drag(rows, coefficient, medium, drag, drag_flow):
     """Add a drag of ``coefficient`` (kg/s) towards the velocity of the medium."""

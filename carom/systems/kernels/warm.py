@@ -92,7 +92,10 @@ def compile_frame() -> None:
     """Step a world in which balls rest and roll in a sensor, one body is on keyframes, and every law of force acts."""
     look_for_vectors(there=False)
 
+    import numpy as np
+
     from carom.ecs.components.joint import FREE, LIMITED, LOCKED, Joint
+    from carom.systems.gravitation import attract_by_tree
     from carom.systems.simulation import Simulation
     from carom.systems.solving import Solving
 
@@ -117,6 +120,7 @@ def compile_frame() -> None:
     simulation.force("thruster", force=(0.0, 1.0, 0.0))
     simulation.force("vortex", circulation=1.0)
     simulation.force("mutual_gravitation")
+    attract_by_tree(np.ones(9), np.arange(27.0).reshape(9, 3), 1.0, 0.0, 0.5)
     simulation.force("constant_push", force=(1.0, 0.0, 0.0))
     simulation.keep_ledger()
     Solving(simulation)

@@ -11,6 +11,7 @@ BENCHES = {  # name on the command line: module
     "contacts": "contacts",
     "joints": "joints",
     "motion": "motion",
+    "fields": "fields",
     "render": "render",
     "record": "record",
 }

@@ -1,0 +1,19 @@
+"""Fields: what forces between very many cost, and how near they are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from carom.tools.bench import gravity_rows
+from carom.tools.bench.measure import Figure
+
+
+def figures() -> Iterator[Figure]:
+    """Yield every part's figures."""
+    for part in PARTS.values():
+        yield from part()
+
+
+PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
+    "gravity": gravity_rows.figures,
+}
