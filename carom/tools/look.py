@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from carom.tools.coloring import MODES
@@ -12,7 +12,6 @@ from carom.tools.quantities import quantity
 from carom.worlds.builder import LoadedWorld
 from carom.worlds.errors import Fault, WordError
 from carom.worlds.names import known
-from carom.worlds.reader import read
 
 
 @dataclass(frozen=True)
@@ -59,7 +58,7 @@ def look_of(
 
 def _refuse(loaded: LoadedWorld, stated: list[str], faults: list[tuple[str, str, WordError]]) -> None:
     """Raise WorldError for words by their keys; they stand in the file but for keys that were stated otherwise."""
-    source = read(loaded.source_text, loaded.path)
+    source = replace(loaded.source, faults=[])
     for key, word, fault in faults:
         if key in stated:
             told = fault.what, fault.received, fault.accepted, fault.hint

@@ -19,18 +19,22 @@ from carom.worlds import library
 from carom.worlds.camera import Camera, check_entities
 from carom.worlds.check import check_section, collection
 from carom.worlds.embedding import content_of
-from carom.worlds.errors import Fault, WordError, WorldError, shown
+from carom.worlds.errors import WordError
 from carom.worlds.expect import Expectation, read_expectations
+from carom.worlds.files import WorldFiles
 from carom.worlds.generated import STEP_WORDS
 from carom.worlds.geometry import GeometryReader
+from carom.worlds.header import with_header
+from carom.worlds.include import Includes
 from carom.worlds.names import known, matching
 from carom.worlds.pictures import Pictures
 from carom.worlds.populate import Populator
 from carom.worlds.prefab import extended
-from carom.worlds.reader import Source, read
+from carom.worlds.reader import read
 from carom.worlds.run import RunPlan, plan
-from carom.worlds.schema import VERSION, document
+from carom.worlds.schema import document
 from carom.worlds.sections import RecordingWords, Render
+from carom.worlds.source import Source
 from carom.worlds.variables import Variables
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
@@ -42,7 +46,7 @@ class LoadedWorld:
     """A world file ready to run; ``document`` is its plain data and ``up`` the direction pictures keep upright.
 
     ``warnings`` are lines for the user on what the file can be used without, such as triangles without area; ``files``
-    are those that it names, by its words for them.
+    are those that it names or includes, by its words for them; ``source`` knows where each of its words stands.
     """
 
     simulation: Simulation
@@ -59,6 +63,7 @@ class LoadedWorld:
     recording: RecordingWords = field(default_factory=lambda: RecordingWords.model_validate({}))
     warnings: list[str] = field(default_factory=list)
     files: dict[str, Path] = field(default_factory=dict)
+    source: Source = field(default_factory=lambda: Source("", ""))
 
     def contents(self) -> dict[str, bytes]:
         """Return what is in its files, by the words of the world for them; none needs another file beside it."""
@@ -90,10 +95,13 @@ def load_text(
     ``files`` says of some where they are, by the words of the text for them.
     """
     source = read(text, name)
-    data = _with_header(source)
+    files_of_world = WorldFiles(folder or Path(), files or {})
+    with_header(source)
+    Includes(source, files_of_world).take(source, (Path(name).name,))
+    data = source.data
     values = _checked(source, data)
     simulation = _simulation(source, values, checked, options)
-    geometries = GeometryReader(folder or Path(), files or {})
+    geometries = GeometryReader(files_of_world)
     populator = Populator(source, simulation, geometries)
     populator.add_all(values["entities"])
     source.excused = _named(data.get("entities")) - {name.partition("[")[0] for name in simulation.world.names()}
@@ -120,22 +128,8 @@ def load_text(
     return LoadedWorld(
         simulation, data, name, text, plan(values["run"], simulation.settings.dt), expectations,
         values["name"], values["description"], UP[values["up"]], values["cameras"], render, recording, source.warnings,
-        geometries.used,
+        files_of_world.used, source,
     )  # fmt: skip
-
-
-def _with_header(source: Source) -> dict[str, Any]:
-    """Return the data of a world of this version; raise WorldError at once for others, since nothing else counts."""
-    data, accepted = source.data, f"'carom: {VERSION}' as its first line"
-    if not isinstance(data, dict):
-        raise WorldError([*source.faults, Fault(source.name, 1, 1, "", "is no world", shown(data), accepted)])
-    if "carom" not in data:
-        raise WorldError([*source.faults, Fault(source.name, 1, 1, "carom", "is missing", accepted=accepted)])
-    if data["carom"] != VERSION or isinstance(data["carom"], bool):
-        place, received = source.position(("carom",)), shown(data["carom"])
-        fault = Fault(source.name, *place, "carom", "unknown version", received, str(VERSION))
-        raise WorldError([*source.faults, fault])
-    return data
 
 
 def _checked(source: Source, data: dict[str, Any]) -> dict[str, Any]:

@@ -11,8 +11,8 @@ from pydantic import Field, model_validator
 
 from carom.worlds.errors import Path, WordError, shown
 from carom.worlds.names import known
-from carom.worlds.reader import Source
 from carom.worlds.rotation import Direction
+from carom.worlds.source import Source
 from carom.worlds.values import In, Vector3, Words, either, word_of
 
 Lengths = Annotated[Vector3, In("m")]

@@ -10,8 +10,8 @@ from pydantic import TypeAdapter, ValidationError
 
 from carom.ecs.errors import did_you_mean
 from carom.worlds.errors import Path, WordError, shown
-from carom.worlds.reader import Source
 from carom.worlds.schema import document
+from carom.worlds.source import Source
 
 WORDING = {
     "model_type": ("must be a mapping", "keys with values"),
@@ -45,8 +45,7 @@ def check_section(source: Source, section: str, value: Any, *, partial: bool = F
     if kind is None:
         return check(source, _adapter(section, False), value, (section,))
     if not isinstance(value, kind):
-        what, accepted = WORDING["list_type" if kind is list else "dict_type"]
-        source.report((section,), what, received=shown(value), accepted=accepted)
+        refuse_form(source, section, value, kind)
         return kind()
     adapter = _adapter(section, True)
     if kind is list:
@@ -56,6 +55,12 @@ def check_section(source: Source, section: str, value: Any, *, partial: bool = F
         for key, item in value.items()
         if _named(source, section, key)
     }
+
+
+def refuse_form(source: Source, section: str, value: Any, kind: type[Any]) -> None:
+    """Report a section that is not the list or mapping it must be."""
+    what, accepted = WORDING["list_type" if kind is list else "dict_type"]
+    source.report((section,), what, received=shown(value), accepted=accepted)
 
 
 def _named(source: Source, section: str, key: str) -> bool:

@@ -12,7 +12,7 @@ from carom.worlds.expect_moment import frame_of, read_event
 from carom.worlds.expect_pictures import Visible
 from carom.worlds.expect_values import read_values
 from carom.worlds.expectation import Expectation, Outcome
-from carom.worlds.reader import Source
+from carom.worlds.source import Source
 
 __all__ = ["Expectation", "Outcome", "read_expectations"]
 EVERY_FRAME = (*QUANTITIES, "penetration", "never", "always")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import Field, model_validator
@@ -15,6 +13,7 @@ from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.model_files import UNITS
 from carom.systems.shapes.shape import Shape
 from carom.worlds.errors import WordError
+from carom.worlds.files import WorldFiles, joined
 from carom.worlds.values import In, Vector3, Words, either, word_of
 
 Scale = Annotated[float, In("1", above=0.0)]
@@ -83,18 +82,19 @@ GEOMETRY_WORDS: dict[str, type[Words]] = {
 
 
 class GeometryReader:
-    """Reads geometries from files, each once: where ``files`` says, by the world's words for them, or in a folder."""
+    """Reads geometries from files, each once."""
 
-    def __init__(self, folder: Path, files: Mapping[str, Path]) -> None:
-        self.folder, self.files = folder, files
-        self.used: dict[str, Path] = {}
+    def __init__(self, files: WorldFiles) -> None:
+        self.files = files
         self.known: dict[tuple[Any, ...], Shape] = {}
 
-    def shape(self, key: str, words: dict[str, Any], *, seen: bool) -> Shape:
-        """Return the shape of these words, of a visual where it is only ``seen``; raise DeclarationError."""
-        named = {name: words[name] for name in FILE_WORDS if name in words}
-        files = {name: self.files.get(word, self.folder / word) for name, word in named.items()}
-        self.used |= {word: files[name] for name, word in named.items()}
+    def shape(self, key: str, words: dict[str, Any], *, folder: str = "", seen: bool) -> Shape:
+        """Return the shape of these words, of a visual where it is only ``seen``; raise DeclarationError.
+
+        Files are named from ``folder``, that of the file in which the words stand.
+        """
+        words = words | {name: joined(folder, words[name]) for name in FILE_WORDS if name in words}
+        files = {name: self.files.find(words[name]) for name in FILE_WORDS if name in words}
         make = SHAPES[key].seen if seen else SHAPES[key].stated
         if not files:
             return make(**words)

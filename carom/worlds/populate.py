@@ -29,7 +29,7 @@ from carom.worlds.generated import holds_entities
 from carom.worlds.geometry import GEOMETRY_WORDS, GeometryReader
 from carom.worlds.laying import Laying
 from carom.worlds.names import known
-from carom.worlds.reader import Source
+from carom.worlds.source import Source
 
 SOURCES = ("file", "image", "points", "heights")  # words that say where a geometry comes from
 PROVISIONAL = {"mass": 1.0}
@@ -73,8 +73,7 @@ class Populator:
         grid = words.pop("grid", None)
         name = words.pop("name", None)
         if name is not None and name in self.taken:
-            first = self.taken[name]
-            where = f"{first[0]}.{first[1]} at line {self.source.position(first)[0]}"
+            where = self.source.place(self.taken[name])
             self.source.report((*path, "name"), "two entities of one name", received=f"{name!r}, also of {where}")
             return
         if name is not None:
@@ -195,8 +194,11 @@ class Populator:
         for key in GEOMETRY_WORDS:
             if key in words:
                 place = next(word for word in SOURCES if word in words[key])
+                written_in, _ = self.source.home(self.source.locate((*path, key, place)))
                 try:
-                    words[key] = self.geometries.shape(key, words[key], seen=path[-1] == "visual")
+                    words[key] = self.geometries.shape(
+                        key, words[key], folder=written_in.folder, seen=path[-1] == "visual"
+                    )
                 except DeclarationError as fault:
                     self.source.report((*path, key, place), str(fault))
                     raise ReportedError from None

@@ -8,7 +8,7 @@ from carom.systems.joints import JOINTS
 from carom.systems.shapes import SHAPES
 from carom.worlds.errors import Path, WordError
 from carom.worlds.names import known
-from carom.worlds.reader import Source
+from carom.worlds.source import Source
 
 
 def extended(source: Source, path: Path, words: Any, prefabs: dict[str, Any]) -> Any:

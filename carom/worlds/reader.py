@@ -5,22 +5,18 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import Any
 
 import yaml
 
-from carom.systems.parameters import WordFault
-from carom.worlds.errors import Fault, Path, WordError, WorldError, shown
+from carom.worlds.errors import Fault, Path, WorldError, shown
+from carom.worlds.source import OPENING, Position, Source
 
 MOST_CHARACTERS = 32_000_000  # a file of a million bodies; above it is no world
 MOST_REPEATED = 200_000  # values that come from aliases: a "billion laughs" file is short and unfolds without end
 DEEPEST = 64
 
-OPENING = "${"  # of an expression
 QUOTE = 'inside {...} and [...] an expression stands in quotes: "${...}"'
-
-Position = tuple[int, int]
 
 
 class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
@@ -38,72 +34,6 @@ for _tag, _pattern, _first in (
 ):
     _firsts = [*_first, ""] if _tag == "null" else list(_first)
     Loader.add_implicit_resolver("tag:yaml.org,2002:" + _tag, re.compile(rf"(?:{_pattern})\Z"), _firsts)
-
-
-@dataclass
-class Source:
-    """What a file says: plain data, where each path of it stands (line and column from 1), and what is wrong."""
-
-    name: str
-    text: str
-    data: Any = None
-    positions: dict[Path, Position] = field(default_factory=dict)
-    faults: list[Fault] = field(default_factory=list)
-    warnings: list[str] = field(default_factory=list)
-    excused: set[str] = field(default_factory=set)  # names of entities that were reported and so do not exist
-    inherits: dict[Path, Path] = field(default_factory=dict)  # an entity or prefab to the prefab it extends
-    computes: bool = False  # whether a text of it has an expression
-    unusable: set[Path] = field(default_factory=set)  # where an expression was reported, so that nothing else is there
-
-    def report(self, path: Path, what: str, *, received: str = "", accepted: str = "", hint: str = "") -> None:
-        """Note a fault at the nearest part of ``path`` that the file has, or that a prefab has for it."""
-        found = self.locate(path)
-        if any(found[: len(there)] == there[: len(found)] for there in self.unusable):
-            return
-        words = ".".join(map(str, (*found, *path[len(path) - self._missing(path) :])))
-        line, column = self.position(path)
-        self.faults.append(Fault(self.name, line, column, words, what, received, accepted, hint))
-
-    def warn(self, path: Path, what: str) -> None:
-        """Note what a user should know although the file can be used."""
-        line, column = self.position(path)
-        self.warnings.append(str(Fault(self.name, line, column, ".".join(map(str, path)), what)))
-
-    def report_value(self, path: Path, fault: WordError | WordFault) -> None:
-        """Note a value that could not be read, unless it only names what was itself reported."""
-        if fault.name.partition("[")[0] not in self.excused:
-            self.report(path, fault.what, received=fault.received, accepted=fault.accepted, hint=fault.hint)
-
-    def written(self, path: Path) -> bool:
-        """Tell whether the whole path is in the file, be it by a prefab."""
-        return bool(path) and self._missing(path) == 0
-
-    def locate(self, path: Path) -> Path:
-        """Return where the nearest part of ``path`` is written: itself, or the same words in its prefab."""
-        for end in range(len(path), 0, -1):
-            candidate: Path | None = path[:end]
-            while candidate is not None:
-                if candidate in self.positions:
-                    return candidate
-                base = self.inherits.get(candidate[:2])
-                candidate = None if base is None else (*base, *candidate[2:])
-        return ()
-
-    def _missing(self, path: Path) -> int:
-        """Return how many words at the end of ``path`` are written nowhere."""
-        return next((n for n in range(len(path)) if self._stands(path[: len(path) - n])), len(path))
-
-    def _stands(self, path: Path) -> bool:
-        return len(self.locate(path)) == len(path)
-
-    def position(self, path: Path) -> Position:
-        """Return line and column of the nearest part of ``path`` that is written."""
-        return self.positions.get(self.locate(path), (1, 1))
-
-    def refuse_if_faulty(self) -> None:
-        """Raise WorldError when anything was reported."""
-        if self.faults:
-            raise WorldError(self.faults)
 
 
 def read(text: str, name: str) -> Source:

@@ -43,7 +43,6 @@ from carom.worlds.sections import (
 )
 from carom.worlds.values import Flag, Name, Words, either, word_of
 
-VERSION = 1
 Variable = Annotated[
     Any,
     WithJsonSchema({"type": ["number", "string", "boolean", "array", "object"]}),
@@ -123,6 +122,7 @@ def document() -> type[Words]:
         name=(str, Field("", description="title")),
         description=(str, Field("", description="what it shows")),
         up=(word_of("y", "z"), Field("y", description="which axis is up, for gravity's default, cameras and display")),
+        include=(list[str], Field([], description="files beside this one whose words go under its own")),
         **setting_fields(in_step=False),
         step=(step, Field(None, description="how time advances")),
         run=(Run, Field(None, description="how long a run takes")),

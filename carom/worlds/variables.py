@@ -10,7 +10,7 @@ from carom.worlds.errors import Path, ReportedError, WordError, shown
 from carom.worlds.expression import evaluate
 from carom.worlds.names import known
 from carom.worlds.quantity import Quantity, in_words
-from carom.worlds.reader import OPENING, Source
+from carom.worlds.source import OPENING, Source
 from carom.worlds.units import read_any
 
 EXPRESSION = re.compile(r"\$\{([^{}]*)\}")
