@@ -66,10 +66,10 @@ def test_the_schema_knows_its_words_with_unit_and_meaning(site: Path) -> None:
     parts = schema["$defs"]
     health = parts["Health"]["properties"]
     assert "health" in parts["Entity"]["properties"] and parts["Health"]["description"] == "What blows wear down."
-    assert (health["points"]["type"], health["points"]["default"]) == ("integer", 1)
+    assert (health["points"]["anyOf"][0]["type"], health["points"]["default"]) == ("integer", 1)
     assert health["toughness"]["x-unit"] == "N s"
     assert health["toughness"]["description"] == "impulse up to which a blow does nothing (N s)"
-    assert health["armor"]["maxItems"] == 3
+    assert health["armor"]["anyOf"][0]["maxItems"] == 3
     assert health["guardian"]["type"] == "string"
     assert parts["Egg"]["required"] == ["radius", "length"]
     assert {"egg", "sphere"} < set(parts["Collider"]["properties"]) & set(parts["Visual"]["properties"])
