@@ -18,6 +18,7 @@ from carom.systems.awake import Awake
 from carom.systems.bodies import centers_of_mass, dynamic_rows
 from carom.systems.ends import ends_there
 from carom.systems.forces.law import Forces
+from carom.systems.progress import Progress
 from carom.systems.settings import Random, time_of
 from carom.systems.simulation import Simulation
 
@@ -64,8 +65,9 @@ def applied(simulation: Simulation) -> list[Loads]:
     parts = {EXTERNAL: world[ExternalForce].force[rows]}
     before = np.zeros((len(rows), 3))
     drawn = world[Random].state()
-    forces = world[Forces].at(world, time_of(world))
-    with world.faces(Instead(world, {Force: sums, Awake: everyone, Forces: forces})):
+    forces, now = world[Forces].at(world, time_of(world)), Progress()
+    now.clock = time_of(world) - 0.5 * step  # forces of a substep are those in its middle
+    with world.faces(Instead(world, {Force: sums, Awake: everyone, Forces: forces, Progress: now})):
         for _, system in simulation.schedule:
             if Force in system.adds:
                 system(world, step)

@@ -146,9 +146,15 @@ def test_a_vortex_moves_the_medium_round_its_axis() -> None:
     [
         ("attraction", {"strength": 1.0, "power": -1.5}, "attraction.power: must be whole, received -1.5"),
         ("lift", {"area": 1.0, "span": (0.0, 0.0, 0.0)}, "lift.span: must have a direction, received all 0"),
+        (
+            "quadratic_drag",
+            {"area": -1, "density": "air"},
+            ("quadratic_drag.area: must be finite and above 0 m2, received -1; "
+            "quadratic_drag.density: must be a number, received 'air'"),
+        ),
         ("vortex", {"circulation": 1.0, "axis": (0.0, 0.0, 0.0)}, "vortex.axis: must have a direction, received all 0"),
     ],
-)
+)  # fmt: skip
 def test_what_makes_no_sense_is_refused(law: str, words: dict[str, object], fault: str) -> None:
     """By Python as by files, in the same words."""
     with pytest.raises(DeclarationError) as caught:

@@ -25,6 +25,7 @@ class Attraction(Law):
 
     def __post_init__(self) -> None:
         """Refuse a power that is not whole, which takes logarithms that differ by processor."""
+        super().__post_init__()
         self.refuse_unless(self.power == int(self.power), "power", f"must be whole, received {self.power:g}")
 
     def energy(self, mass: Floats, center: Floats) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -13,7 +13,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
 from carom.systems.forces.reach import NOBODY, Reach
-from carom.systems.parameters import parameter, vector
+from carom.systems.parameters import number_fault, parameter, vector
 from carom.systems.progress import Progress
 from carom.systems.registry import enter
 
@@ -35,6 +35,16 @@ class Law:
         super().__init_subclass__(**options)
         if "key" in vars(cls):
             enter(LAWS, cls.key, cls, clash="force laws have the key", mend="give one of them another key")
+
+    def __post_init__(self) -> None:
+        """Refuse parameters outside their bounds; raise DeclarationError naming all of them. Kernels take floats."""
+        stated = [one for one in fields(self) if "unit" in one.metadata and getattr(self, one.name) is not one.default]
+        faults = [(one.name, number_fault(one.metadata, getattr(self, one.name))) for one in stated]
+        if any(fault for _, fault in faults):
+            raise DeclarationError("; ".join(f"{self.key}.{name}: {fault}" for name, fault in faults if fault))
+        for one in stated:
+            value = np.asarray(getattr(self, one.name), np.float64).tolist()
+            object.__setattr__(self, one.name, tuple(value) if isinstance(value, list) else value)
 
     @property
     def steady(self) -> bool:

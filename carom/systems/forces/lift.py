@@ -28,6 +28,7 @@ class Lift(Law):
 
     def __post_init__(self) -> None:
         """Refuse a span without direction."""
+        super().__post_init__()
         self.refuse_unless(any(self.span), "span", "must have a direction, received all 0")
 
 

@@ -26,6 +26,7 @@ class Vortex(Law):
 
     def __post_init__(self) -> None:
         """Refuse an axis without direction."""
+        super().__post_init__()
         self.refuse_unless(any(self.axis), "axis", "must have a direction, received all 0")
 
 

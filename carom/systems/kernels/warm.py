@@ -119,6 +119,7 @@ def compile_frame() -> None:
     simulation.force("magnus", radius=0.5)
     simulation.force("thruster", force=(0.0, 1.0, 0.0))
     simulation.force("vortex", circulation=1.0)
+    simulation.force("wind", velocity=(1.0, 0.0, 0.0), gust=1.0)
     simulation.force("mutual_gravitation")
     attract_by_tree(np.ones(9), np.arange(27.0).reshape(9, 3), 1.0, 0.0, 0.5)
     simulation.force("constant_push", force=(1.0, 0.0, 0.0))
