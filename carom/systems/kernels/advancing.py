@@ -18,7 +18,7 @@ TIME, CENTER, LINEAR, ANGULAR, TURNED, ROTATION = 0, 1, 4, 7, 10, 13
 ACCELERATION, ANGULAR_ACCELERATION, PRINCIPAL, INERTIA, ROWS = 17, 20, 23, 27, 30
 
 
-@kernel("center", "rotation", "turned", "linear", "angular", "time", "arc")
+@kernel("center", "rotation", "turned", "linear", "angular", "time", "arc", makes_arrays=True)
 def advance_bodies(
     rows, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     inverse_mass, inertia, principal_axes, freedom, pull, arc,

@@ -21,7 +21,7 @@ from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles, grown
 from carom.systems.kernels.spatial import turn
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_balls_on_meshes(
     which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,

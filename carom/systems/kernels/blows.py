@@ -19,7 +19,7 @@ from carom.systems.kernels.bodies import (
     surface_velocity,
     yielding,
 )
-from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.kernel import inlined, making
 from carom.systems.kernels.spatial import cross
 
 
@@ -88,7 +88,7 @@ def foresee_blow(
     return soonest if soonest <= h else NEVER
 
 
-@inlined
+@making
 def blow(
     first, end, h, struck_before, center, rotation, linear, angular, acceleration, felt,
     inverse_mass, inverse_inertia, principal, freedom,

@@ -18,7 +18,7 @@ EDGES_FROM = 12 * FEATURES  # features: of 6 faces of either box, then of pairs 
 CORNERS_FROM = EDGES_FROM + EDGE_FEATURES
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_boxes(
     which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,

@@ -27,7 +27,7 @@ def on_way(boxes, row, x, y, z, hx, hy, hz, ix, iy, iz, limit):
     return which(BARELY - larger(larger(enter - leave, -leave), enter - limit))
 
 
-@kernel("pairs")
+@kernel("pairs", makes_arrays=True)
 def find_near(center, half, direction, reach, takes, endless, members, tree, pairs):
     """Write (query, row) where a query's box passes through a collider's; return how many, -1 if they do not fit in.
 

@@ -10,7 +10,7 @@ from carom.systems.kernels.grid import AGAINST_ALL, IN_GRID, IN_TREE, cell_along
 from carom.systems.kernels.kernel import kernel
 
 
-@kernel("found")
+@kernel("found", makes_arrays=True)
 def look_up(
     asking, asks, rows, apart, place, shape, size, body_row, pose_position, pose_rotation, fat_lower, fat_upper,
     cell, grid_rows, grid_cells, members, bounds, span, skip, moves, found,

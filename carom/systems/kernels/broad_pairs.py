@@ -8,7 +8,7 @@ import numpy as np
 from carom.systems.kernels.kernel import kernel
 
 
-@kernel("candidates", "scratch", "pairs")
+@kernel("candidates", "scratch", "pairs", makes_arrays=True)
 def order_pairs(candidates, used, known, scratch, pairs):
     """Write the candidates that may be pairs at all, lower row first, sorted; return their count.
 

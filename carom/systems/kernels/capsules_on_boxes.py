@@ -31,7 +31,7 @@ from carom.systems.kernels.writing import write_point
 ALONE, EDGES = 12, 13
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_capsules_on_boxes(
     which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,

@@ -49,55 +49,84 @@ def complete_contacts(
 
     Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces.
     """
-    for c in range(count):
-        a, b = row_a[c], row_b[c]
-        for k in range(3):
-            half = 0.5 * depth[c] * normal[c, k]
-            offset_a[c, k] = point[c, k] + half - (center[body_row[a], k] if body_row[a] >= 0 else pose_position[a, k])
-            offset_b[c, k] = point[c, k] - half - (center[body_row[b], k] if body_row[b] >= 0 else pose_position[b, k])
-        body_a[c], body_b[c] = body_row[a], body_row[b]
-        surface[c, 0], surface[c, 1], surface[c, 2] = surface_of_pair(c, a, b, normal, surface_velocity, pose_rotation)
-        if c and a == row_a[c - 1] and b == row_b[c - 1] and kind[c - 1] < 0:  # another point of the same pair
-            friction[c], restitution[c] = friction[c - 1], restitution[c - 1]
-            rolling[c], spinning[c], kind[c] = rolling[c - 1], spinning[c - 1], -1
-            share[c] = (
-                share[c - 1] if is_parallel(c, c - 1, normal) else share_of_b(c, a, b, normal, shape, pose_rotation)
-            )
-            continue
-        share[c] = share_of_b(c, a, b, normal, shape, pose_rotation)
-        friction[c] = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)
-        restitution[c] = combined(
+    end = 0
+    while end < count:
+        first, a, b = end, row_a[end], row_b[end]
+        while end < count and row_a[end] == a and row_b[end] == b:
+            end += 1
+        on_a, on_b = body_row[a], body_row[b]
+        ax, ay, az = seat_of(a, on_a, center, pose_position)
+        bx, by, bz = seat_of(b, on_b, center, pose_position)
+        rubs = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)
+        bounces = combined(
             material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
         )
         lever = max(bound_radius[a], bound_radius[b])
         # Never more than friction can carry, else resistance to rolling would make the body slide.
-        rolling[c] = min(max(material_rolling[a], material_rolling[b]), friction[c]) * lever
-        spinning[c] = max(material_spinning[a], material_spinning[b]) * lever
-        kind[c] = -1
-        i, o, sign[c] = a, b, 1.0
-        if not is_free_ball(a, shape, body_row, pose_position, center, inverse_mass):
-            i, o, sign[c] = b, a, -1.0
-            if not is_free_ball(b, shape, body_row, pose_position, center, inverse_mass):
+        rolls = min(max(material_rolling[a], material_rolling[b]), rubs) * lever
+        spins = max(material_spinning[a], material_spinning[b]) * lever
+        belt = runs(a, surface_velocity) or runs(b, surface_velocity)
+        what, i, o, sense, ex, ey, ez = exact_pair(
+            a, b, shape, size, body_row, pose_position, pose_rotation, center, rotation, inverse_mass
+        )
+        for c in range(first, end):
+            x, y, z, half = normal[c, 0], normal[c, 1], normal[c, 2], 0.5 * depth[c]
+            x, y, z = half * x, half * y, half * z
+            px, py, pz = point[c, 0], point[c, 1], point[c, 2]
+            offset_a[c, 0], offset_a[c, 1], offset_a[c, 2] = px + x - ax, py + y - ay, pz + z - az
+            offset_b[c, 0], offset_b[c, 1], offset_b[c, 2] = px - x - bx, py - y - by, pz - z - bz
+            body_a[c], body_b[c] = on_a, on_b
+            friction[c], restitution[c], rolling[c], spinning[c], kind[c] = rubs, bounces, rolls, spins, what
+            surface[c, 0], surface[c, 1], surface[c, 2] = 0.0, 0.0, 0.0
+            if belt:
+                surface[c, 0], surface[c, 1], surface[c, 2] = surface_of_pair(
+                    c, a, b, normal, surface_velocity, pose_rotation
+                )
+            if c > first and is_parallel(c, c - 1, normal):
+                share[c] = share[c - 1]
+            else:
+                share[c] = share_of_b(c, a, b, normal, shape, pose_rotation)
+            if what < 0:
                 continue
-        what, ex, ey, ez = kind_and_extent(
-            shape[o], size[o, 0], size[o, 1], size[o, 2],
-            pose_rotation[o, 0], pose_rotation[o, 1], pose_rotation[o, 2], pose_rotation[o, 3],
-        )  # fmt: skip
-        if what < 0:
-            continue
-        body = body_row[o]
-        if body >= 0 and not is_centred(o, body, pose_position, center):
-            continue
-        if body >= 0 and what == BOX and not is_aligned(o, body, pose_rotation, rotation):
-            continue
-        kind[c], ball[c], other[c], radius[c] = what, body_row[i], body_row[o], size[i, 0]
-        extent[c, 0], extent[c, 1], extent[c, 2] = ex, ey, ez
-        for k in range(3):
-            other_position[c, k] = pose_position[o, k]
-            if what == HALF_SPACE:
-                other_position[c, k] += size[o, 3] * extent[c, k]
-        for k in range(4):
-            other_rotation[c, k] = pose_rotation[o, k]
+            sign[c], ball[c], other[c], radius[c] = sense, body_row[i], body_row[o], size[i, 0]
+            extent[c, 0], extent[c, 1], extent[c, 2] = ex, ey, ez
+            for k in range(3):
+                other_position[c, k] = pose_position[o, k]
+                if what == HALF_SPACE:
+                    other_position[c, k] += size[o, 3] * extent[c, k]
+            for k in range(4):
+                other_rotation[c, k] = pose_rotation[o, k]
+
+
+@woven
+def seat_of(i, body, center, pose_position):
+    """Return what offsets of a collider's contacts begin at: its body's centre of mass, or its own origin."""
+    if body >= 0:
+        return center[body, 0], center[body, 1], center[body, 2]
+    return pose_position[i, 0], pose_position[i, 1], pose_position[i, 2]
+
+
+@woven
+def exact_pair(a, b, shape, size, body_row, pose_position, pose_rotation, center, rotation, inverse_mass):
+    """Return how a ball meets another of exact arcs, the ball, the other, 1 or -1 where it is b, and an extent.
+
+    The first is -1 where there is no such pair.
+    """
+    i, o, sense = a, b, 1.0
+    if not is_free_ball(a, shape, body_row, pose_position, center, inverse_mass):
+        i, o, sense = b, a, -1.0
+        if not is_free_ball(b, shape, body_row, pose_position, center, inverse_mass):
+            return -1, i, o, sense, 0.0, 0.0, 0.0
+    what, ex, ey, ez = kind_and_extent(
+        shape[o], size[o, 0], size[o, 1], size[o, 2],
+        pose_rotation[o, 0], pose_rotation[o, 1], pose_rotation[o, 2], pose_rotation[o, 3],
+    )  # fmt: skip
+    body = body_row[o]
+    if body >= 0 and not (
+        is_centred(o, body, pose_position, center) and (what != BOX or is_aligned(o, body, pose_rotation, rotation))
+    ):
+        what = -1
+    return what, i, o, sense, ex, ey, ez
 
 
 @woven
@@ -132,8 +161,6 @@ def is_flat(i, c, normal, shape, pose_rotation):
 @woven
 def surface_of_pair(c, a, b, normal, surface_velocity, pose_rotation):
     """Return the velocity of b's surface against a's, beyond that of their bodies, along contact c."""
-    if not (runs(a, surface_velocity) or runs(b, surface_velocity)):
-        return 0.0, 0.0, 0.0
     ax, ay, az = turned(a, a, surface_velocity, pose_rotation)
     bx, by, bz = turned(b, b, surface_velocity, pose_rotation)
     x, y, z = bx - ax, by - ay, bz - az
@@ -183,6 +210,7 @@ def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass)
     "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
     "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
     "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form",
+    makes_arrays=True,
 )  # fmt: skip
 def renew_contacts(
     old_count, handles, row_shift, bound_half, bound_radius,

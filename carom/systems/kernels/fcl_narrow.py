@@ -18,7 +18,7 @@ from carom.systems.kernels.writing import write_points
 from carom.systems.shapes.rim import RIM_POINTS
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def refine_answers(
     which, first, second, overlaps, hints, pairs, reaches, taken, shape, size, position, rotation, geometry, hulls,
     start, count, feature, normal, depth, point,

@@ -13,7 +13,7 @@ from carom.systems.kernels.lanes import WIDTH, address, choose, load, root, spre
 HEAVY, ROWS = 3, 4  # a group of eight bodies is their x, y, z and, after them, masses
 
 
-@kernel("pull")
+@kernel("pull", makes_arrays=True)
 def sum_pairs(mass, center, constant, softening, pull):
     """Write the pull G m1 m2 r / (r^2 + s^2)^(3/2) on each body (n, 3), equal and opposite to the last bit.
 

@@ -23,7 +23,7 @@ DEEPEST = 256  # halves on the way down to a leaf at most: a node has up to 7/8 
 MASS, SECOND, LOWER, UPPER, EXTENT, NODE = 3, 4, 10, 13, 16, 17
 
 
-@kernel("order", "span", "nodes")
+@kernel("order", "span", "nodes", makes_arrays=True)
 def grow_gravity_tree(mass, center, order, span, nodes):
     """Sort bodies into the tree, ``order`` naming them in its order; ``span`` (m, 2) is which leaves a node has."""
     count = len(order)
@@ -111,7 +111,7 @@ def add_moments(node, mass, x, y, z, nodes):
         nodes[node, SECOND + k] += mass * product
 
 
-@kernel("pull", "energy")
+@kernel("pull", "energy", makes_arrays=True)
 def sum_tree(begin, end, mass, center, constant, softening, opening, order, span, nodes, pull, energy):
     """Write the pulls (n, 3) on the bodies of the leaves ``begin`` to ``end``, and their shares of the energy (n,).
 

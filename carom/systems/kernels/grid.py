@@ -25,7 +25,7 @@ def cell_along(x, k, cell):
     return int(min(max(at, 0.0), cell[2, k] - 1.0))
 
 
-@kernel("grid_rows", "grid_cells", "boxes")
+@kernel("grid_rows", "grid_cells", "boxes", makes_arrays=True)
 def sort_into_cells(cell, fat_lower, fat_upper, grid_rows, grid_cells, boxes):
     """Bring the grid's members, given in order of rows, into that of cells; write their cells and bounds."""
     n = len(grid_rows)
@@ -58,7 +58,7 @@ def sort_into_cells(cell, fat_lower, fat_upper, grid_rows, grid_cells, boxes):
             boxes[s, k], boxes[s, 3 + k] = fat_lower[grid_rows[s], k], fat_upper[grid_rows[s], k]
 
 
-@kernel("found")
+@kernel("found", makes_arrays=True)
 def pairs_in_cells(grid_rows, grid_cells, boxes, cell, found):
     """Write the pairs of grid members whose fat bounds overlap; return their count, or -1 where they do not fit in.
 

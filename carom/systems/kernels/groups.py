@@ -7,7 +7,7 @@ import numpy as np
 
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import MANIFOLD_POINTS
-from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.lanes import WIDTH, address, spread, store
 from carom.systems.kernels.spatial import plane_axes
 
@@ -35,7 +35,19 @@ ABSENT = -1e300  # m, the depth of a point that a lane does not have
 BUCKETS = 256  # of manifolds that are shuffled
 
 
-@kernel("group_of", "lane_of", "index_a", "index_b", "first", "size", "points", "row", "ends", "level_ends")
+@kernel(
+    "group_of",
+    "lane_of",
+    "index_a",
+    "index_b",
+    "first",
+    "size",
+    "points",
+    "row",
+    "ends",
+    "level_ends",
+    makes_arrays=True,
+)
 def group_manifolds(
     count, start, a, b, body_a, body_b, inverse_mass, nobody,
     group_of, lane_of, index_a, index_b, first, size, points, row, ends, level_ends,
@@ -115,7 +127,7 @@ def pair(p, o):
     return p * (p - 1) // 2 + o
 
 
-@inlined
+@making
 def shuffle(count, start, a, b):
     """Return the manifolds in an order without order, in which those that stay keep their places.
 

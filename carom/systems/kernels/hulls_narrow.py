@@ -45,7 +45,7 @@ def comes_first(p, i, q, j, position, rotation):
     return True
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_hulls(
     which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
@@ -121,7 +121,7 @@ def measure_hulls(
     return taken
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_hulls_on_planes(
     which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,

@@ -25,6 +25,7 @@ TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 1
 @kernel(
     "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
     "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic", "arc",
+    makes_arrays=True,
 )  # fmt: skip
 def fly(
     rows, start, h, bend, clock,

@@ -66,7 +66,7 @@ def find_islands(rows, body_a, body_b, inverse_mass, island):
         island[i] = lowest_of(i, island)
 
 
-@kernel("falls")
+@kernel("falls", makes_arrays=True)
 def find_sleepers(rows, body_a, body_b, inverse_mass, linear, angular, felt, still, falls):
     """Tell who falls asleep: all bodies of an island that has been still for SLEEP_TIME and is held.
 

@@ -87,7 +87,7 @@ def kind_of(i, along, about, mode, lower, driven, friction):
     return (CONES if about[i] == SWING_TWIST else FRAMES) + shift
 
 
-@kernel("kinds", "index_a", "index_b", "first", "place", "row")
+@kernel("kinds", "index_a", "index_b", "first", "place", "row", makes_arrays=True)
 def group_joints(
     joints, body_a, body_b, inverse_mass, nobody, along, about, mode, lower, driven, friction,
     kinds, index_a, index_b, first, place, row,

@@ -50,7 +50,7 @@ def start_joints_warm(groups, kinds, row, index_a, index_b, lanes, bodies):
         scatter(bodies, index_b, g, VELOCITY, b)
 
 
-@kernel("lanes", "bodies")
+@kernel("lanes", "bodies", makes_arrays=True)
 def solve_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, lanes, bodies):
     """Solve every group once.
 

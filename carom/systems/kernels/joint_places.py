@@ -17,7 +17,7 @@ from carom.systems.kernels.packing import POSE
 from carom.systems.kernels.spatial import product, turn
 
 
-@kernel("lanes")
+@kernel("lanes", makes_arrays=True)
 def measure_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
     """Find the axes of joints where their bodies are now, where b is on them, and how bodies yield along them."""
     lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)

@@ -69,13 +69,22 @@ def compiled(function: Callable[..., Any], *, entry: bool = False, **options: An
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """Compile a function that only kernels call; it gets no entry from Python, which is half of the time it takes."""
-    return compiled(function, no_cpython_wrapper=True)
+    """Compile a function that only kernels call; it gets no entry from Python, which is half of the time it takes.
+
+    It makes no arrays, and counts no references to those it is handed: an atomic count up and down for each array of
+    each call costs more than what most such functions do.
+    """
+    return compiled(function, no_cpython_wrapper=True, _nrt=False)
 
 
 def woven(function: Callable[..., Any]) -> Any:
     """Compile a function into each of its callers, where handing over its arrays would cost more than a tenth of it."""
-    return compiled(function, no_cpython_wrapper=True, forceinline=True)
+    return compiled(function, no_cpython_wrapper=True, forceinline=True, _nrt=False)
+
+
+def making(function: Callable[..., Any]) -> Any:
+    """Compile a function that only kernels call and that makes arrays."""
+    return compiled(function, no_cpython_wrapper=True, _nrt=True)
 
 
 def calling(function: Callable[..., Any], **compiled_ones: Any) -> Callable[..., Any]:
@@ -90,13 +99,13 @@ class Kernel:
     they are passed as writable views; handing a read-only array to an output is an AccessError.
     """
 
-    def __init__(self, function: Callable[..., Any], outputs: tuple[str, ...]) -> None:
+    def __init__(self, function: Callable[..., Any], outputs: tuple[str, ...], makes_arrays: bool) -> None:
         names = function.__code__.co_varnames[: function.__code__.co_argcount]
         unknown = set(outputs) - set(names)
         assert not unknown, f"{function.__name__} has no arguments {unknown}"
         self.name = function.__name__
         self.__doc__ = function.__doc__
-        self._run = compiled(function, entry=True)
+        self._run = compiled(function, entry=True, _nrt=makes_arrays)
         self._outputs = [names.index(name) for name in outputs]
         self._names = names
         self._settled = False
@@ -129,6 +138,10 @@ class Kernel:
         return passed
 
 
-def kernel(*outputs: str) -> Callable[[Callable[..., Any]], Kernel]:
-    """Compile a function over arrays; ``outputs`` are the names of the arguments it writes."""
-    return lambda function: Kernel(function, outputs)
+def kernel(*outputs: str, makes_arrays: bool = False) -> Callable[[Callable[..., Any]], Kernel]:
+    """Compile a function over arrays; ``outputs`` are the names of the arguments it writes.
+
+    One that makes no arrays of its own takes those it is handed in half the time; where one does, Numba says "NRT
+    required but not enabled" until it says so.
+    """
+    return lambda function: Kernel(function, outputs, makes_arrays)

@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.ecs.components.joint import SLOTS
 from carom.systems.constants import REACH_DAMPING, REACH_LEAST_DAMPING, REACH_MOST_DAMPING, REACH_ROUNDS
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined, kernel, making
 from carom.systems.kernels.spatial import cross, product, sine_cosine, turn
 
 
@@ -25,7 +25,7 @@ def place_links(tree, angles, links):
     place(tree, angles, links)
 
 
-@inlined
+@making
 def place(tree, angles, links):
     """Do what `place_links` does."""
     parent, forwards, anchor_in, frame_in, anchor_out, frame_out, way, rest = tree
@@ -94,7 +94,7 @@ def differentiate(moves, turns, axis, pivot, x, y, z, jacobian):
             jacobian[k, m] = value if moves[m] else 0.0
 
 
-@kernel("angles", "jacobian")
+@kernel("angles", "jacobian", makes_arrays=True)
 def reach_target(tree, links, moves, turns, lower, upper, end, point, target, wanted, rows, close, angles, jacobian):
     """Turn and slide joints until a point of link ``end`` is at the target; return how far off it is (m and rad).
 

@@ -105,7 +105,7 @@ def meet(
     return time
 
 
-@kernel("times")
+@kernel("times", makes_arrays=True)
 def foresee_meetings(
     fast, numbers, span, first_only, shape, size, geometry, body_row, center, turns, linear, angular, felt,
     local_position, local_rotation, hulls, meshes, room, times,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.selection import select, widest_axis
 
 LEAF = 8  # triangles at most
@@ -14,7 +14,7 @@ FEW = 256  # triangles and points there is room for at first
 TRIANGLE = 15  # numbers per triangle: corners, unit normal, one over the length of each edge
 
 
-@kernel("order", "bounds", "nodes")
+@kernel("order", "bounds", "nodes", makes_arrays=True)
 def build_tree(lower, upper, middle, order, bounds, nodes):
     """Sort triangles into a tree, ``order`` naming them in its order; return how many nodes it has.
 
@@ -86,7 +86,7 @@ def find_triangles(root, bounds, nodes, triangles, lx, ly, lz, hx, hy, hz, found
     return count
 
 
-@woven
+@making
 def all_triangles(root, bounds, nodes, triangles, lx, ly, lz, hx, hy, hz, found):
     """Return how many triangles' bounds meet the box from l to h, and ``found`` with them, grown where it must."""
     while True:
@@ -96,7 +96,7 @@ def all_triangles(root, bounds, nodes, triangles, lx, ly, lz, hx, hy, hz, found)
         found = grown(found)
 
 
-@inlined
+@making
 def grown(values):
     """Return a copy with twice the room."""
     wider = np.empty(2 * len(values), values.dtype)

@@ -56,7 +56,7 @@ def sort_by_function(pairs, shape, function_of, swaps, order, first, second, sta
     starts[len(starts) - 1] = len(pairs)
 
 
-@kernel("row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl")
+@kernel("row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl", makes_arrays=True)
 def collect_points(
     pairs, order, first, fcl_pairs, start, count, feature, normal, depth, point,
     row_a, row_b, found_feature, found_normal, found_depth, found_point, by_fcl,

@@ -29,7 +29,7 @@ from carom.systems.kernels.spatial import turn
 FIRST, ANY, ALL = 0, 1, 2
 
 
-@kernel("ray", "row", "distance", "part")
+@kernel("ray", "row", "distance", "part", makes_arrays=True)
 def cast(
     wanted, origin, direction, reach, takes, endless, members, tree, shape, size, geometry, position, rotation,
     hulls, meshes, mesh_tree, ray, row, distance, part,

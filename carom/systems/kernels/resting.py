@@ -57,7 +57,7 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
     scatter(bodies, index_b, g, VELOCITY, b)
 
 
-@kernel("gate", "lanes", "bodies")
+@kernel("gate", "lanes", "bodies", makes_arrays=True)
 def press_groups(
     part, parts, gate, sweeps, h, ends, levels, level_ends, soft, rigid,
     index_a, index_b, points, row, asks, lanes, bodies,

@@ -33,7 +33,7 @@ from carom.systems.kernels.rounds_on_edges import points_on_edge
 from carom.systems.shapes.rim import RIM_POINTS
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_rounds_on_meshes(
     which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,

@@ -11,7 +11,7 @@ from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.narrow import BOX_SHAPE, POINT_SHAPE, SPHERE_SHAPE
 
 
-@kernel("hidden")
+@kernel("hidden", makes_arrays=True)
 def hide_at_seams(
     row_a, row_b, normal, depth, point, shape, size, bound_half, bound_radius, position, rotation, body_row, hidden
 ):

@@ -62,7 +62,7 @@ def approach_triangle(core, place, vertices, triangles, t, ux, uy, uz, limit, mi
     return state, way, nx, ny, nz, px, py, pz
 
 
-@kernel("position", "rotation", "row", "distance", "normal", "point", "part")
+@kernel("position", "rotation", "row", "distance", "normal", "point", "part", makes_arrays=True)
 def cast_shapes(
     pairs, origin, turns, direction, shape, size, geometry, position, rotation, hulls, meshes, room,
     row, distance, normal, point, part,

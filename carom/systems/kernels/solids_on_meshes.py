@@ -26,7 +26,7 @@ from carom.systems.kernels.polyhedra import BOX, SEGMENT, face_towards, place_fa
 from carom.systems.kernels.spatial import product, turn
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_solids_on_meshes(
     which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,

@@ -16,7 +16,7 @@ LEAF = 4  # members at most in a node without halves
 WAITING = 2048  # halves on the way down to a leaf at most: size classes of float64, and bits of a row number
 
 
-@kernel("members", "bounds", "span", "skip", "moves")
+@kernel("members", "bounds", "span", "skip", "moves", makes_arrays=True)
 def grow_tree(kind, body_row, fat_lower, fat_upper, members, bounds, span, skip, moves):
     """Build the tree over ``members``, given in order of their size class ``kind``; return how many nodes it has.
 
