@@ -9,7 +9,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.systems.kernels.submersion import FOUND, submerge_polyhedra
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface
+
+CORNERS = np.array(list(product((-0.5, 0.5), repeat=3)))  # of a cube of 1 m
+SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+CUBE = CORNERS, np.zeros(8), np.array([(a, *pair) for a, b, c, d in SIDES for pair in ((b, c), (c, d))])
 
 
 @dataclass(frozen=True)
@@ -53,3 +58,10 @@ class Box(Shape):
     def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return the eight corners."""
         return np.array(list(product(*((-edge / 2.0, edge / 2.0) for edge in self.size)))), 0.0
+
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Return those of twelve triangles."""
+        found = np.empty((len(depth), FOUND))
+        submerge_polyhedra(*CUBE, False, np.ascontiguousarray(size[:, :3]), np.zeros(len(size)), normal, depth, found)
+        return found

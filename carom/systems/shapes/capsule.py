@@ -10,8 +10,13 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial.vector import normalise
+from carom.systems.shapes.revolved import cap, revolve
 from carom.systems.shapes.orientation import along_y
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
+
+LOWER = [(radius, -height, -1.0) for radius, height in reversed(cap())]
+UPPER = [(radius, height, 1.0) for radius, height in cap()]
+ROUND = revolve(*LOWER, (1.0, 0.0, -1.0), (1.0, 0.0, 1.0), *UPPER)  # radius 1; its length lifts the ends apart
 
 
 @dataclass(frozen=True)
@@ -60,3 +65,8 @@ class Capsule(Shape):
         """Return the ends of the segment with the radius."""
         half = self.length / 2.0
         return np.array([[0.0, -half, 0.0], [0.0, half, 0.0]]), self.radius
+
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Return those of prisms with facetted caps."""
+        return ROUND.submerged(size.take((0, 0, 0), axis=1), 0.5 * size[:, 1], normal, depth)

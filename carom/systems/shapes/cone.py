@@ -9,10 +9,13 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.systems.shapes.revolved import revolve
 from carom.systems.shapes.rim import farthest_on_rim, rim_points
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
 SIDES = 48  # flat sides it is drawn with
+
+ROUND = revolve((1.0, -0.5, 0.0), (0.0, 0.5, 0.0))  # radius 1 and length 1
 
 
 @dataclass(frozen=True)
@@ -68,3 +71,8 @@ class Cone(Shape):
         """Return the apex and points of the rim, the first of these being its farthest ``towards``."""
         half = self.length / 2.0
         return np.concatenate([rim_points(self.radius, -half, towards), [[0.0, half, 0.0]]]), 0.0
+
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Return those of pyramids."""
+        return ROUND.submerged(size.take((0, 1, 0), axis=1), np.zeros(len(size)), normal, depth)

@@ -9,9 +9,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.systems.shapes.revolved import revolve
 from carom.systems.shapes.orientation import along_y
 from carom.systems.shapes.rim import farthest_on_rim, rim_points
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
+
+ROUND = revolve((1.0, -0.5, 0.0), (1.0, 0.5, 0.0))  # radius 1 and length 1
 
 
 @dataclass(frozen=True)
@@ -57,3 +60,8 @@ class Cylinder(Shape):
         """Return points on both rims, the first of each being its farthest ``towards``."""
         ends = (-self.length / 2.0, self.length / 2.0)
         return np.concatenate([rim_points(self.radius, end, towards) for end in ends]), 0.0
+
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Return those of prisms."""
+        return ROUND.submerged(size.take((0, 1, 0), axis=1), np.zeros(len(size)), normal, depth)

@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial.vector import normalise
+from carom.systems.kernels.submersion import FOUND, submerge_balls
 from carom.systems.shapes.ball_surface import ball_surfaces
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface
 
@@ -55,3 +56,10 @@ class Ellipsoid(Shape):
     def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return its farthest point ``towards``."""
         return self.support(np.array([towards])), 0.0
+
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Return caps."""
+        found = np.empty((len(depth), FOUND))
+        submerge_balls(np.ascontiguousarray(size[:, :3]), normal, depth, found)
+        return found

@@ -8,9 +8,12 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from carom.ecs.column import Floats
+from carom.ecs.errors import DeclarationError
 from carom.systems.shapes.finish import load_seen
 from carom.systems.shapes.model_files import Axis, Unit, load_mesh
 from carom.systems.shapes.triangles import Triangles
+from carom.systems.shapes.welding import seams
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,16 @@ class Mesh(Triangles):
     def seen(cls, *, file: str | Path, scale: float = 1.0, unit: Unit = "m", up: Axis = "y") -> Self:
         """Return the mesh of a file as it looks, read by `load_seen`."""
         return cls(load_seen(file, scale=scale, unit=unit, up=up))
+
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Return those of the triangles; raise DeclarationError where they do not close a volume."""
+        if loose := seams(geometry.faces, len(geometry.vertices)).loose:
+            raise DeclarationError(
+                f"{geometry.source or cls.key} is open: {loose} edges do not join two faces, so it has no volume; "
+                "close its holes, or use convex"
+            )
+        return super().submerged(size, geometry, normal, depth)
 
     def fcl_geometry(self, margin: float = 0.0) -> Any:
         """Return an FCL bounding-volume hierarchy; it cannot grow, so the margin is left out."""

@@ -15,6 +15,7 @@ import numpy as np
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.errors import DeclarationError
+from carom.systems.kernels.submersion import FOUND
 from carom.systems.parameters import number_fault, parameter
 from carom.systems.registry import enter
 
@@ -163,6 +164,18 @@ class Shape(ABC):
     def coarser_surfaces(self) -> tuple[Surface, ...]:
         """Return fewer triangles, coarser and coarser, for where the shape is small in a picture."""
         return ()
+
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Return what of shapes of one geometry lies where ``normal . x < depth`` (m, shape frame), a row (n, 5) each.
+
+        A row is the volume there in m3, the centre of it in m, and the volume of all of the shape; ``size`` (n, 4) is
+        that of the column, ``normal`` (n, 3) of length 1. Points displace nothing. Raises DeclarationError for what has
+        no volume known.
+        """
+        if cls.solid:
+            raise DeclarationError(f"{cls.key}: how much of it is submerged is not known; give its class `submerged`")
+        return np.zeros((len(depth), FOUND))
 
     def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return points (n, 3) and a radius such that a half space touches the shape first in one of those balls.

@@ -10,6 +10,7 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial.vector import normalise
+from carom.systems.kernels.submersion import FOUND, submerge_balls
 from carom.systems.shapes.ball_surface import ball_surfaces
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
@@ -52,3 +53,10 @@ class Sphere(Shape):
     def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
         """Return the centre with the radius."""
         return np.zeros((1, 3)), self.radius
+
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Return caps."""
+        found = np.empty((len(depth), FOUND))
+        submerge_balls(np.repeat(size[:, :1], 3, axis=1), normal, depth, found)
+        return found

@@ -8,6 +8,7 @@ from typing import Any, Self
 import numpy as np
 
 from carom.ecs.column import Floats
+from carom.systems.kernels.submersion import FOUND, submerge_polyhedra
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.shape import Bounds, MassProperties, Shape, Surface
 from carom.systems.shapes.solid import solid_properties
@@ -45,3 +46,11 @@ class Triangles(Shape):
     def surface(self) -> Surface:
         """Return the triangles."""
         return Surface(self.geometry.vertices, self.geometry.faces, False)
+
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Return those of the triangles."""
+        found, stretch = np.empty((len(depth), FOUND)), np.ones((len(depth), 3))
+        rest = np.zeros(len(geometry.vertices)), geometry.faces, False, stretch, np.zeros(len(depth))
+        submerge_polyhedra(geometry.vertices, *rest, normal, depth, found)
+        return found
