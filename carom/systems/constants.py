@@ -140,6 +140,10 @@ SLEEP_SPEED = 0.03
 # s. For how long. Shorter: what turns round, as a pendulum does at its end, is caught there.
 SLEEP_TIME = 0.5
 
+# Part of what a medium bears. A body that touches nothing falls asleep in it when the forces on it are less than this
+# off balance. Larger: bodies stop above or below where they float, and heeled. Smaller: they stay awake for longer.
+AFLOAT = 2e-4
+
 # rad. Closest to zero a squared angle may come before the quaternion exponential uses its limit.
 SMALL_ANGLE = 1e-12
 

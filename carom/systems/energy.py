@@ -47,9 +47,7 @@ def potential_energies(world: World) -> dict[str, float]:
     for kind, entries in world[Forces].entries.items():
         if kind.conservative:
             held = [(law, reach.rows(world)) for law, reach in entries if reach.conserves]
-            energies[kind.key] = sum(
-                law.energy(world[RigidBody].mass[rows], centers_of_mass(world, rows)) for law, rows in held
-            )
+            energies[kind.key] = sum(law.energy_of(world, rows) for law, rows in held)
     return energies
 
 

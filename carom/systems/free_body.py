@@ -17,7 +17,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.awake import Awake
 from carom.systems.bodies import centers_of_mass, dynamic_rows
 from carom.systems.ends import ends_there
-from carom.systems.forces.law import Forces
+from carom.systems.forces.law import Forces, Law
 from carom.systems.progress import Progress
 from carom.systems.settings import Random, time_of
 from carom.systems.simulation import Simulation
@@ -38,8 +38,9 @@ class Loads(NamedTuple):
 def loads(simulation: Simulation) -> Loads:
     """Return the forces on all dynamic bodies that are not zero.
 
-    Those of laws, own systems and from outside act on centres of mass, as poses and velocities are now; normal forces
-    and friction act where colliders touch, those of joints at the anchor of b: impulses of the last step over its time.
+    Those of laws, own systems and from outside act on centres of mass unless a law says where, as poses and velocities
+    are now; normal forces and friction act where colliders touch, those of joints at the anchor of b: impulses of the
+    last step over its time.
     """
     world = simulation.world
     found = [*applied(simulation), *contacts(world, simulation.settings.dt), *joints(world)]
@@ -72,11 +73,31 @@ def applied(simulation: Simulation) -> list[Loads]:
             if Force in system.adds:
                 system(world, step)
                 now = sums.force[rows] + sums.drag_flow[rows] - sums.drag[rows, None] * world[Motion].linear[rows]
-                parts[system.name.removeprefix(APPLY).replace("_", " ")] = now - before
+                parts[name_of(system.name)] = now - before
                 before = now
     world[Random].restore(drawn)  # a force may draw numbers, and who looks on must not change those of the step
     centers = centers_of_mass(world, rows)
-    return [Loads(rows, centers, force, [name] * len(rows)) for name, force in parts.items()]
+    points = dict.fromkeys(parts, centers) | {name: at[rows] for name, at in stated_points(world, forces).items()}
+    return [Loads(rows, points[name], force, [name] * len(rows)) for name, force in parts.items()]
+
+
+def stated_points(world: World, forces: Forces) -> dict[str, Floats]:
+    """Return where laws that say so act on each row in use, by their names; of several of a kind the last says it."""
+    found = {}
+    for kind in forces.entries:
+        if kind.points is not Law.points:
+            at = np.zeros((world.used(), 3))
+            bodies = world.row_numbers(RigidBody)
+            at[bodies] = centers_of_mass(world, bodies)
+            for law, rows in forces.acting(kind, world):
+                at[rows] = law.points(world, rows)
+            found[name_of(kind.key)] = at
+    return found
+
+
+def name_of(key: str) -> str:
+    """Return what the force of a system or law is called."""
+    return key.removeprefix(APPLY).replace("_", " ")
 
 
 def contacts(world: World, dt: float) -> list[Loads]:

@@ -109,7 +109,7 @@ def fall_asleep(world: World, dt: float) -> None:
     if not (motion.still[awake.rows] >= SLEEP_TIME).any():
         return
     if find_sleepers(
-        awake.rows, *links(world, Contact), body.inverse_mass,
+        awake.rows, *links(world, Contact), body.inverse_mass, world[Forces].borne(world),
         motion.linear, motion.angular, world[Flight].felt, motion.still, falls,
     ):  # fmt: skip
         rows = np.nonzero(falls)[0]

@@ -10,6 +10,7 @@ from carom.systems.detection.bounds import place_colliders
 from carom.systems.detection.contacts import find_contacts
 from carom.systems.finish import check_finite, clear_inputs
 from carom.systems.forces.attraction import apply_attraction
+from carom.systems.forces.buoyancy import apply_buoyancy
 from carom.systems.forces.constant_push import apply_constant_push
 from carom.systems.forces.damping import apply_damping
 from carom.systems.forces.drag import apply_linear_drag, apply_quadratic_drag
@@ -69,6 +70,7 @@ STEP = Schedule(
         apply_thruster,
         apply_lift,
         apply_magnus,
+        apply_buoyancy,
         apply_springs,
         apply_linear_drag,
         apply_quadratic_drag,

@@ -62,7 +62,7 @@ def why_awake(of: World | Simulation, entity: int | str) -> str:
     moving, held = _supports_of(world, island)
     for support in moving:
         return f"{name} is awake since '{world.name(world.entity(support))}', which moves, touches or holds it{others}"
-    if not held:
+    if not held and not world[Forces].borne(world)[island].all():
         return f"{name} is awake since nothing that stands touches or holds it{others}: what drifts slowly goes on"
     newest = island[np.argmin(motion.still[island])]
     return told(newest, f"has been still for {motion.still[newest]:.3g} s; after {SLEEP_TIME:g} s it falls asleep")

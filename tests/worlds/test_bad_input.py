@@ -153,7 +153,7 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         ),
         (
             "forces: [{wnd: {velocity: [1, 0, 0]}}]\n",
-            ("w.yaml:2:11: forces.0.wnd: unknown key; received 'wnd'; accepted: attraction, constant_push, linear_drag, "
+            ("w.yaml:2:11: forces.0.wnd: unknown key; received 'wnd'; accepted: attraction, buoyancy, constant_push, linear_drag, "
             "quadratic_drag, gravity_well, lift, magnus, mutual_gravitation, thruster, vortex, wind, entities, region, layers, during; "
             "did you mean 'wind'?"),
         ),

@@ -2,6 +2,7 @@
 
 from carom.systems.forces import (
     attraction,
+    buoyancy,
     constant_push,
     drag,
     gravity_well,
@@ -19,6 +20,7 @@ __all__ = [
     "Forces",
     "Law",
     "attraction",
+    "buoyancy",
     "constant_push",
     "drag",
     "gravity_well",

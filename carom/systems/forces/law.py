@@ -9,9 +9,10 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 
 from carom.ecs import Collider, Parent, RigidBody, Transform, World, system
-from carom.ecs.column import Floats, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
+from carom.systems.bodies import centers_of_mass
 from carom.systems.forces.reach import NOBODY, Reach
 from carom.systems.parameters import number_fault, parameter, vector
 from carom.systems.progress import Progress
@@ -54,6 +55,18 @@ class Law:
     def energy(self, mass: Floats, center: Floats) -> float:
         """Return the potential energy (J) of bodies of these masses (n,) with these centres of mass (n, 3)."""
         raise NotImplementedError
+
+    def energy_of(self, world: World, rows: Integers) -> float:
+        """Return the potential energy (J) of bodies (rows) as they are now."""
+        return self.energy(world[RigidBody].mass[rows], centers_of_mass(world, rows))
+
+    def points(self, world: World, rows: Integers) -> Floats:
+        """Return where it acts on bodies (n, 3), m, world frame, for who looks on: at their centres of mass."""
+        return centers_of_mass(world, rows)
+
+    def bears(self, world: World, rows: Integers) -> Booleans:
+        """Tell which bodies (n,) it holds up by itself, so that they may fall asleep though they touch nothing."""
+        return np.zeros(len(rows), np.bool_)
 
     def refuse_unless(self, fits: bool, word: str, fault: str) -> None:
         """Raise DeclarationError, which says what is wrong with a word, unless it fits."""
@@ -101,6 +114,14 @@ class Forces(Resource):
         """Yield each law that pushes another way in every step, with the rows of the bodies it acts on."""
         for kind in self.entries:
             yield from ((law, rows) for law, rows in self.acting(kind, world) if not law.steady)
+
+    def borne(self, world: World) -> Booleans:
+        """Tell of each row in use whether a law bears the body by itself."""
+        found = np.zeros(world.used(), np.bool_)
+        for kind in self.entries:
+            for law, rows in self.acting(kind, world):
+                found[rows] |= law.bears(world, rows)
+        return found
 
     def turned(self, world: World, begin: float, end: float) -> Integers:
         """Return the rows of bodies on which laws begin or cease to act after ``begin`` (s) and not after ``end``."""

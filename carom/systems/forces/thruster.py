@@ -5,7 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from carom.ecs import Force, RigidBody, Transform, World, system
+from carom.ecs.column import Floats, Integers
+from carom.ecs.spatial import quaternion
 from carom.systems.forces.law import Forces, Law, vector
 from carom.systems.kernels.fields import add_thrust
 
@@ -17,6 +21,11 @@ class Thruster(Law):
     key: ClassVar[str] = "thruster"
     force: tuple[float, float, float] = vector(unit="N", doc="force, frame of the body")
     at: tuple[float, float, float] = vector(unit="m", doc="where it acts, frame of the body", default=(0.0, 0.0, 0.0))
+
+    def points(self, world: World, rows: Integers) -> Floats:
+        """Return where the thrust acts."""
+        transform = world[Transform]
+        return np.asarray(transform.position[rows] + quaternion.rotate(transform.rotation[rows], np.array(self.at)))
 
 
 @system(reads=(Forces, Transform, RigidBody), adds=(Force,))

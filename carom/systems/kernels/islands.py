@@ -67,11 +67,12 @@ def find_islands(rows, body_a, body_b, inverse_mass, island):
 
 
 @kernel("falls", makes_arrays=True)
-def find_sleepers(rows, body_a, body_b, inverse_mass, linear, angular, felt, still, falls):
+def find_sleepers(rows, body_a, body_b, inverse_mass, borne, linear, angular, felt, still, falls):
     """Tell who falls asleep: all bodies of an island that has been still for SLEEP_TIME and is held.
 
-    Held is an island that is linked to what stands, or of which no body moves or feels a force at all: what only drifts
-    slowly goes on doing so. What is linked to a moving kinematic body stays awake. Returns how many fall asleep.
+    Held is an island that is linked to what stands, or each body of which is ``borne`` or neither moves nor feels any
+    force: what only drifts slowly goes on doing so. What is linked to a moving kinematic body stays awake. Returns how
+    many fall asleep.
     """
     island = np.empty(len(falls), np.int64)
     join(rows, body_a, body_b, inverse_mass, island)
@@ -79,7 +80,7 @@ def find_sleepers(rows, body_a, body_b, inverse_mass, linear, angular, felt, sti
     for i in rows:
         low = lowest_of(i, island)
         stays[low] |= still[i] < SLEEP_TIME
-        drifts[low] |= feels(i, linear, angular, felt)
+        drifts[low] |= not borne[i] and feels(i, linear, angular, felt)
     for c in range(len(body_a)):
         for i, o in ((body_a[c], body_b[c]), (body_b[c], body_a[c])):
             if i >= 0 and inverse_mass[i] > 0.0 and (o < 0 or inverse_mass[o] == 0.0):

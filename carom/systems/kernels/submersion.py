@@ -35,7 +35,7 @@ def submerge_balls(radii, normal, depth, found):
             found[m, CENTER + k] = -away * radii[m, k] * radii[m, k] * normal[m, k] / size
 
 
-@kernel("found")
+@kernel("found", makes_arrays=True)
 def submerge_polyhedra(vertices, lifted, faces, turns, stretch, lift, normal, depth, found):
     """Write what is below planes of polyhedra with outward ``faces`` (f, 3), exact but for rounding.
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial.vector import normalise
-from carom.systems.shapes.revolved import cap, revolve
 from carom.systems.shapes.orientation import along_y
+from carom.systems.shapes.revolved import cap, revolve
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 
 LOWER = [(radius, -height, -1.0) for radius, height in reversed(cap())]

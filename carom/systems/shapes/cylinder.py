@@ -9,8 +9,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from carom.ecs.column import Floats
-from carom.systems.shapes.revolved import revolve
 from carom.systems.shapes.orientation import along_y
+from carom.systems.shapes.revolved import revolve
 from carom.systems.shapes.rim import farthest_on_rim, rim_points
 from carom.systems.shapes.shape import NO_AXES, Bounds, MassProperties, Shape, Surface, parameter
 

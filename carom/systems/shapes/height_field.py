@@ -56,6 +56,11 @@ class HeightField(Mesh):
         """Return an infinite volume: land is static."""
         return MassProperties(math.inf, (0.0, 0.0, 0.0), (math.inf,) * 3, NO_AXES)
 
+    @classmethod
+    def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
+        """Raise DeclarationError: land goes down for ever."""
+        raise DeclarationError(f"{cls.key}: has no volume known that a medium could bear")
+
     def surface(self) -> Surface:
         """Return the triangles, open at the rim and below."""
         return super().surface()._replace(smooth=True)

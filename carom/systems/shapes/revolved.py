@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -59,7 +60,7 @@ def cap() -> list[tuple[float, float]]:
     rings = [sine_cosine(0.5 * math.pi * k / CAP_RINGS)[::-1] for k in range(CAP_RINGS)]
     rings.append((0.0, 1.0))
     volume = 0.0
-    for (r, low), (s, high) in zip(rings, rings[1:], strict=False):
+    for (r, low), (s, high) in pairwise(rings):
         volume += math.pi / 3.0 * (high - low) * (r * r + r * s + s * s)
     scale = 2.0 * math.pi / 3.0 / volume
     for _ in range(60):  # cube root

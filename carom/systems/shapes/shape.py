@@ -174,7 +174,7 @@ class Shape(ABC):
         no volume known.
         """
         if cls.solid:
-            raise DeclarationError(f"{cls.key}: how much of it is submerged is not known; give its class `submerged`")
+            raise DeclarationError(f"{cls.key}: has no volume known that a medium could bear")
         return np.zeros((len(depth), FOUND))
 
     def corners(self, towards: tuple[float, float, float]) -> tuple[Floats, float]:
