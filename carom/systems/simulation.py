@@ -50,6 +50,8 @@ from carom.systems.ledger import Ledger
 from carom.systems.linkage import Linkage
 from carom.systems.observer import Observer
 from carom.systems.parameters import WordFault
+from carom.systems.particles.fields import Fields
+from carom.systems.particles.newborn import Newborn
 from carom.systems.places import extended
 from carom.systems.progress import Progress
 from carom.systems.queries.asked import Asked
@@ -87,7 +89,7 @@ class Simulation:
         made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
         packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
         solving = (Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger())
-        caches = (*packed, *solving, Threads(), Scene(), Asked())
+        caches = (*packed, *solving, Threads(), Scene(), Asked(), Newborn(), Fields())
         for resource in (self.settings, *made, Progress(), Answered(), *caches):
             self.world.add(resource)
 
@@ -130,7 +132,10 @@ class Simulation:
         self.world[Forces].add(LAWS[law](**words) if isinstance(law, str) else law, reach)
 
     def force_function(self, function: Callable[[World, Integers], npt.ArrayLike], name: str | None = None) -> System:
-        """Let a Python function ``(world, rows) -> forces (n, 3) in N`` act on every body in every substep."""
+        """Let a Python function ``(world, rows) -> forces (n, 3) in N`` act on every body in every substep.
+
+        On particles it acts once in a step, with a world in which they stand as bodies; see `Fields`.
+        """
 
         def push(world: World, dt: float) -> None:
             rows = world.row_numbers(RigidBody, Motion)
@@ -141,6 +146,7 @@ class Simulation:
         push.__doc__ = function.__doc__
         made = system(reads=(Transform, Motion, RigidBody), adds=(Force,))(push)
         self.schedule = self.schedule.insert(made, after="apply_quadratic_drag")
+        self.world[Fields].functions.append(made)
         return made
 
     def wake(self, *entities: int | str) -> None:

@@ -28,6 +28,9 @@ from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
 from carom.systems.jointing import join_bodies, tell_joints
 from carom.systems.keyframes import follow_keyframes
+from carom.systems.particles.deaths import end_particles
+from carom.systems.particles.emission import emit_particles, note_emitters
+from carom.systems.particles.moving import move_particles
 from carom.systems.progress import begin_step, begin_substep
 from carom.systems.response import drift, hand_impulses_over, hold, look_ahead, relax, settle, sort_out_contacts
 from carom.systems.sensors import sense
@@ -45,6 +48,7 @@ STEP = Schedule(
     Phase(
         "begin",
         begin_step,
+        note_emitters,  # where sources of particles are
         wake_disturbed,  # who was changed from outside; where nobody is awake, the step ends here
     ),
     Phase(
@@ -97,6 +101,9 @@ STEP = Schedule(
         fall_asleep,  # islands that have been still for a while
         clear_inputs,
         carry_children,  # entities carried by others follow them
+        emit_particles,  # each at its own time within the step
+        move_particles,  # by the same forces as bodies, off planes and colliders
+        end_particles,
         check_finite,
     ),
 )

@@ -27,6 +27,11 @@ class QuadraticDrag(Law):
     drag_coefficient: float = parameter(unit="1", doc="drag coefficient Cd, 0.47 for a ball", default=0.47, above=0.0)
     density: float = parameter(unit="kg/m3", doc="density rho of the medium", default=1.225, above=0.0)
 
+    @property
+    def factor(self) -> float:
+        """What the square of the speed is to be multiplied with (kg/m)."""
+        return 0.5 * self.density * self.drag_coefficient * self.area
+
 
 @system(reads=(Forces, RigidBody), adds=(Force,))
 def apply_linear_drag(world: World, dt: float) -> None:
@@ -41,5 +46,4 @@ def apply_quadratic_drag(world: World, dt: float) -> None:
     """Add quadratic drag as a rate, by the speed at the middle of the substep."""
     for law, rows in world[Forces].acting(QuadraticDrag, world):
         force = world[Force]
-        factor = 0.5 * law.density * law.drag_coefficient * law.area
-        add_quadratic_drag(rows, factor, force.medium, world[Motion].linear, force.drag, force.drag_flow)
+        add_quadratic_drag(rows, law.factor, force.medium, world[Motion].linear, force.drag, force.drag_flow)

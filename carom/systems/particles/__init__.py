@@ -1,0 +1,1 @@
+"""Particles: births, flight, bounces and deaths of points in tables of their own."""
