@@ -26,6 +26,7 @@ from carom.ecs import (
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Component, Resource
 from carom.ecs.components.collider import ColliderPose
+from carom.ecs.components.emitter import Emitter
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.ecs.errors import DeclarationError
@@ -37,6 +38,7 @@ from carom.systems.joints.stating import joint_of
 from carom.systems.layers import EVERYTHING, Layers
 from carom.systems.mass import Part, rigid_body
 from carom.systems.own_components import own_component
+from carom.systems.particles.words import emitter_of
 from carom.systems.paths import path_of, stated
 from carom.systems.settings import Settings
 from carom.systems.shapes import SHAPES, Shape
@@ -46,7 +48,9 @@ from carom.systems.shapes.shape import Bounds
 Words = Mapping[str, Any]
 COMBINE_QUANTITIES = ("friction", "restitution")
 COLLIDER_COLUMNS = ("position", "rotation", "sensor", "surface_velocity")
-ENTITY_WORDS = ("name", "transform", "motion", "body", "keyframes", "collider", "material", "visual", "joint", "tags")
+ENTITY_WORDS = (
+    "name", "transform", "motion", "body", "keyframes", "collider", "material", "visual", "emitter", "joint", "tags"
+)  # fmt: skip
 
 
 class Materials(Resource):
@@ -66,9 +70,10 @@ def add_entity(world: World, *, name: str | None = None, **words: Any) -> Entity
     ``body`` makes it move (an empty mapping takes its mass from the shape's volume and the material's density); without
     one it is static. ``keyframes``, each with ``at`` (s), ``position`` and ``rotation``, are what a kinematic one goes
     along. ``visual`` False hides it, ``tags`` are names, and ``parent`` names who carries it: a collider that is
-    carried belongs to the nearest body above it, whose mass grows by it unless stated. ``joint`` makes it one, which
-    holds two others and is at no place of its own. Further words are the keys of a user's own components, each with its
-    columns: ``health={"points": 3}``. Raises DeclarationError for anything a file would be refused for.
+    carried belongs to the nearest body above it, whose mass grows by it unless stated. ``emitter`` brings forth
+    particles where the entity is. ``joint`` makes it one, which holds two others and is at no place of its own. Further
+    words are the keys of a user's own components, each with its columns: ``health={"points": 3}``. Raises
+    DeclarationError for anything a file would be refused for.
     """
     entity = world.spawn(*bundles_of(world, **words), name=name)
     _settle(world, np.array([entity]), words)
@@ -119,6 +124,7 @@ def bundles_of(
     collider: Words | None = None,
     material: str | Words | None = None,
     visual: Words | bool | None = None,
+    emitter: Words | Emitter | None = None,
     joint: Words | Joint | None = None,
     tags: Iterable[str] = (),
     **own: Words,
@@ -133,7 +139,7 @@ def bundles_of(
             "keyframes": keyframes,
             "collider": collider,
         }
-        beside |= {"material": material, "visual": visual, "parent": own.get("parent")}
+        beside |= {"material": material, "visual": visual, "emitter": emitter, "parent": own.get("parent")}
         surplus = [key for key, words in beside.items() if words]
         if surplus:
             raise DeclarationError(f"joint: is at no place of its own; remove {', '.join(surplus)}")
@@ -164,6 +170,8 @@ def bundles_of(
     seen = _visual(world, visual, collider, shape, surface)
     if seen is not None:
         bundles.append(seen)
+    if emitter is not None:
+        bundles.append(emitter if isinstance(emitter, Emitter) else emitter_of(emitter))
     if body is not None and "parent" in own:
         raise DeclarationError("parent: a body moves by forces, not with who carries it; remove body or parent")
     return bundles + further

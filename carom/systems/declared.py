@@ -6,6 +6,8 @@ import dataclasses
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
 
+import numpy as np
+
 from carom.ecs.errors import did_you_mean
 from carom.systems.parameters import WordFault, number_fault
 
@@ -29,6 +31,22 @@ def whom(*, doc: str) -> Any:
 def bounds(*, unit: str, doc: str) -> Any:
     """Declare a lower and an upper bound, none where they are left out."""
     return dataclasses.field(default=None, metadata={"unit": unit, "doc": doc, "width": 2, "ordered": True})
+
+
+def span(*, unit: str, doc: str, default: Any, above: float | None = None, least: float | None = None) -> Any:
+    """Declare one number, or a least and a greatest."""
+    bound = {"above": above, "least": least}
+    return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, "width": 2, "span": True, **bound})
+
+
+def tint(*, doc: str, default: Any = None) -> Any:
+    """Declare a colour: red, green, blue and, where it is not 1, alpha, each in 0..1."""
+    return dataclasses.field(default=default, metadata={"color": True, "doc": doc})
+
+
+def choice(words: tuple[str, ...], *, doc: str, default: str) -> Any:
+    """Declare one of some words."""
+    return dataclasses.field(default=default, metadata={"choices": words, "doc": doc})
 
 
 def direction(*, doc: str) -> Any:
@@ -84,6 +102,16 @@ def _read(field: dataclasses.Field[Any], value: Any, steps: Steps, faults: list[
         return value
     if "entity" in declared:
         return value
+    if "choices" in declared:
+        if value not in declared["choices"]:
+            faults.append(WordFault(steps, "unknown word", repr(value), ", ".join(declared["choices"])))
+        return value
+    if "color" in declared:
+        return _read_color(value, steps, faults)
+    if declared.get("span") and not isinstance(value, (list, tuple, np.ndarray)):
+        wrong = number_fault({**declared, "width": None}, value)
+        faults += [WordFault(steps, wrong)] if wrong else []
+        return (value, value)
     if "unit" not in declared:
         if not isinstance(value, bool):
             faults.append(WordFault(steps, "must be true or false", repr(value)))
@@ -94,6 +122,17 @@ def _read(field: dataclasses.Field[Any], value: Any, steps: Steps, faults: list[
     elif declared.get("ordered") and value[0] > value[1]:
         order = f"[{value[0]:g}, {value[1]:g}] {declared['unit']}"
         faults.append(WordFault(steps, "the lower limit must not be above the upper", order, "[lower, upper]"))
+    elif declared.get("span") and value[0] > value[1]:
+        order = f"[{value[0]:g}, {value[1]:g}] {declared['unit']}"
+        faults.append(WordFault(steps, "the least must not be above the greatest", order, "[least, greatest]"))
     elif declared.get("directed") and not any(value):
         faults.append(WordFault(steps, "must have a direction", f"[{', '.join(f'{number:g}' for number in value)}]"))
     return tuple(float(number) for number in value) if "width" in declared and not wrong else value
+
+
+def _read_color(value: Any, steps: Steps, faults: list[WordFault]) -> Any:
+    parts = np.asarray(value) if isinstance(value, (list, tuple, np.ndarray)) else np.zeros(0)
+    if parts.shape not in ((3,), (4,)) or parts.dtype.kind not in "fiu" or not ((parts >= 0) & (parts <= 1)).all():
+        faults.append(WordFault(steps, "is not a colour", repr(value), "3 or 4 numbers in 0..1"))
+        return value
+    return tuple(float(part) for part in (*parts, 1.0)[:4])

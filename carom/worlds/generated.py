@@ -143,7 +143,14 @@ def _field_type(hint: Any, field: dataclasses.Field[Any]) -> Any:
     if "part" in declared:
         model = parameter_model(declared["part"])
         return either(word_of(*declared["words"]), model) if declared["words"] else model
+    if "choices" in declared:
+        return word_of(*declared["choices"])
+    if "color" in declared:
+        return ColorWord
     bounds: dict[str, Any] = {key: declared.get(key) for key in ("above", "least", "most")}
+    if declared.get("span"):
+        number, pair = (numbers(width, In(declared["unit"], **bounds)) for width in (1, 2))
+        return either(number, pair, list)
     return _hinted(hint, declared.get("unit", "1"), width=declared.get("width", 1), **bounds)
 
 

@@ -21,6 +21,7 @@ from carom.systems.joints.stating import read_joint
 from carom.systems.layers import Layers
 from carom.systems.own_components import components_of_files
 from carom.systems.parameters import WordFault
+from carom.systems.particles.words import read_emitter
 from carom.systems.paths import faults_of_path
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
@@ -78,7 +79,7 @@ class Populator:
             return
         if name is not None:
             self.taken[name] = path
-        if not (self.names_hold(path, words) and self.path_holds(path, words, grid)):
+        if not (self.names_hold(path, words) and self.path_holds(path, words, grid) and self.emits(path, words)):
             return
         if "chain" in words:
             self.laying.add(path, name, words)
@@ -236,6 +237,15 @@ class Populator:
             faults.append(WordFault(("grid",), "all copies would go the same way; remove grid or keyframes"))
         for fault in faults:
             self.source.report((*path, *fault.steps), fault.what, received=fault.received)
+        return not faults
+
+    def emits(self, path: Path, words: dict[str, Any]) -> bool:
+        """Put an emitter in the place of its words; report everything that is wrong with them."""
+        faults: list[WordFault] = []
+        if "emitter" in words:
+            words["emitter"] = read_emitter(words["emitter"], faults)
+        for fault in faults:
+            self.source.report_value((*path, *fault.steps), fault)
         return not faults
 
     def report(self, path: Path, message: str) -> None:

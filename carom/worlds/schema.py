@@ -15,6 +15,7 @@ from carom.systems.extensions import load_extensions
 from carom.systems.forces.region import Region
 from carom.systems.freedom import AXES
 from carom.systems.mass import PASSED_ON
+from carom.systems.particles.words import EmitterWords
 from carom.worlds.camera import Camera
 from carom.worlds.generated import (
     column_fields,
@@ -99,6 +100,7 @@ def document() -> type[Words]:
         "collider": (collider, Field(None, description="the shape by which it touches others")),
         "material": (either(str, material), Field(None, description="name of a material, or its words")),
         "visual": (either(Flag, visual), Field(None, description="what is seen; false hides it")),
+        "emitter": (parameter_model(EmitterWords), Field(None, description="makes it a source of particles")),
         "joint": (joint, Field(None, description="makes it a joint, which holds two others")),
         "tags": (names, Field([], description="what it is, for queries")),
     }  # fmt: skip

@@ -63,7 +63,9 @@ class Emitter(Component):
     end_size: Floats = column(unit="m", doc="diameter at the end of life", default=0.05)
     color: Floats = column(4, unit="1", doc="colour at birth, red green blue alpha in 0..1", default=1.0)
     end_color: Floats = column(4, unit="1", doc="colour at the end of life", default=1.0)
-    inherit: Floats = column(unit="1", doc="share of the emitter's own velocity that particles are born with")
+    inherit: Floats = column(
+        unit="1", doc="share of the emitter's own velocity that particles are born with", default=1.0
+    )
     mass: Floats = column(unit="kg", doc="mass of a particle", default=0.001)
     gravity_scale: Floats = column(unit="1", doc="factor on the world's gravity", default=1.0)
     most: Integers = column(unit="1", doc="particles alive at most, the oldest die first; 0: any number", dtype="int64")

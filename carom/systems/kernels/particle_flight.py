@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import PARTICLE_REST, PARTICLE_SKIN
 from carom.systems.kernels.kernel import kernel, woven
@@ -80,14 +78,21 @@ def slid(half, x0, y0, z0, v0, v1, v2, vx, vy, vz, nx, ny, nz, offset, friction)
 
 
 @woven
-def fly_eight(at, group, arcs, half_pace, planes, x, y, z, velocity_x, velocity_y, velocity_z):
-    """Fly the particles of eight rows, and let those that come below a plane bounce off it."""
+def fly_eight(at, apart, group, arcs, half_pace, planes, x, y, z, velocity_x, velocity_y, velocity_z):
+    """Fly eight particles, and let those that come below a plane bounce off it.
+
+    They are at place ``at`` of the first column, and ``apart`` farther on in each that follows.
+    """
     h, left = load(arcs, TIME * GROUPS + group), load(arcs, LEFT * GROUPS + group)
     ax, ay = load(arcs, ACCELERATION * GROUPS + group), load(arcs, (ACCELERATION + 1) * GROUPS + group)
     az, fx = load(arcs, (ACCELERATION + 2) * GROUPS + group), load(arcs, FLOW * GROUPS + group)
     fy, fz = load(arcs, (FLOW + 1) * GROUPS + group), load(arcs, (FLOW + 2) * GROUPS + group)
-    x0, y0, z0 = load_single(x, at), load_single(y, at), load_single(z, at)
-    v0, v1, v2 = load_single(velocity_x, at), load_single(velocity_y, at), load_single(velocity_z, at)
+    x0, y0, z0 = load_single(x, at), load_single(y, at + apart), load_single(z, at + 2 * apart)
+    v0, v1, v2 = (
+        load_single(velocity_x, at + 3 * apart),
+        load_single(velocity_y, at + 4 * apart),
+        load_single(velocity_z, at + 5 * apart),
+    )
     ux, uy, uz = slowed(v0 - fx, v1 - fy, v2 - fz, left, h, half_pace)
     half = 0.5 * h
     px = x0 + h * (fx + ux + half * ax)
@@ -122,35 +127,36 @@ def fly_eight(at, group, arcs, half_pace, planes, x, y, z, velocity_x, velocity_
             px, py, pz = choose(depth, bx, px), choose(depth, by, py), choose(depth, bz, pz)
             vx, vy, vz = choose(depth, wx, vx), choose(depth, wy, vy), choose(depth, wz, vz)
     store_single(x, at, px)
-    store_single(y, at, py)
-    store_single(z, at, pz)
-    store_single(velocity_x, at, vx)
-    store_single(velocity_y, at, vy)
-    store_single(velocity_z, at, vz)
+    store_single(y, at + apart, py)
+    store_single(z, at + 2 * apart, pz)
+    store_single(velocity_x, at + 3 * apart, vx)
+    store_single(velocity_y, at + 4 * apart, vy)
+    store_single(velocity_z, at + 5 * apart, vz)
 
 
-@kernel("x", "y", "z", "velocity_x", "velocity_y", "velocity_z")
-def fly(first, count, arcs, half_pace, planes, x, y, z, velocity_x, velocity_y, velocity_z):
+@kernel("room", "x", "y", "z", "velocity_x", "velocity_y", "velocity_z")
+def fly(first, count, arcs, half_pace, planes, room, x, y, z, velocity_x, velocity_y, velocity_z):
     """Fly ``count`` particles from row ``first`` on along arcs, which begin anew after each chunk.
 
     Half of the drag goes before the acceleration and half after it (Strang), as with bodies. ``half_pace`` (1/m) is
-    half of the quadratic drag by mass.
+    half of the quadratic drag by mass. Fewer than eight fly in ``room`` (48,), where nobody is beside them.
     """
     where = address(arcs)
     columns = address(x), address(y), address(z), address(velocity_x), address(velocity_y), address(velocity_z)
     whole = count // WIDTH
     for group in range(whole):
-        fly_eight(first + group * WIDTH, group % GROUPS, where, half_pace, planes, *columns)
+        fly_eight(first + group * WIDTH, 0, group % GROUPS, where, half_pace, planes, *columns)
     rest, last = count - whole * WIDTH, first + whole * WIDTH
-    if rest:  # fewer than eight fly elsewhere, where nobody is beside them
-        room = np.zeros((6, WIDTH), np.float32)
+    if rest:
         for k in range(rest):
-            room[0, k], room[1, k], room[2, k] = x[last + k], y[last + k], z[last + k]
-            room[3, k], room[4, k], room[5, k] = velocity_x[last + k], velocity_y[last + k], velocity_z[last + k]
-        fly_eight(
-            0, whole % GROUPS, where, half_pace, planes, address(room[0]), address(room[1]), address(room[2]),
-            address(room[3]), address(room[4]), address(room[5]),
-        )  # fmt: skip
+            i = last + k
+            room[k], room[WIDTH + k], room[2 * WIDTH + k] = x[i], y[i], z[i]
+            room[3 * WIDTH + k], room[4 * WIDTH + k] = velocity_x[i], velocity_y[i]
+            room[5 * WIDTH + k] = velocity_z[i]
+        alone = address(room)
+        fly_eight(0, WIDTH, whole % GROUPS, where, half_pace, planes, alone, alone, alone, alone, alone, alone)
         for k in range(rest):
-            x[last + k], y[last + k], z[last + k] = room[0, k], room[1, k], room[2, k]
-            velocity_x[last + k], velocity_y[last + k], velocity_z[last + k] = room[3, k], room[4, k], room[5, k]
+            i = last + k
+            x[i], y[i], z[i] = room[k], room[WIDTH + k], room[2 * WIDTH + k]
+            velocity_x[i], velocity_y[i] = room[3 * WIDTH + k], room[4 * WIDTH + k]
+            velocity_z[i] = room[5 * WIDTH + k]

@@ -125,6 +125,7 @@ def compile_frame() -> None:
     simulation.force("mutual_gravitation")
     attract_by_tree(np.ones(9), np.arange(27.0).reshape(9, 3), 1.0, 0.0, 0.5)
     simulation.force("constant_push", force=(1.0, 0.0, 0.0))
+    simulation.add(emitter={"burst": 9, "collide": "all"}, transform={"position": (0.0, 3.0, 0.0)})
     simulation.keep_ledger()
     Solving(simulation)
     simulation.step(3)
@@ -155,6 +156,8 @@ def compile_rest() -> None:
     simulation.step()
     why_awake(simulation, sleeper)
     simulation.world.spawn(Joint(b=int(sleeper), mode=(LOCKED, LOCKED, LOCKED, FREE, FREE, FREE)))
+    simulation.add(emitter={"burst": 9}, transform={"position": (0.0, 3.0, 0.0)})  # only gravity: even arcs
+    simulation.step()
     arm = Kinematics(simulation)
     arm.jacobian(sleeper)
     arm.reach(sleeper, (0.0, 0.0, 0.0))

@@ -7,7 +7,7 @@ import numpy as np
 from carom.ecs import World, system
 from carom.ecs.column import Floats
 from carom.ecs.components.emitter import Collide, Emitter
-from carom.ecs.relations.particle import PLACE, Particle
+from carom.ecs.relations.particle import PLACE, VELOCITY, Particle
 from carom.systems.forces.law import Forces
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.particle_arcs import ARC_ROWS, CHUNK, lay_even_arcs
@@ -50,6 +50,7 @@ class Flight:
     def __init__(self, world: World, emitter: int, row: int, even: Even | None, obstacles: Floats) -> None:
         self.world, self.emitter, self.row, self.even, self.planes = world, emitter, row, even, obstacles
         self._arcs = aligned(ARC_ROWS * CHUNK // WIDTH, WIDTH)
+        self._room = np.zeros(len(VELOCITY + PLACE) * WIDTH, np.float32)
         self._flat = self._arcs.reshape(ARC_ROWS, CHUNK)
 
     def fly(self, first: int, count: int, times: Floats, dt: float) -> None:
@@ -61,13 +62,12 @@ class Flight:
             world[Fields].lay(world, self.emitter, self.row, first, times, dt, self._flat)
         else:
             lay_even_arcs(times, even.drag, *even.acceleration, *even.flow, self._flat)
-        places = [getattr(particle, name) for name in PLACE]
         whole = world[Emitter].collide[self.row] == Collide.ALL
         rows = slice(first, first + count)
         before = particle.position(rows) if whole else None
         fly(
-            first, count, self._arcs, 0.5 * even.pace if even is not None else 0.0, self.planes,
-            *places, particle.velocity_x, particle.velocity_y, particle.velocity_z,
+            first, count, self._arcs, 0.5 * even.pace if even is not None else 0.0, self.planes, self._room,
+            *(getattr(particle, name) for name in PLACE + VELOCITY),
         )  # fmt: skip
         if before is not None:
             bounce_off_colliders(world, self.row, rows, before, times)
