@@ -50,8 +50,8 @@ def test_all_faults_of_a_file_are_told_at_once() -> None:
             "did you mean 'color'?"
         ),
         (
-            "world.yaml:13:39: entities.1.emitter.speed: the least must not be above the greatest; received [3, 2] m/s; "
-            "accepted: [least, greatest]"
+            "world.yaml:13:39: entities.1.emitter.speed: the least must not be above the greatest; "
+            "received [3, 2] m/s; accepted: [least, greatest]"
         ),
         "world.yaml:14:19: entities.2.emitter: emits nothing; state rate or burst",
     ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from carom.tools.bench import gravity_rows
+from carom.tools.bench import gravity_rows, particle_rows
 from carom.tools.bench.measure import Figure
 
 
@@ -15,5 +15,6 @@ def figures() -> Iterator[Figure]:
 
 
 PARTS: dict[str, Callable[[], Iterator[Figure]]] = {
+    "particles": particle_rows.figures,
     "gravity": gravity_rows.figures,
 }
