@@ -10,6 +10,8 @@ import ctypes
 import os
 import sys
 import warnings
+from importlib import import_module
+from types import ModuleType
 from typing import Any
 
 from carom.ecs.errors import CaromError
@@ -66,9 +68,24 @@ def load() -> Any:
     os.environ[PLATFORM_VARIABLE] = name
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # pyrender's dependencies use what their own dependencies will drop one day
-        import pyrender
+        pyrender = _without_windows()
     _know_references()
     return pyrender
+
+
+def _without_windows() -> Any:
+    """Import pyrender without its viewer, whose windows need libraries of X11 that servers lack.
+
+    ``pyrender.viewer`` is imported as ever by who asks for it by this name.
+    """
+    if "pyrender" not in sys.modules:
+        sys.modules["pyrender.viewer"] = absent = ModuleType("pyrender.viewer")
+        absent.Viewer = None  # type: ignore[attr-defined]
+        try:
+            import_module("pyrender")
+        finally:
+            del sys.modules["pyrender.viewer"]
+    return import_module("pyrender")
 
 
 def _know_references() -> None:

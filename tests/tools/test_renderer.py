@@ -347,6 +347,13 @@ def test_where_osmesa_is_missing_egl_draws_without_being_asked() -> None:
     assert (said, int(covered)) in (("egl", 23 * 23), ("egl", 24 * 24))
 
 
+def test_no_library_of_windows_is_needed() -> None:
+    """Where pyglet, which looks for those of X11 as it is imported, cannot be, the cube is drawn all the same."""
+    command = [sys.executable, "-c", "import sys; sys.modules['pyglet'] = None" + DRAW]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert int(done.stdout.split()[1]) in (23 * 23, 24 * 24)
+
+
 def test_frames_are_bit_identical_in_other_processes() -> None:
     """Pictures, depths and ids of shadowed, translucent and curved bodies have one hash, whatever the threads."""
     hashes = {
