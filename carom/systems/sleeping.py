@@ -37,6 +37,7 @@ from carom.systems.forces.springs import bodies_on_springs
 from carom.systems.kernels.islands import find_sleepers, time_stillness
 from carom.systems.links import islands, joins_islands, links
 from carom.systems.settings import Settings
+from carom.systems.shapes.geometry import Geometries
 from carom.systems.sleeping_contacts import left_alone, locate_contacts, move_contacts
 from carom.systems.ties import Ties
 
@@ -85,7 +86,7 @@ def wake_disturbed(world: World, dt: float) -> None:
 
 
 @system(
-    reads=(RigidBody, Collider, Parent, Force, Forces, Settings, Joint, Spring),
+    reads=(RigidBody, Collider, Parent, Geometries, Force, Forces, Settings, Joint, Spring),
     writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake, Ties),
     when=stirs,
 )

@@ -158,3 +158,16 @@ def test_joints_carry_what_hangs_on_them() -> None:
     expected = np.array([(0.0, -weight, 0.0), (0.0, 2.0 * weight, 0.0), (0.0, weight, 0.0)])
     assert found.force == pytest.approx(expected, rel=1e-6, abs=1e-9)
     assert found.point == pytest.approx(np.array([(0.0, -1.0, 0.0), (0.0, 0.0, 0.0), (0.0, -1.0, 0.0)]), abs=1e-4)
+
+
+def test_thrust_acts_where_it_is_stated() -> None:
+    """A thruster at a place of a body that leans by a quarter turn is drawn there, on others at theirs."""
+    simulation = Simulation(gravity=(0.0, 0.0, 0.0))
+    turned = {"position": (1.0, 0.0, 0.0), "rotation": (0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5))}
+    leaning = simulation.add(collider=BALL, body={"mass": 2.0}, transform=turned)
+    other = simulation.add(collider=BALL, body={"mass": 2.0}, transform={"position": (9.0, 0.0, 0.0)})
+    simulation.force("thruster", [leaning], force=(1.0, 0.0, 0.0), at=(0.5, 0.0, 0.2))
+    simulation.force("thruster", [other], force=(0.0, 1.0, 0.0), at=(0.0, -0.5, 0.0))
+    found = named(simulation, "thruster")
+    assert found.force == pytest.approx(np.array([(0.0, 1.0, 0.0), (0.0, 1.0, 0.0)]), abs=1e-12)
+    assert found.point == pytest.approx(np.array([(1.0, 0.5, 0.2), (9.0, -0.5, 0.0)]), abs=1e-12)

@@ -16,6 +16,7 @@ from carom.systems.forces.immersion import Immersion, Surface, immersed
 from carom.systems.forces.law import Forces, Law, parameter, vector
 from carom.systems.kernels.buoyancy import add_buoyancy, add_wet_drag
 from carom.systems.settings import Settings
+from carom.systems.shapes.geometry import Geometries
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ class Buoyancy(Law):
         return np.asarray((volume[rows] > 0.0) & (pushed <= least) & ((twisted <= least * lever) | ~turning))
 
 
-@system(reads=(Forces, Transform, Motion, RigidBody, Collider, Parent, Settings), adds=(Force,))
+@system(reads=(Forces, Transform, Motion, RigidBody, Collider, Parent, Geometries, Settings), adds=(Force,))
 def apply_buoyancy(world: World, dt: float) -> None:
     """Add what media bear at centres of buoyancy, and their drags by the velocities at the middle of the substep."""
     for law, rows in world[Forces].acting(Buoyancy, world):
