@@ -7,35 +7,33 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from carom.ecs.errors import DeclarationError, EntityError, did_you_mean
+from carom.ecs.errors import DeclarationError, EntityError
 from carom.ecs.hierarchy import compose
 from carom.systems.forces import LAWS, Forces
 from carom.systems.forces.reach import read_reach
 from carom.systems.layers import Layers
 from carom.systems.parameters import WordFault
-from carom.systems.settings import Settings
+from carom.systems.settings import Random, Settings
 from carom.systems.simulation import Simulation
 from carom.worlds import library
 from carom.worlds.camera import Camera, check_entities
-from carom.worlds.check import check_section, collection
 from carom.worlds.embedding import content_of
 from carom.worlds.errors import WordError
 from carom.worlds.expect import Expectation, read_expectations
 from carom.worlds.files import WorldFiles
+from carom.worlds.filling import checked_sections, filled, unfolded
 from carom.worlds.generated import STEP_WORDS
+from carom.worlds.generators import Setting
 from carom.worlds.geometry import GeometryReader
 from carom.worlds.header import with_header
 from carom.worlds.include import Includes
-from carom.worlds.names import known, matching
+from carom.worlds.names import known, matching, whole_of_copy
 from carom.worlds.pictures import Pictures
 from carom.worlds.populate import Populator
-from carom.worlds.prefab import extended
 from carom.worlds.reader import read
 from carom.worlds.run import RunPlan, plan
-from carom.worlds.schema import document
 from carom.worlds.sections import RecordingWords, Render
 from carom.worlds.source import Source
-from carom.worlds.variables import Variables
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -98,14 +96,16 @@ def load_text(
     files_of_world = WorldFiles(folder or Path(), files or {})
     with_header(source)
     Includes(source, files_of_world).take(source, (Path(name).name,))
-    data = source.data
-    values = _checked(source, data)
+    data, prefabs = filled(source, source.data)
+    values = checked_sections(source, data)
     simulation = _simulation(source, values, checked, options)
-    geometries = GeometryReader(files_of_world)
-    populator = Populator(source, simulation, geometries)
-    populator.add_all(values["entities"])
-    source.excused = _named(data.get("entities")) - {name.partition("[")[0] for name in simulation.world.names()}
-    populator.point_all()
+    setting = Setting(UP[values["up"]].index(1.0), simulation.world[Random].generator)
+    items = unfolded(source, prefabs, data.get("entities", []), setting)
+    populator = Populator(source, simulation, GeometryReader(files_of_world), setting)
+    populator.add_all(items)
+    there = {whole_of_copy(name) for name in simulation.world.names()}
+    source.excused = {item.name for item in items if item.name is not None} - there
+    populator.connections.point_all()
     try:
         if not source.faults:
             compose(simulation.world)
@@ -130,40 +130,6 @@ def load_text(
         values["name"], values["description"], UP[values["up"]], values["cameras"], render, recording, source.warnings,
         files_of_world.used, source,
     )  # fmt: skip
-
-
-def _checked(source: Source, data: dict[str, Any]) -> dict[str, Any]:
-    """Return every section in SI, absent ones with their default, faulty ones and items as None."""
-    sections = document().model_fields
-    for key in data:
-        if key not in sections:
-            hint = did_you_mean(key, sections)
-            source.report((key,), "unknown key", received=repr(key), accepted=", ".join(sections), hint=hint)
-    if source.computes or "variables" in data:
-        data = _computed(source, data)
-    prefabs = data.get("prefabs")
-    prefabs = prefabs if isinstance(prefabs, dict) else {}
-    values: dict[str, Any] = {}
-    for key, section in sections.items():
-        if key not in data:
-            values[key] = section.get_default(call_default_factory=True)
-            continue
-        value = data[key]
-        if key == "prefabs" and isinstance(value, dict):
-            value = {name: extended(source, (key, name), words, prefabs) for name, words in value.items()}
-        if key == "entities" and isinstance(value, list):
-            value = [extended(source, (key, index), words, prefabs) for index, words in enumerate(value)]
-        values[key] = check_section(source, key, value, partial=key == "prefabs")
-        if values[key] is None and collection(key) is None:
-            values[key] = section.get_default(call_default_factory=True)
-    return values
-
-
-def _computed(source: Source, data: dict[str, Any]) -> dict[str, Any]:
-    """Return the data with its expressions replaced by what they come to."""
-    variables = Variables(source, ("variables",), data.get("variables"))
-    variables.settle_all()
-    return {key: value if key == "variables" else variables.fill(value, (key,)) for key, value in data.items()}
 
 
 def _simulation(source: Source, values: dict[str, Any], checked: bool | None, options: dict[str, Any]) -> Simulation:
@@ -215,9 +181,3 @@ def _forces(source: Source, simulation: Simulation, forces: list[Any]) -> None:
             simulation.world[Forces].add(LAWS[key](**parameters), reach)
         except DeclarationError as fault:
             source.report(("forces", index, key), str(fault))
-
-
-def _named(entities: Any) -> set[str]:
-    """Return the names a file gives its entities, whatever else is wrong with them."""
-    items = entities if isinstance(entities, list) else []
-    return {item["name"] for item in items if isinstance(item, dict) and isinstance(item.get("name"), str)}

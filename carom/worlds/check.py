@@ -45,7 +45,7 @@ def check_section(source: Source, section: str, value: Any, *, partial: bool = F
     if kind is None:
         return check(source, _adapter(section, False), value, (section,))
     if not isinstance(value, kind):
-        refuse_form(source, section, value, kind)
+        refuse_form(source, (section,), value, kind)
         return kind()
     adapter = _adapter(section, True)
     if kind is list:
@@ -53,17 +53,23 @@ def check_section(source: Source, section: str, value: Any, *, partial: bool = F
     return {
         key: check(source, adapter, item, (section, key), partial=partial)
         for key, item in value.items()
-        if _named(source, section, key)
+        if well_named(source, section, key)
     }
 
 
-def refuse_form(source: Source, section: str, value: Any, kind: type[Any]) -> None:
-    """Report a section that is not the list or mapping it must be."""
+def check_item(source: Source, section: str, path: Path, value: Any, *, partial: bool = False) -> Any:
+    """Return an item of a section checked and in SI, or None when it is faulty, wherever it stands."""
+    return check(source, _adapter(section, True), value, path, partial=partial)
+
+
+def refuse_form(source: Source, path: Path, value: Any, kind: type[Any]) -> None:
+    """Report what is not the list or mapping it must be."""
     what, accepted = WORDING["list_type" if kind is list else "dict_type"]
-    source.report((section,), what, received=shown(value), accepted=accepted)
+    source.report(path, what, received=shown(value), accepted=accepted)
 
 
-def _named(source: Source, section: str, key: str) -> bool:
+def well_named(source: Source, section: str, key: str) -> bool:
+    """Tell whether a key of a section is a name, having reported it where not."""
     names = TypeAdapter(get_args(document().model_fields[section].annotation)[0])
     return check(source, names, key, (section, key)) is not None
 

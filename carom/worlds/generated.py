@@ -22,6 +22,7 @@ from carom.systems.settings import MOST_THREADS, Settings
 from carom.systems.shapes import SHAPES
 from carom.worlds.color import ColorWord
 from carom.worlds.errors import WordError
+from carom.worlds.generators import GENERATORS
 from carom.worlds.geometry import GEOMETRY_WORDS
 from carom.worlds.rotation import RotationWord
 from carom.worlds.units import parse_unit
@@ -97,6 +98,8 @@ def _column_field(column: Column) -> Any:
     if holds_entities(column):
         return Field(None, description=f"{column.doc}: the name of an entity")
     default = np.broadcast_to(np.asarray(column.default, column.dtype), column.shape).tolist()
+    if isinstance(default, list):
+        default = tuple(default)  # of which pydantic makes no copy for each entity
     return Field(default, description=_description(column.doc, column.unit))
 
 
@@ -168,6 +171,11 @@ def shape_fields() -> Fields:
     """Return one optional field per shape."""
     kinds = sorted(SHAPES.items())
     return {key: (parameter_model(kind), Field(None, description=_first_line(kind))) for key, kind in kinds}
+
+
+def generator_fields() -> Fields:
+    """Return one optional field per generator."""
+    return {key: (kind, Field(None, description=_first_line(kind))) for key, kind in GENERATORS.items()}
 
 
 def joint_fields() -> Fields:

@@ -111,7 +111,7 @@ class _Merge:
                 self._twice(part, (key,))
             self.data[key], self.parts[key,] = value, home
         elif not isinstance(value, kind):
-            refuse_form(part, key, value, kind)
+            refuse_form(part, (key,), value, kind)
         elif kind is list:
             items = self.data.setdefault(key, [])
             for index in range(len(value)):

@@ -11,13 +11,14 @@ from carom.ecs.errors import DeclarationError
 from carom.systems.chains import BALL, Course, capsule_along, hung, join_links, lay_links, refuse_lines
 from carom.systems.chains import WORLD as THE_WORLD
 from carom.worlds.errors import Path, ReportedError, WordError
+from carom.worlds.groups import Group
 from carom.worlds.names import known
 from carom.worlds.sections import NOBODY, WORLD
 
 if TYPE_CHECKING:
     from carom.worlds.populate import Populator
 
-BESIDE = ("grid", "keyframes", "parent")  # words that say in other ways where copies are
+BESIDE = ("keyframes", "parent")  # words that say in other ways where copies are
 
 
 class Laid(NamedTuple):
@@ -28,7 +29,7 @@ class Laid(NamedTuple):
     course: Course
     links: Integers
     joint: Any
-    ends: tuple[str, str]
+    ends: tuple[str, ...]
 
 
 class Laying:
@@ -37,11 +38,11 @@ class Laying:
     def __init__(self, populator: Populator) -> None:
         self.populator, self.laid = populator, list[Laid]()
 
-    def add(self, path: Path, name: str | None, words: dict[str, Any]) -> None:
-        """Add the links of a chain."""
+    def add(self, path: Path, name: str | None, words: dict[str, Any], group: Group, copying: list[str]) -> None:
+        """Add the links of a chain of a group; ``copying`` are the generators it states beside."""
         populator, chain, transform = self.populator, words.pop("chain"), words.pop("transform", {})
         joint = words.pop("joint", BALL)
-        surplus = [word for word in BESIDE if word in words]
+        surplus = copying + [word for word in BESIDE if word in words]
         surplus += [f"transform.{key}" for key in transform if key != "position"]
         if name is None:
             populator.source.report((*path, "chain"), "has no name, after which its links are called; state name")
@@ -67,7 +68,8 @@ class Laying:
             populator.report(path, str(fault))
             return
         populator.places_in_file.update(dict.fromkeys(links.tolist(), path))
-        self.laid.append(Laid(path, name, course, links, joint, (chain.get("a", WORLD), chain.get("b", NOBODY))))
+        ends = chain.get("a", WORLD), chain.get("b", NOBODY)
+        self.laid.append(Laid(path, name, course, links, joint, tuple(map(group.whole, ends))))
 
     def join_all(self) -> None:
         """Join the links of all chains, and their ends to whom they name."""

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Sequence
 from carom.ecs.errors import did_you_mean
 from carom.worlds.errors import WordError
 
+COPY = re.compile(r"\[[\d,]*\]$")
+
 
 def known(kind: str, name: str, choices: Iterable[str]) -> str:
     """Return ``name`` when it is among the choices; raise WordError with the nearest one otherwise."""
@@ -19,8 +21,13 @@ def known(kind: str, name: str, choices: Iterable[str]) -> str:
     return name
 
 
+def whole_of_copy(name: str) -> str:
+    """Return the name of what copies of a generator are made of: ``rain`` of ``rain[3,0,1]``."""
+    return COPY.sub("", name)
+
+
 def matching(pattern: str, names: Sequence[str]) -> list[str]:
-    """Return the names that a pattern means, in order: itself, all of a grid, or those that fit its ``*``.
+    """Return the names that a pattern means, in order: itself, all copies, those that fit its ``*``, or all of a group.
 
     Raises WordError when it means none.
     """
@@ -34,5 +41,8 @@ def fitting(pattern: str, names: Sequence[str]) -> list[str]:
     """Return the names that a pattern means, which may be none."""
     if pattern in names:
         return [pattern]
-    form = re.compile(re.escape(pattern).replace(r"\*", ".*") + r"(?:\[[\d,]+\])?")
-    return [name for name in names if form.fullmatch(name)]
+    form = re.escape(pattern).replace(r"\*", ".*") + r"(?:\[[\d,]+\])?"
+    for fits in (re.compile(form), re.compile(form + r"\..+")):
+        if found := [name for name in names if fits.fullmatch(name)]:
+            return found
+    return []

@@ -4,140 +4,168 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from itertools import product
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from carom.ecs.column import Floats, Integers
-from carom.ecs.component import Component
 from carom.ecs.components.joint import Joint
 from carom.ecs.components.name import NAME_LENGTH
 from carom.ecs.components.parent import Parent
 from carom.ecs.errors import DeclarationError
-from carom.systems.assembly import Materials
+from carom.ecs.spatial import quaternion
+from carom.systems.assembly import Materials, shape_of
 from carom.systems.compound import StatedBodies, joining, weigh
-from carom.systems.joints.stating import read_joint
 from carom.systems.layers import Layers
-from carom.systems.own_components import components_of_files
 from carom.systems.parameters import WordFault
 from carom.systems.particles.words import read_emitter
 from carom.systems.paths import faults_of_path
-from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
+from carom.worlds.connections import Connections
+from carom.worlds.crowd import LONE, Some, add_together
 from carom.worlds.errors import Path, ReportedError, WordError
-from carom.worlds.generated import holds_entities
+from carom.worlds.generators import GENERATORS, Setting
 from carom.worlds.geometry import GEOMETRY_WORDS, GeometryReader
+from carom.worlds.groups import Group
 from carom.worlds.laying import Laying
-from carom.worlds.names import known
+from carom.worlds.names import known, whole_of_copy
 from carom.worlds.source import Source
+from carom.worlds.unfold import Item, generators_of
 
 SOURCES = ("file", "image", "points", "heights")  # words that say where a geometry comes from
 PROVISIONAL = {"mass": 1.0}
 SUB_PATH = re.compile(r"([a-z_]+(?:\.[a-z_]+)*): (.*)", re.DOTALL)
 
 
-class Pointer(NamedTuple):
-    """A column that holds entities, with the names the file states for it there."""
-
-    path: Path
-    kind: type[Component]
-    column: str
-    names: Any
-
-
 class Populator:
     """Adds entities, reporting what is wrong with each where the file says it."""
 
-    def __init__(self, source: Source, simulation: Simulation, geometries: GeometryReader) -> None:
+    def __init__(self, source: Source, simulation: Simulation, geometries: GeometryReader, setting: Setting) -> None:
         self.source, self.simulation = source, simulation
-        self.geometries = geometries
+        self.geometries, self.setting = geometries, setting
         self.taken: dict[str, Path] = {}
-        self.pointers: list[tuple[Integers, Pointer]] = []
         self.places_in_file: dict[int, Path] = {}
         self.carriers: set[str] = set()
         self.unweighed: list[int] = []  # bodies whose mass depends on what they carry
         self.laying = Laying(self)
-        self.joints: list[tuple[int, Path, dict[str, Any]]] = []
+        self.connections = Connections(source, simulation)
 
-    def add_all(self, entities: list[Any]) -> None:
-        """Add the entities of a file in its order; None stands for one already reported."""
-        stated = [None if model is None else model.model_dump(exclude_unset=True) for model in entities]
-        parents = [words.get("parent", {}).get("entity") for words in stated if words is not None]
-        self.carriers = {name.partition("[")[0] for name in parents if name is not None}
-        for index, words in enumerate(stated):
-            if words is not None:
-                self.add(("entities", index), words)
+    def add_all(self, items: list[Item]) -> None:
+        """Add the entities of a file in its order, those together that differ only in where they are and move."""
+        stated = [(item, item.words.model_dump(exclude_unset=True)) for item in items if item.words is not None]
+        parents = [(item.group, words["parent"].get("entity")) for item, words in stated if "parent" in words]
+        self.carriers = {whole_of_copy(group.whole(name)) for group, name in parents if name is not None}
+        crowd: list[Some] = []
+        for item, words in stated:
+            if "chain" in words:  # its links are laid at once, after those before it
+                self.spawn(crowd)
+                crowd = []
+            some = self.read(item, words)
+            if some is None:
+                continue
+            if crowd and not crowd[0].joins(some):
+                self.spawn(crowd)
+                crowd = []
+            crowd.append(some)
+        self.spawn(crowd)
 
-    def add(self, path: Path, words: dict[str, Any]) -> None:
-        """Add one entity, or the copies of its grid."""
-        grid = words.pop("grid", None)
-        name = words.pop("name", None)
-        if name is not None and name in self.taken:
-            where = self.source.place(self.taken[name])
-            self.source.report((*path, "name"), "two entities of one name", received=f"{name!r}, also of {where}")
-            return
-        if name is not None:
-            self.taken[name] = path
-        if not (self.names_hold(path, words) and self.path_holds(path, words, grid) and self.emits(path, words)):
-            return
-        if "chain" in words:
-            self.laying.add(path, name, words)
-            return
-        transform = words.pop("transform", {})
-        jitter = transform.pop("jitter", None)
-        pointers = self.take_pointers(path, words)
-        joint = words.get("joint")
-        if joint is not None:
-            words["joint"] = Joint()
-        body = words.get("body")
-        waits = name in self.carriers and body is not None and "mass" not in body
-        if body is not None and waits:
-            words["body"] = body | PROVISIONAL
+    def read(self, item: Item, words: dict[str, Any]) -> Some | None:
+        """Return an entity, or the copies of it; None for a chain, which is laid at once, and for what is refused."""
+        path, group = item.path, item.group
+        for word in ("name", "parameters"):
+            words.pop(word, None)
+        if item.name is not None and item.name in self.taken:
+            where = self.source.place(self.taken[item.name])
+            what, received = "two entities of one name", f"{item.name!r}, also of {where}"
+            self.source.report((*path, "name"), what, received=received)
+            return None
+        if item.name is not None:
+            self.taken[item.name] = path
+        copying = generators_of(self.source, path, item.words)
+        for key in GENERATORS:
+            words.pop(key, None)
+        if not (self.names_hold(path, words) and self.path_holds(path, words, copying) and self.emits(path, words)):
+            return None
+        group.place(words)
         try:
+            if "chain" in words:
+                self.laying.add(path, item.name, words, group, copying)
+                return None
             self.read_geometries(path, words)
-            positions = self.places(name, grid, np.array(transform.get("position", (0.0, 0.0, 0.0))))
-            if jitter is not None:
-                reach = np.broadcast_to(jitter, 3)
-                positions = positions + self.simulation.world[Random].generator.uniform(-reach, reach, positions.shape)
-            names = None if name is None else copies(name, grid)
-            entities = self.simulation.add_many(positions, names=names, transform=transform, **words)
-            self.pointers += [(entities, pointer) for pointer in pointers]
-            self.places_in_file.update(dict.fromkeys(entities.tolist(), path))
-            if joint is not None:
-                self.joints.append((int(entities[0]), path, joint))
-            if waits:
-                self.simulation.world[StatedBodies].words.update(dict.fromkeys(entities.tolist(), body))
-                self.unweighed += entities.tolist()
+            return self.placed(item, words, *copying)
         except ReportedError:
-            return
+            return None
         except DeclarationError as fault:
             self.report(path, str(fault))
+            return None
 
-    def take_pointers(self, path: Path, words: dict[str, Any]) -> list[Pointer]:
-        """Take out what names other entities, which may come later in the file."""
-        own = components_of_files()
-        return [
-            Pointer((*path, key, name), own[key], name, words[key].pop(name))
-            for key in own
-            if key in words
-            for name in words[key].copy()
-            if holds_entities(own[key].columns[name])
-        ]
+    def placed(self, item: Item, words: dict[str, Any], key: str | None = None) -> Some:
+        """Return where an entity is, or each copy that a generator makes of it; raise DeclarationError."""
+        transform, group = words.pop("transform", {}), item.group
+        positions = np.array([transform.get("position", (0.0, 0.0, 0.0))], np.float64)
+        names, rotations = None if item.name is None else [item.name], None
+        jitter = transform.pop("jitter", None)
+        if not any(word in words for word in LONE):
+            rotations = np.array([transform.get("rotation", quaternion.IDENTITY)], np.float64)
+        elif key is not None:
+            raise DeclarationError("joint: all copies would hold the same; add them one by one")
+        else:
+            words["transform"] = transform
+        if key is not None and rotations is not None:
+            made = getattr(item.words, key).copies(self.setting_of(words.get("collider"), rotations[0], group))
+            if made.note:
+                self.source.warn((*item.path, key), made.note)
+            positions = positions + group.direction(made.positions)
+            rotations = group.turned(made.rotations, rotations, len(positions))
+            names = None if item.name is None else made.names(item.name)
+            if names and len(max(names, key=len)) > NAME_LENGTH:
+                longest = max(names, key=len)
+                raise DeclarationError(f"{key}: the name {longest!r} of a copy exceeds {NAME_LENGTH} characters")
+        if jitter is not None:
+            reach = np.broadcast_to(jitter, 3)
+            positions = positions + self.setting.draws.uniform(-reach, reach, positions.shape)
+        motion = words.pop("motion", None) if rotations is not None else None
+        body = words.get("body")
+        weight = None
+        if body is not None and "mass" not in body and item.name in self.carriers:
+            weight, words["body"] = body, body | PROVISIONAL
+        pointers, joint = self.connections.take_pointers(item.path, words, group), words.get("joint")
+        if joint is not None:
+            words["joint"] = Joint()
+        return Some(item.path, group, words, positions, names, rotations, motion, pointers, joint, weight)
 
-    def point_all(self) -> None:
-        """Let columns hold the entities the file names, now that all are there; report unknown names."""
-        world = self.simulation.world
-        names = world.names()
-        for entities, pointer in self.pointers:
-            column = pointer.kind.columns[pointer.column]
-            try:
-                found = [world.find(known("entity", str(name), names)) for name in np.ravel(pointer.names)]
-            except WordError as fault:
-                self.source.report_value(pointer.path, fault)
-                continue
-            with world.edit(pointer.kind) as table:
-                getattr(table, pointer.column)[world.slots.rows(entities)] = np.reshape(found, column.shape)
+    def setting_of(self, collider: dict[str, Any] | None, rotation: Floats, group: Group) -> Setting:
+        """Return what copies are made in, with how large each is along the axes of the group."""
+        if collider is None:
+            return self.setting
+        bounds = shape_of(collider).bounds()
+        turn = group.back(rotation)
+        own = collider.get("rotation", quaternion.IDENTITY)
+        center = np.asarray(collider.get("position", (0.0, 0.0, 0.0))) + quaternion.rotate(own, bounds.center)
+        turned = np.abs(quaternion.matrix(quaternion.multiply(turn, own)))
+        half = (turned * np.asarray(bounds.half)).sum(axis=1) + bounds.radius
+        return self.setting._replace(half=half, center=quaternion.rotate(turn, center))
+
+    def spawn(self, crowd: list[Some]) -> None:
+        """Add entities that are alike; where they are refused, one by one, to report whom."""
+        if not crowd:
+            return
+        try:
+            entities = add_together(self.simulation, crowd)
+        except DeclarationError as fault:
+            if len(crowd) == 1:
+                self.report(crowd[0].path, str(fault))
+            else:
+                for some in crowd:
+                    self.spawn([some])
+            return
+        ends = np.cumsum([len(some.positions) for some in crowd])
+        for some, made in zip(crowd, np.split(entities, ends[:-1]), strict=True):
+            self.places_in_file.update(dict.fromkeys(made.tolist(), some.path))
+            self.connections.add(made, some)
+            if some.weight is not None:
+                self.simulation.world[StatedBodies].words.update(dict.fromkeys(made.tolist(), some.weight))
+                self.unweighed += made.tolist()
 
     def weigh_all(self) -> None:
         """Let bodies weigh what they carry, now that it is known; report what cannot be carried by a body."""
@@ -148,18 +176,9 @@ class Populator:
             self.each(np.union1d(bodies, joined), lambda rows: weigh(world, rows))
 
     def join_all(self) -> None:
-        """Let joints hold whom they name, at the poses where all are now; report everything that is wrong with them."""
+        """Let joints and the links of chains hold each other, at the poses where all are now."""
         self.laying.join_all()
-        world = self.simulation.world
-        for entity, path, words in self.joints:
-            faults: list[WordFault] = []
-            made = read_joint(world, words, faults)
-            for fault in faults:
-                self.source.report_value((*path, *fault.steps), fault)
-            if made is not None:
-                with world.edit(Joint) as table:
-                    for name, value in vars(made).items():
-                        getattr(table, name)[world.row(entity)] = value
+        self.connections.join_all()
 
     def each(self, rows: Integers, act: Callable[[Integers], Any]) -> Any:
         """Return what ``act`` makes of all rows; where it refuses, try one by one to report whom."""
@@ -173,16 +192,6 @@ class Populator:
             except DeclarationError as fault:
                 self.report(self.places_in_file[self.simulation.world.entity(row)], str(fault))
         return None
-
-    def places(self, name: str | None, grid: dict[str, Any] | None, position: Floats) -> Floats:
-        """Return the position of each copy (n, 3)."""
-        if grid is None:
-            return position[None]
-        longest = f"{name}[{','.join(str(count - 1) for count in grid['count'])}]"
-        if name is not None and len(longest) > NAME_LENGTH:
-            raise DeclarationError(f"grid: the name {longest!r} of its last copy exceeds {NAME_LENGTH} characters")
-        steps = np.indices(grid["count"]).reshape(3, -1).T
-        return np.asarray(position + np.array(grid.get("origin", (0.0, 0.0, 0.0))) + steps * grid["spacing"])
 
     def read_geometries(self, path: Path, words: dict[str, Any]) -> None:
         """Put shapes in the place of the words of meshes and hulls of an entity."""
@@ -228,13 +237,13 @@ class Populator:
                 held = False
         return held
 
-    def path_holds(self, path: Path, words: dict[str, Any], grid: Any) -> bool:
+    def path_holds(self, path: Path, words: dict[str, Any], copying: list[str]) -> bool:
         """Report everything that is wrong with keyframes."""
         if "keyframes" not in words:
             return True
         faults = list(faults_of_path(words))
-        if grid is not None:
-            faults.append(WordFault(("grid",), "all copies would go the same way; remove grid or keyframes"))
+        for key in copying:
+            faults.append(WordFault((key,), f"all copies would go the same way; remove {key} or keyframes"))
         for fault in faults:
             self.source.report((*path, *fault.steps), fault.what, received=fault.received)
         return not faults
@@ -254,15 +263,8 @@ class Populator:
         if found is not None:
             steps = tuple(found[1].split("."))
             for place in ((*path, *steps), (*path, "collider", *steps)):
-                if self.source.written(place) or steps[0] in ("body", "motion", "collider", "visual", "grid"):
+                if self.source.written(place) or steps[0] in ("body", "motion", "collider", "visual", *GENERATORS):
                     self.source.report(place, found[2])
                     return
         place = (*path, "collider") if message.startswith("state exactly one shape") else path
         self.source.report(place, message)
-
-
-def copies(name: str, grid: dict[str, Any] | None) -> list[str]:
-    """Return the name of each copy in the order of their places."""
-    if grid is None:
-        return [name]
-    return [f"{name}[{i},{j},{k}]" for i, j, k in product(*map(range, grid["count"]))]

@@ -6,7 +6,7 @@ import math
 from functools import cache
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, WithJsonSchema, create_model
+from pydantic import Field, TypeAdapter, WithJsonSchema, create_model
 
 from carom.ecs import Collider, Motion, RigidBody, Transform, Visual
 from carom.ecs.components.rigid_body import BodyType
@@ -19,6 +19,7 @@ from carom.systems.particles.words import EmitterWords
 from carom.worlds.camera import Camera
 from carom.worlds.generated import (
     column_fields,
+    generator_fields,
     joint_fields,
     law_fields,
     material_model,
@@ -30,13 +31,13 @@ from carom.worlds.generated import (
 from carom.worlds.sections import (
     ChainWords,
     Expect,
-    Grid,
     KeyframesWords,
     KeyframeWords,
     LayersMet,
     Length,
     Lengths,
     OnEnter,
+    Placement,
     RecordingWords,
     Render,
     Run,
@@ -48,6 +49,7 @@ Variable = Annotated[
     Any,
     WithJsonSchema({"type": ["number", "string", "boolean", "array", "object"]}),
 ]
+Member = Annotated[Any, WithJsonSchema({"type": "object", "x-entity": True})]
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
@@ -105,11 +107,13 @@ def document() -> type[Words]:
         "tags": (names, Field([], description="what it is, for queries")),
     }  # fmt: skip
     chain = (ChainWords, Field(None, description="copies as links, which joint joins"))
-    grid = (Grid, Field(None, description="copies on a grid"))
     named = (Name, Field(None, description="unique name"))
-    words |= own_fields((*words, "name", "grid", "chain"))
-    prefab = _model("Prefab", "Words shared by entities.", **words)
-    entity = _model("Entity", "One entity, or a grid or chain of them.", name=named, **words, grid=grid, chain=chain)
+    copying, parts = generator_fields(), _group_fields()
+    words |= own_fields((*words, "name", "chain", *copying, *parts))
+    prefab = _model("Prefab", "Words shared by entities.", **words, **parts)
+    entity = _model(
+        "Entity", "One entity, many copies of it, or a group.", name=named, **words, **copying, chain=chain, **parts
+    )
     force = _model(
         "Force", "One force law and whom it acts on.", **law_fields(),
         entities=(names, Field(None, description="names, or patterns like shell_* and rain[*]; every body by default")),
@@ -141,6 +145,26 @@ def document() -> type[Words]:
     )  # fmt: skip
 
 
+@cache
+def group_type() -> TypeAdapter[Any]:
+    """Return the type of what a group says itself, beside its entities."""
+    model = _model(
+        "Group", "Entities placed together.",
+        name=(Name, Field(description="unique name, which goes before those of its entities")),
+        transform=(Placement, Field(Placement.model_validate({}), description="where it is")),
+        **generator_fields(),
+        parameters=_group_fields()["parameters"],
+    )  # fmt: skip
+    return TypeAdapter(model)
+
+
+def _group_fields() -> dict[str, Any]:
+    return {
+        "parameters": (dict[str, Variable], Field({}, description="values by name, for expressions in these words")),
+        "entities": (list[Member], Field([], description="makes it a group: what is placed together")),
+    }
+
+
 def json_schema() -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of a world file; each number says its unit under ``x-unit``."""
     return {"$schema": DIALECT, **_stated(document().model_json_schema())}
@@ -152,6 +176,8 @@ def _stated(node: Any) -> Any:
         return [_stated(item) for item in node]
     if not isinstance(node, dict):
         return node
+    if "x-entity" in node:
+        return {"$ref": "#/$defs/Entity"}
     return {key: _stated(value) for key, value in node.items() if not (key == "default" and _empty(value))}
 
 

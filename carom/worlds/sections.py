@@ -11,7 +11,7 @@ from carom.systems.paths import REPEATS
 from carom.worlds.errors import WordError, shown
 from carom.worlds.rotation import RotationWord
 from carom.worlds.units import read_quantity
-from carom.worlds.values import Flag, In, Vector3, Whole, Words, either, word_of
+from carom.worlds.values import Flag, In, Vector3, Whole, Words, word_of
 
 Length = Annotated[float, In("m")]
 Lengths = Annotated[Vector3, In("m")]
@@ -41,14 +41,6 @@ def _layers_met(value: Any) -> list[str] | None:
     return value
 
 
-class Grid(Words):
-    """Copies of an entity on a grid, called like ``rain[3,0,1]``."""
-
-    count: tuple[Count, Count, Count] = Field(description="copies along x, y and z")
-    spacing: either(Length, Lengths, list) = Field(description="distance between neighbours (m), one or one per axis")  # type: ignore[valid-type]
-    origin: Lengths = Field((0.0, 0.0, 0.0), description="where copy [0,0,0] is, added to transform.position (m)")
-
-
 class ChainWords(Words):
     """Copies of an entity as the links of a chain that starts where it is, called like ``rope[3]``."""
 
@@ -58,6 +50,13 @@ class ChainWords(Words):
     radius: Annotated[float, In("m", above=0.0)] | None = Field(None, description="of links that are capsules (m)")
     a: str = Field(WORLD, description="who holds the first link: world, nobody or the name of an entity")
     b: str = Field(NOBODY, description="whom the last link holds, likewise")
+
+
+class Placement(Words):
+    """Where a group is."""
+
+    position: Lengths = Field((0.0, 0.0, 0.0), description="position of its origin in the world (m)")
+    rotation: RotationWord = Field((0.0, 0.0, 0.0, 1.0), description="unit quaternion xyzw, group to world")
 
 
 class KeyframeWords(Words):

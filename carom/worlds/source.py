@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -9,6 +10,8 @@ from carom.systems.parameters import WordFault
 from carom.worlds.errors import Fault, Path, WordError, WorldError
 
 OPENING = "${"  # of an expression
+
+PART = re.compile(r"[.\[]")  # begins what follows the name of a group, or of what copies are made of
 
 Position = tuple[int, int]
 
@@ -29,7 +32,7 @@ class Source:
     faults: list[Fault] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     excused: set[str] = field(default_factory=set)  # names of entities that were reported and so do not exist
-    inherits: dict[Path, Path] = field(default_factory=dict)  # an entity or prefab to the prefab it extends
+    inherits: dict[Path, Path] = field(default_factory=dict)  # an entity, prefab or member to the prefab it extends
     computes: bool = False  # whether a text of it has an expression
     unusable: set[Path] = field(default_factory=set)  # where an expression was reported, so that nothing else is there
 
@@ -48,7 +51,8 @@ class Source:
 
     def report_value(self, path: Path, fault: WordError | WordFault) -> None:
         """Note a value that could not be read, unless it only names what was itself reported."""
-        if fault.name.partition("[")[0] not in self.excused:
+        ends = [match.start() for match in PART.finditer(fault.name)]
+        if not any(fault.name[:end] in self.excused for end in (*ends, len(fault.name))):
             self.report(path, fault.what, received=fault.received, accepted=fault.accepted, hint=fault.hint)
 
     def written(self, path: Path) -> bool:
@@ -63,8 +67,8 @@ class Source:
                 home, own = self.home(candidate)
                 if own in home.positions:
                     return candidate
-                base = self.inherits.get(candidate[:2])
-                candidate = None if base is None else (*base, *candidate[2:])
+                length = next((n for n in range(len(candidate), 1, -1) if candidate[:n] in self.inherits), 0)
+                candidate = (*self.inherits[candidate[:length]], *candidate[length:]) if length else None
         return ()
 
     def home(self, path: Path) -> tuple[Source, Path]:

@@ -16,13 +16,14 @@ from carom.systems.own_components import is_own
 from carom.worlds.errors import WordError
 from carom.worlds.functions import CALLS, PAIRS
 from carom.worlds.joint_terms import TURNS, WAYS, readings, spelled_out
-from carom.worlds.names import matching
+from carom.worlds.names import fitting, matching
 from carom.worlds.pictures import QUESTIONS, Pictures, check_drawn, read_camera
 
-NAME_PATTERN = r"[^\W\d][\w*-]*(?:(?:\.\w+)*\[[\d,*]*\])?"  # rain[3,0,1], and rope.joint[2] of a chain
-COLUMN_TERM = re.compile(rf"({NAME_PATTERN})\.([\w.]+)")
+NAME_PATTERN = r"[^\W\d][\w*-]*(?:\[[\d,*]*\]|\.[\w*][\w*-]*)*"  # rain[3,0,1], rope.joint[2], cart.wheel[0]
+COLUMN_TERM = re.compile(NAME_PATTERN)
+DOT = re.compile(r"\.(?=[\w.]+$)")  # before a column, as far as can be told without the names of entities
 CALL_TERM = re.compile(r"(\w+)\s*\(([^()]*)\)")
-TERM_PATTERN = rf"\w+\s*\([^()]*\)|{NAME_PATTERN}(?:\.[\w.]+)?"
+TERM_PATTERN = rf"\w+\s*\([^()]*\)|{NAME_PATTERN}"
 AXES = ("x", "y", "z", "w")
 FIRST_KINDS = (
     Transform,
@@ -56,15 +57,16 @@ def _rows(world: World, entities: list[Entity]) -> list[int]:
 def read_term(text: str, world: World) -> Term:
     """Return the term a text states; raise WordError for what the world does not have."""
     text = text.strip()
-    call, column = CALL_TERM.fullmatch(text), COLUMN_TERM.fullmatch(text)
+    call, dots = CALL_TERM.fullmatch(text), [dot.start() for dot in DOT.finditer(text)]
     if call is not None:
         return _call(text, call[1], re.findall(NAME_PATTERN, call[2]), world)
-    if column is None:
+    if COLUMN_TERM.fullmatch(text) is None or not dots:
         calls = [f"{name}(entity)" for name in CALLS] + [f"{name}(entity, entity)" for name in PAIRS]
         accepted = f"<entity>.<column>, {', '.join(calls[:-1])} or {calls[-1]}"
         raise WordError("is no value of the world", received=repr(text), accepted=accepted)
-    names = matching(column[1], world.names())
-    return _column(text, names, column[2].split("."), world)
+    there = world.names()
+    end = next((dot for dot in reversed(dots) if fitting(text[:dot], there)), dots[0])
+    return _column(text, end, matching(text[:end], there), world)
 
 
 def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
@@ -109,9 +111,10 @@ def _question(text: str, function: str, patterns: list[str], world: World) -> Te
     return Term(text, question.unit, 1, names, read, looks=True)
 
 
-def _column(text: str, names: list[str], steps: list[str], world: World) -> Term:
+def _column(text: str, end: int, names: list[str], world: World) -> Term:
+    """Return the term of a column, whose name follows those of entities from ``end`` on."""
     entities = [world.find(name) for name in names]
-    steps = spelled_out(world, entities[0], steps)
+    steps = spelled_out(world, entities[0], text[end + 1 :].split("."))
     part = steps.pop() if len(steps) > 1 and steps[-1] in (*AXES, *WAYS) else None
     kind = _kinds(world, entities[0], *steps)
     for entity in entities[1:]:
@@ -133,8 +136,8 @@ def _column(text: str, names: list[str], steps: list[str], world: World) -> Term
         values = np.asarray(getattr(world[kind], steps[-1])[rows], np.float64).reshape(len(rows), size)
         return values if axis is None else values[:, axis : axis + 1]
 
-    end = text[text.index(".", text.find("]") + 1) :]
-    return Term(text, unit, 1 if axis is not None else size, tuple(name + end for name in names), read)
+    whole = tuple(name + text[end:] for name in names)
+    return Term(text, unit, 1 if axis is not None else size, whole, read)
 
 
 def _kinds(world: World, entity: Entity, *steps: str) -> type[Component]:

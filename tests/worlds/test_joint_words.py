@@ -274,7 +274,7 @@ def test_the_schema_has_every_kind_with_unit_and_meaning() -> None:
     assert set(definitions["Joint"]["properties"]) == set(JOINTS)
     assert set(AXES) <= set(definitions["Generic"]["properties"])
     limits = definitions["Hinge"]["properties"]["limits"]
-    assert (limits["description"], limits["items"]["x-unit"]) == ("least and greatest angle (rad)", "rad")
+    assert (limits["description"], limits["anyOf"][0]["items"]["x-unit"]) == ("least and greatest angle (rad)", "rad")
     most = definitions["LinearMotor"]["properties"]["most"]
     assert (most["description"], most["x-unit"]) == ("greatest force (N)", "N")
     assert most["anyOf"][0]["exclusiveMinimum"] == 0.0

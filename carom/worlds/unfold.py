@@ -1,0 +1,113 @@
+"""Unfolding: entities and groups of a file into entities with words of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from carom.ecs.components.name import NAME_LENGTH
+from carom.ecs.errors import DeclarationError
+from carom.ecs.spatial import quaternion
+from carom.worlds.check import check, check_item, refuse_form
+from carom.worlds.errors import Path
+from carom.worlds.generators import GENERATORS, Setting
+from carom.worlds.groups import WORLD, Group
+from carom.worlds.prefab import MEMBERS, Prefabs
+from carom.worlds.schema import group_type
+from carom.worlds.source import Source
+from carom.worlds.variables import Variables
+
+MOST_MEMBERS = 100_000  # of all groups together: groups of groups of groups would fill the memory
+DEEPEST = 16
+
+
+def generators_of(source: Source, path: Path, words: Any) -> list[str]:
+    """Return the generator that words state, if any; report a second one."""
+    stated = [key for key in GENERATORS if getattr(words, key) is not None]
+    for key in stated[1:]:
+        source.report((*path, key), f"is stated beside {stated[0]}; state one of them")
+    return stated[:1]
+
+
+class Item(NamedTuple):
+    """An entity of a world, or a crowd of copies of one: None where it was reported; its name is the whole one."""
+
+    path: Path
+    name: str | None
+    words: Any
+    group: Group
+
+
+class Unfolding:
+    """Turns entities and groups of a file into entities with words of their own."""
+
+    def __init__(self, source: Source, prefabs: Prefabs, setting: Setting) -> None:
+        self.source, self.prefabs, self.setting = source, prefabs, setting
+        self.items: list[Item] = []
+        self.members = 0
+
+    def unfold(self, path: Path, words: Any, outer: Variables | None = None, group: Group = WORLD) -> None:
+        """Add an entity, or all of a group."""
+        words, outer = self.prefabs.extended(path, words, outer)
+        if isinstance(words, dict) and MEMBERS in words:
+            self._unfold_group(path, words, outer, group)
+            return
+        name = words.get("name") if isinstance(words, dict) else None
+        whole = group.prefix + name if isinstance(name, str) else None
+        if whole is not None and group is not WORLD and len(whole) > NAME_LENGTH:
+            self.source.report((*path, "name"), f"is too long in its group: {whole!r} exceeds {NAME_LENGTH} characters")
+            words = None
+        model = None if words is None else check_item(self.source, "entities", path, words)
+        self.items.append(Item(path, whole, model, group))
+
+    def _unfold_group(self, path: Path, words: dict[str, Any], outer: Variables, group: Group) -> None:
+        written = self.source.locate((*path, MEMBERS))
+        stated = words.pop(MEMBERS)
+        name = words.get("name")
+        if not isinstance(stated, list):
+            refuse_form(self.source, (*path, MEMBERS), stated, list)
+            stated = []
+        frame = check(self.source, group_type(), words, path)
+        if group.inside(written):
+            self.source.report(path, "is a group that holds itself")
+            frame = None
+        if frame is None or self._too_many(path, len(stated), group):
+            self.items.append(Item(path, name, None, group))  # whoever names it or its members has said it already
+            return
+        members = frozenset(str(item["name"]) for item in stated if isinstance(item, dict) and "name" in item)
+        for inner in self._copies(path, frame, Group("", members, written, outer=group)):
+            for number, member in enumerate(stated):
+                self.unfold((*written, number), member, outer, inner)
+
+    def _copies(self, path: Path, frame: Any, group: Group) -> Iterator[Group]:
+        """Yield a group with its name and pose, or one for each copy that a generator makes of it."""
+        outer = group.outer or WORLD
+        position, rotation = np.array([frame.transform.position]), np.array([frame.transform.rotation])
+        names = [frame.name]
+        for key in generators_of(self.source, path, frame):
+            try:
+                made = getattr(frame, key).copies(self.setting)
+            except DeclarationError as fault:
+                self.source.report((*path, key), str(fault).removeprefix(f"{key}: "))
+                return
+            position, names = position + made.positions, made.names(frame.name)
+            turns = np.array([quaternion.IDENTITY]) if made.rotations is None else made.rotations
+            rotation = np.broadcast_to(quaternion.multiply(turns, rotation), (len(names), 4))
+            if self._too_many(path, (len(names) - 1) * len(group.members), outer):
+                return
+        places, turned = outer.point(position), outer.turn(rotation)
+        for name, place, turn in zip(names, places, turned, strict=True):
+            yield replace(group, prefix=f"{outer.prefix}{name}.", position=place, rotation=turn)
+
+    def _too_many(self, path: Path, count: int, group: Group) -> bool:
+        self.members += count
+        if self.members > MOST_MEMBERS:
+            self.source.report(path, f"groups of a world may have {MOST_MEMBERS} entities in all")
+        elif group.depth == DEEPEST:
+            self.source.report(path, f"is a group in more than {DEEPEST} others, one in another")
+        else:
+            return False
+        return True
