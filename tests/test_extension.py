@@ -149,7 +149,7 @@ except Exception as fault:
 """
     done = run(["-c", code], site)
     assert done.returncode == 0, done.stderr
-    words = "name, transform, motion, body, keyframes, collider, material, visual, joint, tags, health, parent, spring"
+    words = "name, transform, motion, body, keyframes, collider, material, visual, emitter, joint, tags, health, parent, spring"
     assert done.stdout == f"an entity has no word 'helth'; its words are {words}\n"
 
 
@@ -179,7 +179,7 @@ def test_check_tells_what_is_wrong_with_its_words(site: Path, tmp_path: Path) ->
         f"{world}:6:24: entities.1.health.armor: must be a list of 3 numbers; received [1, 2]; accepted: numbers in m\n"
         f"{world}:6:51: entities.1.collider.egg.length: is missing; accepted: from end to end (m)\n"
         f"{world}:7:15: entities.2.helth: unknown key; received 'helth'; accepted: name, prefab, transform, motion, "
-        "body, keyframes, collider, material, visual, joint, tags, health, parent, spring, grid, chain, "
+        "body, keyframes, collider, material, visual, emitter, joint, tags, health, parent, spring, grid, chain, "
         "parameters, entities; did you mean 'health'?\n"
         f"{world}:9:15: forces.0.tether.stiffness: must be above 0 N/m; received 0\n"
     )
