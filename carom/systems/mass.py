@@ -68,7 +68,7 @@ def rigid_body(words: Mapping[str, Any], parts: Sequence[Part], dimensions: int 
         inverse_inertia=inverse,
         center_of_mass=words.get("center_of_mass", solid.center),
         freedom=freedom_of(words.get("locked", ()), dimensions),
-        principal_axes=NO_AXES if "inertia" in words else solid.axes,
+        principal_axes=words.get("principal_axes", NO_AXES if "inertia" in words else solid.axes),
     )
 
 

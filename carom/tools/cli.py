@@ -26,6 +26,7 @@ COMMANDS = (
     "schema",
     "warm",
     "decompose",
+    "import",
 )
 DONE, FAILED, WRONG, INTERRUPTED = 0, 1, 2, 130
 

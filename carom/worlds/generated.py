@@ -28,7 +28,7 @@ from carom.worlds.rotation import RotationWord
 from carom.worlds.units import parse_unit
 from carom.worlds.values import Flag, In, Text, Whole, Words, either, word_of
 
-SPECIAL = {"rotation": RotationWord, "color": ColorWord}
+SPECIAL = {"rotation": RotationWord, "principal_axes": RotationWord, "color": ColorWord}
 SETTING_UNITS = {"dt": "s", "gravity": "m/s2", "hit_speed": "m/s"}
 SETTING_BOUNDS: dict[str, dict[str, float]] = {"dt": {"above": 0.0}, "hit_speed": {"above": 0.0}}
 SETTING_WHOLE: dict[str, tuple[int, int | None]] = {

@@ -74,7 +74,7 @@ def document() -> type[Words]:
         "Body",
         "Makes an entity move.",
         type=(body_type, Field("dynamic", description="dynamic obeys forces, kinematic keeps its velocity")),
-        **column_fields(RigidBody, "mass", "inertia", "center_of_mass", *PASSED_ON),
+        **column_fields(RigidBody, "mass", "inertia", "principal_axes", "center_of_mass", *PASSED_ON),
         locked=(list[word_of(*AXES)], Field([], description="axes of the world it never moves along or turns about")),  # type: ignore[misc]
     )
     names = list[str]

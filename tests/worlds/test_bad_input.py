@@ -92,7 +92,7 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         (
             BALL + "body: {mas: 1}}\n",
             ("w.yaml:3:25: entities.0.body.mas: unknown key; received 'mas'; "
-            "accepted: type, mass, inertia, center_of_mass, gravity_scale, linear_damping, angular_damping, continuous, sleeps, locked; did you mean 'mass'?"),
+            "accepted: type, mass, inertia, principal_axes, center_of_mass, gravity_scale, linear_damping, angular_damping, continuous, sleeps, locked; did you mean 'mass'?"),
         ),
         (
             BALL + "collider: {shpere: {radius: 1}}}\n",

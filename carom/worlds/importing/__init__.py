@@ -1,0 +1,1 @@
+"""Models of other programs as world files: URDF, MJCF and glTF."""

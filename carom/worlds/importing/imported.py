@@ -1,0 +1,66 @@
+"""A model file to a world file and a report: the one way in for all formats."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from carom.systems.shapes.model_files import ENDINGS
+from carom.worlds.errors import Fault, WorldError
+from carom.worlds.importing.convention import Convention
+from carom.worlds.importing.document import Document
+from carom.worlds.importing.elements import Element, Reading, read_xml
+from carom.worlds.importing.files import ModelFiles
+from carom.worlds.importing.meshes import Meshes
+from carom.worlds.importing.report import Report
+from carom.worlds.importing.urdf import UP, read_urdf
+from carom.worlds.importing.writing import text_of
+
+TOUCHING = ("hull", "none")  # how meshes touch
+FORMATS = "a URDF <robot>"
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to read a model: None stands for what its format has."""
+
+    up: str | None = None
+    hand: str = "right"
+    unit: float = 1.0
+    root: Path | None = None
+    base: str = "auto"
+    meshes: str = "hull"
+
+
+@dataclass
+class Imported:
+    """The text of a world file, files to be written beside it by their names there, and what became of the model."""
+
+    text: str
+    report: Report
+    files: dict[Path, bytes] = field(default_factory=dict)
+
+
+def import_model(path: Path, options: Options, folder: Path, stem: str) -> Imported:
+    """Return a model as a world file that would lie in ``folder``, with meshes that it needs beside it.
+
+    Raises WorldError with everything that is wrong with the file.
+    """
+    reading, report = Reading(), Report()
+    root = _root_of(path)
+    files = ModelFiles(path.parent, options.root or path.parent, ENDINGS, reading, report)
+    model, up = read_urdf(root, files, reading, report, options.base), UP
+    convention = Convention(options.up or up, options.hand, options.unit)
+    convention.model(model)
+    meshes = Meshes(convention, folder, stem)
+    document = Document(model, meshes, options.meshes)
+    length = "" if options.unit == 1.0 else f", in units of {options.unit:g} m"
+    head = [f"From {path.name} by carom import; there {convention.up} is up, {convention.hand}-handed{length}."]
+    return Imported(text_of(head, document.words, document.origins), report, meshes.written)
+
+
+def _root_of(path: Path) -> Element:
+    root = read_xml(path, str(path))
+    if root.tag != "robot":
+        raise WorldError([Fault(root.file, root.line, root.column, "", "is no model", f"<{root.tag}>", FORMATS)])
+    return root

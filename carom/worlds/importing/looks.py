@@ -1,0 +1,79 @@
+"""Shapes and poses of a model in carom's axes as the words of colliders and visuals."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from carom.ecs.spatial import quaternion
+from carom.worlds.importing.meshes import AS_HULL, AS_MESH, AS_SEEN, Meshes
+from carom.worlds.importing.model import Piece, Pose
+from carom.worlds.importing.report import Report
+
+
+class Looks:
+    """Words of shapes; ``touching`` says how meshes touch: as their hull, or none of them."""
+
+    def __init__(self, meshes: Meshes, touching: str, report: Report) -> None:
+        self.meshes, self.touching, self.report = meshes, touching, report
+
+    def words(self, pieces: list[Piece], moves: bool) -> dict[str, Any]:
+        """Return collider, material and visual of a link with at most one shape to touch and one to be seen."""
+        words: dict[str, Any] = {}
+        for piece in pieces:
+            place = pose_words(piece.pose)
+            if piece.touches and (shape := self.touched(piece, moves)):
+                words["collider"] = shape | place | ({} if piece.layer == "default" else {"layer": piece.layer})
+                words |= {"material": piece.material} if piece.material else {}
+                words["visual"] = (
+                    {"color": piece.color} if piece.seen and piece.color else None if piece.seen else False
+                )
+                self.report.keep("collider")
+            elif piece.seen and (shape := self.shown(piece)):
+                words["visual"] = shape | place | ({"color": piece.color} if piece.color else {})
+                self.report.keep("visual")
+        return words
+
+    def touched(self, piece: Piece, moves: bool) -> dict[str, Any] | None:
+        """Return the shape of a collider: of meshes itself where it stands still and is closed, else its hull."""
+        if piece.kind != "mesh":
+            return {piece.kind: piece.words}
+        whose = piece.file.name if piece.file else ""
+        if self.touching == "none":
+            self.report.drop(piece.element, "a mesh to touch", whose)
+            return None
+        if not moves and not piece.words.get("hull") and not self.meshes.fault(piece, AS_MESH):
+            return {AS_MESH: self.meshes.words(piece)}
+        if fault := self.meshes.fault(piece, AS_HULL):
+            self.report.drop(piece.element, f"a mesh to touch, which has no hull: {fault.partition(': ')[2]}", whose)
+            return None
+        if not piece.words.get("hull"):
+            self.report.approximate(piece.element, "a mesh to touch as its hull", whose)
+        return {AS_HULL: self.meshes.words(piece)}
+
+    def shown(self, piece: Piece) -> dict[str, Any] | None:
+        """Return the shape of a visual."""
+        if piece.kind != "mesh":
+            return {piece.kind: piece.words}
+        if self.meshes.fault(piece, AS_SEEN):
+            whose = piece.file.name if piece.file else ""
+            self.report.drop(piece.element, "a mesh to see, which holds no triangles", whose)
+            return None
+        return {"mesh": self.meshes.words(piece)}
+
+
+def inside(outer: Pose, inner: Pose) -> Pose:
+    """Return a pose of the world in the frame of another."""
+    back = quaternion.conjugate(outer.rotation)
+    return Pose(quaternion.rotate(back, inner.position - outer.position), quaternion.multiply(back, inner.rotation))
+
+
+def pose_words(pose: Pose) -> dict[str, Any]:
+    """Return the words of a pose, without those that say nothing."""
+    words: dict[str, Any] = {}
+    if np.abs(pose.position).max() > 1e-12:
+        words["position"] = pose.position
+    if np.abs(pose.rotation[:3]).max() > 1e-12:
+        words["rotation"] = pose.rotation
+    return words
