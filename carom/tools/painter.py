@@ -11,6 +11,7 @@ from carom.tools.batch import Batch
 from carom.tools.cameras import Camera
 from carom.tools.coloring import Coloring
 from carom.tools.film import Picture
+from carom.tools.ghosts import copies, elsewhere, ghosts_of, legend_of_ghosts, path_lines
 from carom.tools.legends import legend_inset
 from carom.tools.look import Look
 from carom.tools.marks import Mark
@@ -23,6 +24,8 @@ from carom.tools.view import View
 
 if TYPE_CHECKING:
     from carom.tools.renderer import Renderer
+
+STIRRED = 1e-3  # of the distance to the target, about a pixel, and of a turn (rad): less is no motion
 
 
 class Painter:
@@ -61,8 +64,17 @@ class Painter:
         batches = self.batches(transform) if batches is None else batches
         views = [View(camera, renderer.width, renderer.height) for camera in cameras]
         marks = [self._marks(Seen(simulation, batches, transform, time, view)) for view in views]
+        batches = [*batches, *self.ghosts(transform, time, STIRRED * min(camera.distance for camera in cameras))]
         solid = [batch for batch in batches if batch.floor is not None] if self._wireframe else batches
         return renderer.pictures(solid, cameras, marks)
+
+    def ghosts(self, transform: Transform, time: float, blur: float) -> list[Batch]:
+        """Return the copies that the ghosts of the world are, but for those nearer than ``blur`` (m) to others."""
+        found: list[Batch] = []
+        for ghost, poses, rows in elsewhere(self._simulation.world, transform, time, blur):
+            if len(rows):
+                found += copies(ghost, self._scene.batches(poses), rows)
+        return found
 
     def watch(self) -> None:
         """See the world at the start and after every step."""
@@ -82,4 +94,6 @@ class Painter:
 
     def _marks(self, seen: Seen) -> Sequence[Mark]:
         marks = [mark for overlay in self._overlays for mark in overlay.marks(seen)]
-        return marks if self._coloring.legend is None else [legend_inset(self._coloring.legend, seen.view), *marks]
+        legends = [legend for legend in (self._coloring.legend, legend_of_ghosts(seen.world)) if legend is not None]
+        paths = [lines for ghost in ghosts_of(seen.world) if (lines := path_lines(ghost)) is not None]
+        return [*paths, *(legend_inset(legend, seen.view) for legend in legends), *marks]

@@ -73,7 +73,7 @@ class Summary:
             f"  energy        {self.energy_before:.6g} J before, {self.energy_after:.6g} J after",
             f"  overlap       {1e3 * self.deepest_overlap:.3g} mm at the deepest",
             f"  pairs         {self.pairs_by_fcl} answered by FCL, {self.pairs_by_kernels} by kernels",
-            f"  expectations  {held if self.judged else 'not asked of a run that is cut short'}",
+            f"  expectations  {held if self.judged else 'not asked of this run'}",
             *(f"    {failure}" for failure in self.failures),
         ]
         if self.points_refused:
@@ -96,20 +96,22 @@ class Summary:
         return "\n".join(lines)
 
 
-def run(loaded: LoadedWorld, observers: Sequence[Observer] = (), *, frames: int | None = None) -> Summary:
+def run(
+    loaded: LoadedWorld, observers: Sequence[Observer] = (), *, frames: int | None = None, judged: bool = True
+) -> Summary:
     """Run a world to its end, or for ``frames`` steps, with a progress bar when stderr is a terminal.
 
     Observers are begun in order, and all ended in whatever way the run ends; Ctrl-C ends it between two steps. What the
-    world expects is judged only of a whole run.
+    world expects is judged only of a whole run, and not where it is not to be ``judged``.
     """
     with np.errstate(all="ignore"):  # the step itself finds what is not finite, and says where
-        return _run(loaded, observers, frames)
+        return _run(loaded, observers, frames, judged and frames is None)
 
 
-def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None) -> Summary:
+def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None, judged: bool) -> Summary:
     simulation = loaded.simulation
     watch = Watch()
-    summary = Summary(loaded.name or loaded.path, bodies=simulation.world.count(RigidBody), judged=frames is None)
+    summary = Summary(loaded.name or loaded.path, bodies=simulation.world.count(RigidBody), judged=judged)
     summary.energy_before = total_energy(simulation.world)
     expectations = loaded.expectations if summary.judged else []
     simulation.observers = [watch, Witness(loaded), *expectations, *observers]

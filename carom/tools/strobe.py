@@ -16,11 +16,10 @@ from carom.tools.batch import Batch
 from carom.tools.film import save_png
 from carom.tools.filming import Shot
 from carom.tools.moments import Moments
-from carom.tools.painter import Painter
+from carom.tools.painter import STIRRED, Painter
 
 PER_INSTANCE = "poses", "colors", "ids"
 PALE, FADED = np.array((0.93, 0.94, 0.95)), 0.65  # the colour that the earliest instance is mixed with, and how far
-STIRRED = 1e-3  # of the distance to the target, about a pixel, and of a turn (rad): less is no motion
 
 
 class Strobe:

@@ -28,6 +28,7 @@ from carom.worlds.geometry import GeometryReader
 from carom.worlds.header import with_header
 from carom.worlds.include import Includes
 from carom.worlds.names import known, matching, whole_of_copy
+from carom.worlds.oracle import read_oracle
 from carom.worlds.pictures import Pictures
 from carom.worlds.populate import Populator
 from carom.worlds.reader import read
@@ -115,6 +116,9 @@ def load_text(
     populator.join_all()
     _forces(source, simulation, values["forces"])
     simulation.world.add(Pictures(values["cameras"]))
+    if values["oracle"]:
+        look_up = Variables(source, ("variables",), data.get("variables")).look_up
+        simulation.world.add(read_oracle(source, simulation.world, values["oracle"], look_up))
     expectations = read_expectations(source, simulation, values["expect"])
     check_entities(source, values["cameras"], simulation.world.names())
     if values["render"] is not None and values["render"].camera is not None:

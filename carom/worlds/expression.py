@@ -7,7 +7,8 @@ import re
 from collections.abc import Callable, Sequence
 
 from carom.ecs.errors import did_you_mean
-from carom.ecs.spatial.trigonometry import sine_cosine
+from carom.ecs.spatial.trigonometry import LARGEST_EXPONENT as LARGEST_EXPONENT_OF_E
+from carom.ecs.spatial.trigonometry import exponential, sine_cosine
 from carom.worlds.errors import WordError
 from carom.worlds.parsing import Parser
 from carom.worlds.quantity import NONE, Dimension, common, dimension_of, quantity
@@ -48,7 +49,7 @@ class _Arithmetic(Parser):
         r"|(?P<name>[^\W\d]\w*(?:\.\w+)*)|(?P<mark>\*\*|[-+*/(),]))"
     )
     KIND = "expression"
-    FORM = "numbers with units, variables, + - * / ** ( ), pi, sqrt, abs, min, max, round, sin, cos, tan"
+    FORM = "numbers with units, variables, + - * / ** ( ), pi, sqrt, abs, min, max, round, sin, cos, tan, exp"
 
     def __init__(self, text: str, look_up: LookUp) -> None:
         super().__init__(text)
@@ -174,6 +175,12 @@ def _round(given: Sequence[float]) -> float:
     return round(given[0])
 
 
+def _exponential(given: Sequence[float]) -> float:
+    if dimension_of(given[0]) != NONE or abs(given[0]) > LARGEST_EXPONENT_OF_E:
+        raise WordError("takes e to what is no plain number", accepted=f"up to {LARGEST_EXPONENT_OF_E:g}")
+    return quantity(exponential(float(given[0])), NONE)
+
+
 SEVERAL = ("min", "max")
 FUNCTIONS: dict[str, Callable[[Sequence[float]], float]] = {
     "sqrt": _root,
@@ -184,4 +191,5 @@ FUNCTIONS: dict[str, Callable[[Sequence[float]], float]] = {
     "sin": lambda given: quantity(_turn(given)[0], NONE),
     "cos": lambda given: quantity(_turn(given)[1], NONE),
     "tan": lambda given: _divided(*_turn(given)),
+    "exp": _exponential,
 }

@@ -11,6 +11,7 @@ from carom.ecs.column import Floats
 from carom.ecs.components.joint import Joint
 from carom.systems.energy import kinetic_energies
 from carom.systems.queries.space import Space
+from carom.worlds.oracle import errors
 
 
 def _speed(world: World, rows: list[int]) -> Floats:
@@ -47,5 +48,6 @@ CALLS: dict[str, tuple[str, str, Callable[[World, list[int]], Floats]]] = {  # u
     "spin": ("rad/s", "linear", _spin),
     "kinetic_energy": ("J", "linear", _energy),
     "load": ("N", "break_force", _load),
+    "error": ("m", "position", errors),
 }
 PAIRS: dict[str, tuple[str, Callable[[World, list[int]], float]]] = {"distance": ("m", _distance), "sees": ("1", _sees)}

@@ -9,6 +9,7 @@ from carom.ecs.errors import did_you_mean
 from carom.worlds.errors import WordError
 
 COPY = re.compile(r"\[[\d,]*\]$")
+NONE_DEFINED = "none is defined"
 
 
 def known(kind: str, name: str, choices: Iterable[str]) -> str:
@@ -16,7 +17,7 @@ def known(kind: str, name: str, choices: Iterable[str]) -> str:
     names = list(choices)
     if name not in names:
         listed = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
-        accepted, hint = listed or "none is defined", did_you_mean(name, names)
+        accepted, hint = listed or NONE_DEFINED, did_you_mean(name, names)
         raise WordError(f"unknown {kind}", received=repr(name), accepted=accepted, hint=hint, name=name)
     return name
 

@@ -37,6 +37,7 @@ from carom.worlds.sections import (
     Length,
     Lengths,
     OnEnter,
+    OracleWords,
     Placement,
     RecordingWords,
     Render,
@@ -138,6 +139,10 @@ def document() -> type[Words]:
         prefabs=(dict[Name, prefab], Field({}, description="prefabs by name")),  # type: ignore[valid-type]
         entities=(list[entity], Field([], description="what exists")),  # type: ignore[valid-type]
         forces=(list[force], Field([], description="force laws")),  # type: ignore[valid-type]
+        oracle=(
+            dict[str, either(word_of("ballistic", "kepler"), OracleWords)],  # type: ignore[misc]
+            Field({}, description="by names or patterns: where entities should be; kepler is round the well"),
+        ),
         cameras=(dict[Name, Camera], Field({}, description="cameras by name")),
         render=(Render, Field(None, description="pictures and films")),
         recording=(RecordingWords, Field(None, description="recordings")),

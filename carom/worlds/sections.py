@@ -120,6 +120,25 @@ class RecordingWords(Words):
     )
 
 
+class OracleWords(Words):
+    """Where an entity should be at every time: by formulas, or on a conic about another body."""
+
+    position: list[Any] | None = Field(
+        None, description="x, y and z (m), each a number or an expression of t and variables, such as 'v * t'"
+    )
+    kepler: str | None = Field(None, description="name of the one other body, which pulls by mutual_gravitation")
+
+    @model_validator(mode="after")
+    def check(self) -> OracleWords:
+        """Refuse several forms and none."""
+        forms = [key for key in ("position", "kepler") if getattr(self, key) is not None]
+        if len(forms) != 1:
+            raise WordError(
+                "must state one closed form", received=" and ".join(forms) or "none", accepted="position or kepler"
+            )
+        return self
+
+
 class Measure(Words):
     """What a value must be, and how near."""
 

@@ -17,6 +17,7 @@ from carom.worlds.errors import WordError
 from carom.worlds.functions import CALLS, PAIRS
 from carom.worlds.joint_terms import TURNS, WAYS, readings, spelled_out
 from carom.worlds.names import fitting, matching
+from carom.worlds.oracle import check_foretold
 from carom.worlds.pictures import QUESTIONS, Pictures, check_drawn, read_camera
 
 NAME_PATTERN = r"[^\W\d][\w*-]*(?:\[[\d,*]*\]|\.[\w*][\w*-]*)*"  # rain[3,0,1], rope.joint[2], cart.wheel[0]
@@ -88,6 +89,8 @@ def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
     entities = [world.find(name) for name in groups[0]]
     for entity in entities:
         _kinds(world, entity, column)
+        if function == "error":
+            check_foretold(world, entity)
     names = tuple(f"{function}({name})" for name in groups[0])
     return Term(text, unit, 1, names, lambda world: measure(world, _rows(world, entities))[:, None])
 

@@ -105,7 +105,7 @@ def test_a_run_cut_short_is_not_judged(world: Path, capsys: pytest.CaptureFixtur
     assert main(["run", str(world), "--frames", "5"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "Falling: 5 frames, 1 bodies"
-    assert lines[5] == "  expectations  not asked of a run that is cut short"
+    assert lines[5] == "  expectations  not asked of this run"
 
 
 def test_test_holds_worlds(world: Path, capsys: pytest.CaptureFixture[str]) -> None:

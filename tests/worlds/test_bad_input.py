@@ -267,7 +267,7 @@ expect:
         (
             "{always: __import__('os')}",
             ("always: unknown function; received \"__import__('os')\"; accepted: speed(entity), spin(entity), "
-            "kinetic_energy(entity), load(entity), distance(entity, entity), sees(entity, entity), visible(entity, camera), "
+            "kinetic_energy(entity), load(entity), error(entity), distance(entity, entity), sees(entity, entity), visible(entity, camera), "
             "visible_share(entity, camera), overlap(entity, entity, camera), left_of(entity, entity, camera), "
             "above(entity, entity, camera)"),
         ),

@@ -41,7 +41,7 @@ expect:
   - never: cue.position.y < ${-table.length}
   - {at: "${1 min / 60}", cue.position.x: {is: "${table.length / 4}", within: "${ball}"}}
 """
-FORM = "numbers with units, variables, + - * / ** ( ), pi, sqrt, abs, min, max, round, sin, cos, tan"
+FORM = "numbers with units, variables, + - * / ** ( ), pi, sqrt, abs, min, max, round, sin, cos, tan, exp"
 LENGTH = "a number in m, or one with a unit: m, mm, cm, km, um, in, ft, mi"
 
 
@@ -164,7 +164,7 @@ def test_units_follow_the_arithmetic() -> None:
         (
             "seed: ${sinus(1)}",
             ("w.yaml:2:1: seed: unknown function 'sinus'; received 'sinus(1)'; "
-            "accepted: sqrt, abs, min, max, round, sin, cos, tan; did you mean 'sin'?"),
+            "accepted: sqrt, abs, min, max, round, sin, cos, tan, exp; did you mean 'sin'?"),
         ),
         ("seed: ${abs(1, 2)}", "w.yaml:2:1: seed: abs takes one value; received 'abs(1, 2)'; accepted: abs(value)"),
         (

@@ -34,6 +34,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--camera", metavar="NAME", help="camera of film and picture; the world's 'main' by default")
     declare_look(parser)
+    parser.add_argument(
+        "--compare", metavar="SETTING=A,B", help="run several futures side by side, such as integrator=euler,verlet"
+    )
     parser.add_argument("--check", action="store_true", help="let every system touch only what it declares")
     parser.add_argument("--ledger", action="store_true", help="tell who gave energy and who took it")
     parser.add_argument(
@@ -46,7 +49,9 @@ def execute(arguments: argparse.Namespace) -> int:
     """Run the world and print the summary; 1 when an expectation or the audit failed or a number became infinite."""
     from carom.ecs.errors import NonFiniteError
     from carom.tools.auditing import Auditing
+    from carom.tools.comparing import load_futures
     from carom.tools.filming import Filming, photograph, shot_of
+    from carom.tools.futures import Futures
     from carom.tools.outputs import prepare_outputs
     from carom.tools.pace import Pace
     from carom.tools.painter import Painter
@@ -54,14 +59,17 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.tools.vantage import vantage_warnings
     from carom.worlds.builder import load_world
 
-    loaded = load_world(arguments.world, checked=arguments.check or None, **overrides(arguments))
+    stated = {"checked": arguments.check or None, **overrides(arguments)}
+    worlds = load_futures(arguments.world, arguments.compare, **stated) if arguments.compare else []
+    loaded = worlds[0][1] if worlds else load_world(arguments.world, **stated)
     print_warnings(loaded.warnings)
     shot = shot_of(loaded, arguments.camera, look(arguments, loaded))
     if arguments.film or arguments.picture:
         print_warnings(vantage_warnings(shot, loaded.simulation))
     pace = Pace(factor("--speed", arguments.speed)) if arguments.speed else None
+    futures = Futures([(name, world.simulation) for name, world in worlds]) if worlds else None
     records = Records(arguments, loaded, shot)
-    observers = [*records.observers]
+    observers = [*([futures] if futures else []), *records.observers]
     if arguments.film:
         observers.append(Filming(shot, arguments.film))
     prepare_outputs([arguments.record, arguments.film, arguments.picture])
@@ -76,7 +84,7 @@ def execute(arguments: argparse.Namespace) -> int:
     ledger = loaded.simulation.keep_ledger() if arguments.ledger else None
     simulation = loaded.simulation
     try:
-        summary = run(loaded, observers, frames=arguments.frames)
+        summary = run(loaded, observers, frames=arguments.frames, judged=futures is None)
     except KeyboardInterrupt:
         print(f"interrupted in frame {simulation.frame}{records.after_a_stop(simulation)}", file=sys.stderr)
         return 130
@@ -91,9 +99,12 @@ def execute(arguments: argparse.Namespace) -> int:
     summary.outputs = {kind: str(path) for kind, path in written.items() if path}
     if arguments.json:
         further = ({"audit": auditing.rows()} if arguments.audit else {}) | ({"ledger": ledger.since} if ledger else {})
+        further |= {"futures": list(map(dataclasses.asdict, futures.outcomes()))} if futures else {}
         print_json(dataclasses.asdict(summary) | further)
     else:
         print(summary.text())
+        if futures:
+            print(futures.text())
         if ledger:
             print(ledger.text())
         if arguments.audit:

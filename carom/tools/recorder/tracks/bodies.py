@@ -22,7 +22,7 @@ from carom.tools.recorder.surfaces import mesh_of
 from carom.tools.recorder.track import Track
 
 ROOT = "world"
-LOOK = ("shape", "size", "geometry", "position", "rotation", "color")
+LOOK = ("shape", "size", "geometry", "position", "rotation")
 
 
 class Poses(NamedTuple):
@@ -48,13 +48,15 @@ class Bodies(Track):
     """Poses of all visible entities, float32 as Rerun keeps them; a group's are written only where they changed.
 
     Bodies may come and go: which entity is which instance is written whenever it changes, and a group that loses its
-    last entity is cleared. Those ``alone`` are never drawn as one with others.
+    last entity is cleared. Those ``alone`` are never drawn as one with others. Groups stand below ``root``, and whose
+    they are is written as ``whose``.
     """
 
     key: ClassVar[str] = "bodies"
 
-    def __init__(self) -> None:
+    def __init__(self, root: str = ROOT, whose: str = "entity") -> None:
         self.alone = Choice(())
+        self._root, self._whose = root, whose
         self.groups: dict[bytes, Group] = {}
         self._paths: dict[bytes, str] = {}
         self._rows: Integers = np.zeros(0, np.int64)
@@ -71,10 +73,25 @@ class Bodies(Track):
             self.write(stream)
             self._regroup(world, stamp, stream)
         with world.faces(None):  # as within a system: else kernels are handed copies of columns
-            self._last, moved = self.noted(world[Transform].position, world[Transform].rotation, self._last)
+            poses = self.poses(simulation)
+            self._last, moved = self.noted(poses.position, poses.rotation, self._last)
         if moved.any():
             self._pending.append((stamp, self._last, moved))
             self.kept += self._last.places.nbytes + self._last.turns.nbytes
+
+    def poses(self, simulation: Simulation) -> Transform:
+        """Return the poses of all rows."""
+        return simulation.world[Transform]
+
+    def seen(self, world: World) -> Integers:
+        """Return the rows of all who are drawn."""
+        rows = world.row_numbers(Visual, Transform)
+        rows = rows[world[Visual].visible[rows]]
+        return rows if self.only is None else rows[self.only.rows(world)[rows]]
+
+    def colors(self, world: World, rows: Integers) -> Floats:
+        """Return the colours (n, 4) of some rows."""
+        return world[Visual].color[rows]
 
     def noted(self, position: Floats, rotation: Floats, before: Poses) -> tuple[Poses, Booleans]:
         """Return the poses of all who are seen, and in which groups anybody was elsewhere before."""
@@ -107,13 +124,10 @@ class Bodies(Track):
         import rerun
 
         visual = world[Visual]
-        rows = world.row_numbers(Visual, Transform)
-        rows = rows[visual.visible[rows]]
-        if self.only is not None:
-            rows = rows[self.only.rows(world)[rows]]
-        alone = self.alone.rows(world)
+        rows, alone = self.seen(world), self.alone.rows(world)
+        colors = self.colors(world, rows)
         columns = [np.asarray(getattr(visual, name)[rows], np.float64) for name in LOOK]
-        looks = np.column_stack(columns)
+        looks = np.column_stack([*columns, colors])
         members: dict[bytes, list[int]] = defaultdict(list)
         for row, look in zip(rows, looks, strict=True):
             own = world.name(int(world.entities(row)[()])).encode() if alone[row] else b""
@@ -126,9 +140,9 @@ class Bodies(Track):
             path = self._paths.setdefault(look, self._path(_shape(world, alike[0]), names[0], bool(alone[alike[0]])))
             if look not in before:
                 drawn = _shape(world, alike[0]), visual.position[alike[0]], visual.rotation[alike[0]]
-                stream.row(path, stamp, mesh_of(*drawn, visual.color[alike[0]]))
+                stream.row(path, stamp, mesh_of(*drawn, colors[np.searchsorted(rows, alike[0])]))
             if look not in before or not np.array_equal(before[look].entities, entities):
-                stream.row(path, stamp, rerun.AnyValues(entity=entities, name=names))
+                stream.row(path, stamp, rerun.AnyValues(**{self._whose: entities}, name=names))
             self.groups[look] = Group(path, entities, slice(at, at + len(alike)))
             at += len(alike)
         for look in before.keys() - members.keys():
@@ -142,11 +156,11 @@ class Bodies(Track):
         import rerun
 
         stem = name if alone else name.partition("[")[0] or shape.key
-        path = rerun.new_entity_path([ROOT, shape.key, stem])
+        path = rerun.new_entity_path([*self._root.split("/"), shape.key, stem])
         taken = set(self._paths.values())
         number = 2
         while path in taken:
-            path = rerun.new_entity_path([ROOT, shape.key, f"{stem}-{number}"])
+            path = rerun.new_entity_path([*self._root.split("/"), shape.key, f"{stem}-{number}"])
             number += 1
         return str(path)
 

@@ -1,0 +1,149 @@
+"""Futures: runs of one world side by side, each a ghost of its own colour in what shows the first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from carom.ecs import Transform, World
+from carom.ecs.column import Floats, Integers
+from carom.ecs.errors import NonFiniteError
+from carom.systems.bodies import dynamic_rows
+from carom.systems.energy import total_energy
+from carom.systems.interpolation import EarlierPoses
+from carom.systems.simulation import Simulation
+from carom.tools.coloring import FEW
+from carom.tools.ghosts import Ghost, Ghosts, owners
+from carom.tools.moments import ROUNDING as SAME_TIME
+from carom.worlds.oracle import Oracle, errors
+
+ROUNDING = 1e-12  # of an energy: a smaller change is none
+
+
+class Future(Ghost):
+    """One of several runs; the first of them is the one that is shown, and casts no ghost but its path."""
+
+    def __init__(self, name: str, number: int, simulation: Simulation) -> None:
+        self.name, self.simulation, self.first = name, simulation, number == 0
+        red, green, blue = FEW[number % len(FEW)].tolist()
+        self.color = red, green, blue
+        self.energy_before = total_energy(simulation.world)
+        self.ended: NonFiniteError | None = None
+        self._earlier = EarlierPoses()
+        self._path: list[Floats] = []
+
+    def follow(self, shown: World, time: float) -> None:
+        """Take the steps that lead to a time (s), and note where bodies are then; one that explodes stays behind."""
+        simulation = self.simulation
+        while not self.first and self.ended is None and simulation.time < time - SAME_TIME:
+            self._earlier.keep(simulation.world)
+            try:
+                simulation.step()
+            except NonFiniteError as fault:
+                self.ended = fault
+        self._path.append(self.places(shown, time)[dynamic_rows(shown)])
+
+    def rows(self, world: World) -> Integers:
+        """Return the bodies that obey forces, and what belongs to them."""
+        moving = np.isin(owners(world), dynamic_rows(world))
+        return np.nonzero(moving & (not self.first))[0]
+
+    def poses(self, world: World, shown: Transform, time: float) -> Transform:
+        """Return the poses of this run, by the rows of the world that is drawn; who is not here is nowhere."""
+        poses = Transform()
+        poses.position, poses.rotation = np.full((world.used(), 3), np.nan), shown.rotation[: world.used()].copy()
+        if self.ended is None:
+            own, other = self._then(time), self.simulation.world
+            handles = world.handles()
+            here = np.nonzero(world.table(Transform).present[: world.used()] & other.slots.live(handles))[0]
+            there = other.slots.rows(handles[here])
+            poses.position[here], poses.rotation[here] = own.position[there], own.rotation[there]
+        return poses
+
+    def places(self, world: World, time: float) -> Floats:
+        """Return where all rows of the world that is drawn are in this run (n, 3), m."""
+        return self.poses(world, world[Transform], time).position
+
+    def path(self, since: int = 0) -> Floats:
+        """Return where the bodies that obey forces have been, from a time on."""
+        return np.array(self._path[since:])
+
+    def _then(self, time: float) -> Transform:
+        simulation = self.simulation
+        before = simulation.time - simulation.settings.dt
+        if self.first or not before < time < simulation.time - SAME_TIME:
+            return simulation.world[Transform]
+        return self._earlier.between(simulation.world, (time - before) / simulation.settings.dt)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a future: its energies (J), how far who is from the first (m), and from the oracle."""
+
+    name: str
+    energy_before: float
+    energy_after: float
+    difference: float
+    whose: str
+    error: float | None
+
+
+class Futures:
+    """The observer that lets further futures follow the first; it comes before all who look at them."""
+
+    def __init__(self, named: Sequence[tuple[str, Simulation]]) -> None:
+        self.futures = [Future(name, number, simulation) for number, (name, simulation) in enumerate(named)]
+        self.futures[0].simulation.world.add(Ghosts(self.futures))
+
+    def begin(self, simulation: Simulation) -> None:
+        """Note the start."""
+        self.observe(simulation)
+
+    def observe(self, simulation: Simulation) -> None:
+        """Let the others come as far."""
+        for future in self.futures:
+            future.follow(simulation.world, simulation.time)
+
+    def end(self, simulation: Simulation) -> None:
+        """Have nothing to finish."""
+
+    def outcomes(self) -> list[Outcome]:
+        """Return what became of each, the first against itself."""
+        return [self._outcome(future) for future in self.futures]
+
+    def text(self) -> str:
+        """Return a table for people."""
+        first = self.futures[0].name
+        rows = [("future", "energy", "since the start", f"farthest from {first}", "from the oracle")]
+        for future, outcome in zip(self.futures, self.outcomes(), strict=True):
+            if future.ended is not None:
+                rows.append((future.name, str(future.ended).split(";")[0], "", "", ""))
+                continue
+            change = outcome.energy_after - outcome.energy_before
+            change = 0.0 if abs(change) < ROUNDING * abs(outcome.energy_after) else change
+            far = f"{outcome.difference:.4g} m, {outcome.whose}" if outcome.whose else "-"
+            off = "" if outcome.error is None else f"{outcome.error:.4g} m"
+            rows.append((future.name, f"{outcome.energy_after:.6g} J", f"{change:+.3g} J", far, off))
+        kept = [column for column in range(5) if any(row[column] for row in rows[1:])]
+        widths = [max(len(row[column]) for row in rows if row[2] or row is rows[0]) for column in range(5)]
+        return "\n".join("  ".join(row[column].ljust(widths[column]) for column in kept).rstrip() for row in rows)
+
+    def _outcome(self, future: Future) -> Outcome:
+        shown, world = self.futures[0].simulation, future.simulation.world
+        rows = dynamic_rows(shown.world)
+        away = np.linalg.norm(
+            future.places(shown.world, shown.time)[rows] - shown.world[Transform].position[rows], axis=1
+        )
+        apart = not future.first and future.ended is None and len(rows) > 0
+        worst = int(np.nanargmax(away)) if apart and np.isfinite(away).any() else -1
+        foretold = world[Oracle].rows(world).tolist() if Oracle in world else []
+        return Outcome(
+            future.name,
+            future.energy_before,
+            total_energy(world),
+            float(away[worst]) if worst >= 0 else 0.0,
+            shown.world.name(shown.world.entity(int(rows[worst]))) if worst >= 0 else "",
+            float(errors(world, foretold).max()) if foretold else None,
+        )
