@@ -13,6 +13,7 @@ from carom.ecs.column import Booleans, Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.impact import Impact
 from carom.systems.energy import kinetic_energy, potential_energies
+from carom.systems.events import Events
 from carom.systems.kernels.accounting import ARC, BENT, STRAYED, SWEPT, TURNED
 from carom.systems.kernels.lanes import aligned
 from carom.systems.ledger import KINDS, Dissipation, Ledger
@@ -63,7 +64,12 @@ class Bookkeeping:
         ledger.entries.clear()
         self._began = total if self._energy is None else self._energy
         self._book("edits", total - self._began)
-        ledger.parts = []
+        ledger.parts, self._stood = [], total
+
+    def _wake(self) -> None:
+        """What events have done, right away and by commands."""
+        if self._world[Events].due:
+            self._book("events", self._total() - self._stood)
 
     def _begin_substep(self) -> None:
         world = self._world
@@ -195,6 +201,7 @@ class Bookkeeping:
 
 STAGES: dict[str, Callable[[Bookkeeping], None]] = {
     "begin_step": Bookkeeping._begin,
+    "wake_disturbed": Bookkeeping._wake,
     "begin_substep": Bookkeeping._begin_substep,
     "predict": Bookkeeping._predict,
     "sum_forces": Bookkeeping._sum_forces,

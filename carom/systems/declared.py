@@ -28,6 +28,11 @@ def whom(*, doc: str) -> Any:
     return dataclasses.field(default=None, metadata={"entity": True, "doc": doc})
 
 
+def called(*, doc: str) -> Any:
+    """Declare names of entities, or patterns that mean several."""
+    return dataclasses.field(metadata={"names": True, "doc": doc})
+
+
 def bounds(*, unit: str, doc: str) -> Any:
     """Declare a lower and an upper bound, none where they are left out."""
     return dataclasses.field(default=None, metadata={"unit": unit, "doc": doc, "width": 2, "ordered": True})
@@ -112,6 +117,11 @@ def _read(field: dataclasses.Field[Any], value: Any, steps: Steps, faults: list[
         wrong = number_fault({**declared, "width": None}, value)
         faults += [WordFault(steps, wrong)] if wrong else []
         return (value, value)
+    if "names" in declared:
+        if not isinstance(value, (list, tuple)) or not all(isinstance(name, str) for name in value):
+            faults.append(WordFault(steps, "must be a list of names", repr(value)))
+            return value
+        return tuple(value)
     if "unit" not in declared:
         if not isinstance(value, bool):
             faults.append(WordFault(steps, "must be true or false", repr(value)))

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from carom.ecs.component import Component, Record, Resource
 from carom.ecs.writes import Written
 from carom.systems.awake import Awake
+from carom.systems.events import Events
 from carom.systems.simulation import Simulation
 
 LIVES, RESTORED = "who lives", "a snapshot restored"
@@ -50,10 +51,11 @@ class EditWatch:
         awake, retelling = simulation.world[Awake], simulation.world.resources.get(Retelling)
         if isinstance(retelling, Retelling) and retelling.done is not None:
             return retelling.done
-        done = sorted(kind.__name__ for kind in awake.edited - self._own)
+        events = simulation.world[Events]
+        done = sorted(kind.__name__ for kind in awake.edited - self._own - events.edited)
         if awake.restored != self._counts[1]:
             done.append(RESTORED)
-        elif awake.structure != self._counts[0]:
+        elif events.structure != self._counts[0]:
             done.append(LIVES)
         self.begin(simulation)
         return Done(done, awake.written)

@@ -17,6 +17,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.awake import Awake
 from carom.systems.bodies import centers_of_mass, dynamic_rows
 from carom.systems.ends import ends_there
+from carom.systems.events import Events
 from carom.systems.forces.law import Forces, Law
 from carom.systems.progress import Progress
 from carom.systems.settings import Random, time_of
@@ -39,11 +40,11 @@ def loads(simulation: Simulation) -> Loads:
     """Return the forces on all dynamic bodies that are not zero.
 
     Those of laws, own systems and from outside act on centres of mass unless a law says where, as poses and velocities
-    are now; normal forces and friction act where colliders touch, those of joints at the anchor of b: impulses of the
-    last step over its time.
+    are now; normal forces and friction act where colliders touch, those of joints at the anchor of b, those of events
+    and explosions where they go past the centre of mass: impulses of the last step over its time.
     """
-    world = simulation.world
-    found = [*applied(simulation), *contacts(world, simulation.settings.dt), *joints(world)]
+    world, dt = simulation.world, simulation.settings.dt
+    found = [*applied(simulation), *pushed(world, dt), *contacts(world, dt), *joints(world)]
     dynamic = np.zeros(world.used() + 1, np.bool_)  # the last is for -1, what has no body
     dynamic[dynamic_rows(world)] = True
     kept = [dynamic[part.body] & part.force.any(axis=1) for part in found]
@@ -98,6 +99,11 @@ def stated_points(world: World, forces: Forces) -> dict[str, Floats]:
 def name_of(key: str) -> str:
     """Return what the force of a system or law is called."""
     return key.removeprefix(APPLY).replace("_", " ")
+
+
+def pushed(world: World, dt: float) -> list[Loads]:
+    """Return the mean forces over the last step of the impulses that events and calls gave in it."""
+    return [Loads(one.rows, one.point, one.impulse / dt, [one.name] * len(one.rows)) for one in world[Events].pushed]
 
 
 def contacts(world: World, dt: float) -> list[Loads]:

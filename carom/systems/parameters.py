@@ -25,7 +25,7 @@ class WordFault(NamedTuple):
         parts += [f"received {self.received}"] if self.received else []
         parts += [f"accepted: {self.accepted}"] if self.accepted else []
         parts += [self.hint] if self.hint else []
-        return f"{'.'.join(map(str, self.steps))}: {'; '.join(parts)}"
+        return ": ".join(filter(None, (".".join(map(str, self.steps)), "; ".join(parts))))
 
 
 def parameter(

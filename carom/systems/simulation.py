@@ -32,12 +32,15 @@ from carom.systems.bookkeeping import Bookkeeping
 from carom.systems.clock import Clock
 from carom.systems.compound import StatedBodies
 from carom.systems.continuous import Fast
+from carom.systems.declared import read_words
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
+from carom.systems.events import Events, read_event
+from carom.systems.explosion import Explosion, blast
 from carom.systems.finish import find_not_finite
 from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
@@ -54,6 +57,7 @@ from carom.systems.particles.fields import Fields
 from carom.systems.particles.newborn import Newborn
 from carom.systems.places import extended
 from carom.systems.progress import Progress
+from carom.systems.pushes import Pushes, push
 from carom.systems.queries.asked import Asked
 from carom.systems.queries.scene import Scene
 from carom.systems.queries.space import Space
@@ -86,11 +90,12 @@ class Simulation:
         self.space = Space(self.world)
         self._earlier = EarlierPoses()
         self.hearers: list[Callable[[System], None]] = []
-        made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies(), Forces(), Commands())
+        made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies())
+        stated = (Forces(), Events(), Commands())
         packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
         solving = (Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger())
         caches = (*packed, *solving, Threads(), Scene(), Asked(), Newborn(), Fields())
-        for resource in (self.settings, *made, Progress(), Answered(), *caches):
+        for resource in (self.settings, *made, *stated, Progress(), Answered(), *caches):
             self.world.add(resource)
 
     # Building: the words are those of world files, numbers are SI.
@@ -148,6 +153,33 @@ class Simulation:
         self.schedule = self.schedule.insert(made, after="apply_quadratic_drag")
         self.world[Fields].functions.append(made)
         return made
+
+    def event(self, at: float, **action: Any) -> None:
+        """Let something happen at a time (s): ``event(1.5, release=["pin"])``, in the words of world files.
+
+        ``impulse``, ``explode``, ``release``, ``despawn`` or ``spawn``, done at the start of the step that contains the
+        time. Raises DeclarationError.
+        """
+        faults: list[WordFault] = []
+        event = read_event(self.world, at, action, faults)
+        if event is None or faults:
+            raise DeclarationError("; ".join(map(str, faults)))
+        self.world[Events].entries.append(event)
+
+    def explode(self, **words: Any) -> Pushes:
+        """Let momentum go out from a point now: ``explode(position=(0, 1, 0), impulse=50)``; return what bodies take.
+
+        ``blocked`` is whether walls and all that no force moves keep it off; see `Explosion`. Raises DeclarationError.
+        """
+        faults: list[WordFault] = []
+        explosion = read_words(Explosion, words, (), faults)
+        if explosion is None:
+            raise DeclarationError("; ".join(map(str, faults)))
+        pushes = blast(self.world, explosion)
+        with self.world.edit(Motion), self.world.faces(None):
+            push(self.world, pushes)
+        self.world[Events].given.append(pushes)
+        return pushes
 
     def wake(self, *entities: int | str) -> None:
         """Wake bodies (handles or names) that sleep, with their islands, before the next step."""

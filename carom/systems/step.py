@@ -8,6 +8,7 @@ from carom.ecs import Phase, Schedule, World
 from carom.systems.awake import stirs
 from carom.systems.detection.bounds import place_colliders
 from carom.systems.detection.contacts import find_contacts
+from carom.systems.events import carry_out_events
 from carom.systems.finish import check_finite, clear_inputs
 from carom.systems.forces.attraction import apply_attraction
 from carom.systems.forces.buoyancy import apply_buoyancy
@@ -46,8 +47,12 @@ def substeps(world: World) -> int:
 
 STEP = Schedule(
     Phase(
-        "begin",
+        "events",
         begin_step,
+        carry_out_events,  # what the world states for this time
+    ),
+    Phase(
+        "begin",
         note_emitters,  # where sources of particles are
         wake_disturbed,  # who was changed from outside; where nobody is awake, the step ends here
     ),

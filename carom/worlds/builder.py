@@ -19,6 +19,7 @@ from carom.worlds import library
 from carom.worlds.camera import Camera, check_entities
 from carom.worlds.embedding import content_of
 from carom.worlds.errors import WordError
+from carom.worlds.events import add_events, with_prefabs
 from carom.worlds.expect import Expectation, read_expectations
 from carom.worlds.files import WorldFiles
 from carom.worlds.filling import checked_sections, filled, unfolded
@@ -99,7 +100,7 @@ def load_text(
     with_header(source)
     Includes(source, files_of_world).take(source, (Path(name).name,))
     data, prefabs = filled(source, source.data)
-    values = checked_sections(source, data)
+    values = checked_sections(source, with_prefabs(prefabs, data))
     simulation = _simulation(source, values, checked, options)
     setting = Setting(UP[values["up"]].index(1.0), simulation.world[Random].generator)
     items = unfolded(source, prefabs, data.get("entities", []), setting)
@@ -116,6 +117,7 @@ def load_text(
         source.report(("entities",), str(fault))
     populator.join_all()
     _forces(source, simulation, values["forces"])
+    add_events(source, populator, values["events"])
     simulation.world.add(Pictures(values["cameras"]))
     if values["oracle"]:
         look_up = Variables(source, ("variables",), source.data.get("variables")).look_up

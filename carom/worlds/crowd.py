@@ -47,6 +47,12 @@ class Some(NamedTuple):
 
 def add_together(simulation: Simulation, crowd: Sequence[Some]) -> Integers:
     """Add entities that can be added at once; return their handles. Raises DeclarationError."""
+    positions, names, words = together(crowd)
+    return simulation.add_many(positions, names=names, **words)
+
+
+def together(crowd: Sequence[Some]) -> tuple[Floats, list[str] | None, dict[str, Any]]:
+    """Return positions (n, 3), m, names and words of entities that can be added at once."""
     first, words = crowd[0], dict(crowd[0].words)
     counts = [len(some.positions) for some in crowd]
     if first.rotations is not None:
@@ -56,7 +62,7 @@ def add_together(simulation: Simulation, crowd: Sequence[Some]) -> Integers:
     if first.motion is not None:
         words["motion"] = {key: _spread([(some.motion or {})[key] for some in crowd], counts) for key in first.motion}
     names = None if first.names is None else [name for some in crowd for name in some.names or ()]
-    return simulation.add_many(np.concatenate([some.positions for some in crowd]), names=names, **words)
+    return np.concatenate([some.positions for some in crowd]), names, words
 
 
 def _spread(values: Sequence[Any], counts: Sequence[int]) -> Floats:

@@ -13,6 +13,7 @@ from carom.ecs import Combine, Material
 from carom.ecs.column import Column
 from carom.ecs.component import Component
 from carom.ecs.errors import DeclarationError
+from carom.systems.actions import ACTIONS, Spawn
 from carom.systems.assembly import COMBINE_QUANTITIES
 from carom.systems.extensions import origin
 from carom.systems.forces import LAWS
@@ -143,6 +144,8 @@ def _field_type(hint: Any, field: dataclasses.Field[Any]) -> Any:
     declared = field.metadata
     if "entity" in declared:
         return str
+    if "names" in declared:
+        return list[str]
     if "part" in declared:
         model = parameter_model(declared["part"])
         return either(word_of(*declared["words"]), model) if declared["words"] else model
@@ -182,6 +185,17 @@ def joint_fields() -> Fields:
     """Return one optional field per kind of joint."""
     kinds = sorted(JOINTS.items())
     return {key: (parameter_model(kind), Field(None, description=_first_line(kind))) for key, kind in kinds}
+
+
+def action_fields() -> Fields:
+    """Return one optional field per action of events but `Spawn`; one that takes names only is a list of them."""
+    fields: Fields = {}
+    for key, kind in ACTIONS.items():
+        if kind is not Spawn:
+            names_only = [field.name for field in dataclasses.fields(kind)] == ["entities"]  # type: ignore[arg-type]
+            model: Any = list[str] if names_only else parameter_model(kind)
+            fields[key] = (model, Field(None, description=_first_line(kind)))
+    return fields
 
 
 def law_fields() -> Fields:

@@ -18,6 +18,7 @@ from carom.systems.mass import PASSED_ON
 from carom.systems.particles.words import EmitterWords
 from carom.worlds.camera import Camera
 from carom.worlds.generated import (
+    action_fields,
     column_fields,
     generator_fields,
     joint_fields,
@@ -42,6 +43,7 @@ from carom.worlds.sections import (
     RecordingWords,
     Render,
     Run,
+    Time,
     TimeWindow,
 )
 from carom.worlds.values import Flag, Name, Words, either, word_of
@@ -51,6 +53,7 @@ Variable = Annotated[
     WithJsonSchema({"type": ["number", "string", "boolean", "array", "object"]}),
 ]
 Member = Annotated[Any, WithJsonSchema({"type": "object", "x-entity": True})]
+SPAWNED = ("prefab", "transform", "motion", "body", "collider", "material", "visual", "tags")  # who comes later
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
@@ -122,6 +125,14 @@ def document() -> type[Words]:
         layers=(names, Field(None, description="layers of the colliders of whom it acts on")),
         during=(TimeWindow, Field(None, description="when it acts: [0.5 s, 2 s], or [0.5 s, end] for good")),
     )  # fmt: skip
+    brought: dict[str, Any] = {"name": named, **{key: words[key] for key in SPAWNED}, **copying}
+    spawn = _model("Spawn", "Who comes into the world: one entity, or many copies of it.", **brought)
+    event = _model(
+        "Event", "What is done at a time: exactly one action.",
+        at=(Time, Field(description="simulated time; done at the start of the step that contains it (s)")),
+        **action_fields(),
+        spawn=(spawn, Field(None, description="Brings an entity, or several that are alike, into the world.")),
+    )  # fmt: skip
     step = _model("Step", "How time advances.", **setting_fields(in_step=True))
     return _model(
         "World", "A carom world.",
@@ -143,6 +154,7 @@ def document() -> type[Words]:
             dict[str, either(word_of("ballistic", "kepler"), OracleWords)],  # type: ignore[misc]
             Field({}, description="by names or patterns: where entities should be; kepler is round the well"),
         ),
+        events=(list[event], Field([], description="what is done at stated times")),  # type: ignore[valid-type]
         cameras=(dict[Name, Camera], Field({}, description="cameras by name")),
         render=(Render, Field(None, description="pictures and films")),
         recording=(RecordingWords, Field(None, description="recordings")),

@@ -1,0 +1,106 @@
+"""Events: what a world is to do at stated times."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import floor, isfinite
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from carom.ecs import Motion, RigidBody, World, system
+from carom.ecs.commands import Commands
+from carom.ecs.component import Record, Resource
+from carom.ecs.components.joint import Joint
+from carom.ecs.components.name import Name
+from carom.ecs.components.path import Path
+from carom.ecs.components.spring import Spring
+from carom.ecs.errors import DeclarationError
+from carom.systems.actions import ACTIONS, Action, Spawn
+from carom.systems.assembly import bundles_of
+from carom.systems.awake import Awake
+from carom.systems.declared import read_words
+from carom.systems.parameters import WordFault
+from carom.systems.pushes import Pushes, push
+from carom.systems.queries.space import ASKED
+from carom.systems.settings import Settings
+
+
+class Event(NamedTuple):
+    """An action at a time (s)."""
+
+    at: float
+    action: Action
+
+    def frame(self, dt: float) -> int:
+        """Return the frame whose step contains the time; a time between two steps is the start of the later one."""
+        return 1 + floor(self.at / dt * (1.0 + 1e-12) + 1e-9)
+
+
+class Events(Resource):
+    """What happens when.
+
+    ``due`` is what happens in this step and ``pushed`` its impulses, ``given`` those since it from outside;
+    ``structure`` and ``edited`` tell what the world had seen before, and what events opened.
+    """
+
+    def __init__(self) -> None:
+        self.entries: list[Event] = []
+        self.due: list[Action] = []
+        self.pushed: list[Pushes] = []
+        self.given: list[Pushes] = []
+        self.edited: set[type[Record]] = set()
+        self.structure = -1
+
+
+@system(
+    reads=(*ASKED, Name, RigidBody, Joint, Spring, Path, Settings),
+    writes=(Events, Motion, Commands, Awake),
+)
+def carry_out_events(world: World, dt: float) -> None:
+    """Do what is due in this step, in the order stated: impulses at once, the rest by commands."""
+    events = world[Events]
+    events.pushed, events.given, events.structure = events.given, [], world.structure
+    events.edited = set()
+    events.due = [event.action for event in events.entries if event.frame(dt) == world.frame]
+    for action in events.due:
+        pushes = action.pushes(world)
+        if pushes is not None:
+            push(world, pushes)
+            events.pushed.append(pushes)
+            world[Awake].asked += world.entities(pushes.rows).tolist()
+        action.command(world)
+    if events.due:
+        before = set(world.edited)
+        world[Commands].ask(lambda world: events.edited.update(world.edited - before))
+
+
+def read_event(world: World, at: float, words: Mapping[str, Any], faults: list[WordFault]) -> Event | None:
+    """Return the event that words such as ``{"release": ["pin"]}`` state; None where anything is wrong with them.
+
+    Everything wrong is added to ``faults``. What it names need not be there yet.
+    """
+    if len(words) != 1 or not words.keys() <= ACTIONS.keys():
+        faults.append(WordFault((), "must state one action", ", ".join(words) or "none", ", ".join(ACTIONS)))
+        return None
+    ((key, stated),) = words.items()
+    if key == Spawn.key:
+        action: Action | None = _spawned(world, stated, faults)
+    else:
+        stated = {"entities": stated} if isinstance(stated, (list, tuple)) else stated
+        action = read_words(ACTIONS[key], stated, (key,), faults)
+    if not (isfinite(at) and at >= 0.0):
+        faults.append(WordFault(("at",), f"must be finite and at least 0 s, received {at:g}"))
+    return None if action is None else Event(at, action)
+
+
+def _spawned(world: World, words: Mapping[str, Any], faults: list[WordFault]) -> Spawn | None:
+    """Return the action that brings an entity of these words; they are those of `add_entity`."""
+    further = dict(words)
+    name, transform = further.pop("name", None), further.get("transform", {})
+    place = np.array(transform.get("position", (0.0, 0.0, 0.0)), np.float64).reshape(1, 3)
+    try:
+        return Spawn(place, None if name is None else (name,), tuple(bundles_of(world, **further)))
+    except DeclarationError as fault:
+        faults.append(WordFault((Spawn.key,), str(fault)))
+        return None
