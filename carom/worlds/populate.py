@@ -139,12 +139,15 @@ class Populator:
         if collider is None:
             return self.setting
         bounds = shape_of(collider).bounds()
+        if not np.isfinite(bounds.half).all():
+            return self.setting
         turn = group.back(rotation)
         own = collider.get("rotation", quaternion.IDENTITY)
         center = np.asarray(collider.get("position", (0.0, 0.0, 0.0))) + quaternion.rotate(own, bounds.center)
         turned = np.abs(quaternion.matrix(quaternion.multiply(turn, own)))
-        half = (turned * np.asarray(bounds.half)).sum(axis=1) + bounds.radius
-        return self.setting._replace(half=half, center=quaternion.rotate(turn, center))
+        half = (turned * np.asarray(bounds.half)).sum(axis=1) + bounds.radius + np.abs(quaternion.rotate(turn, center))
+        reach = float(np.linalg.norm(center) + np.linalg.norm(bounds.half)) + bounds.radius
+        return self.setting._replace(half=half, reach=reach)
 
     def spawn(self, crowd: list[Some]) -> None:
         """Add entities that are alike; where they are refused, one by one, to report whom."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from decimal import Decimal
 from fractions import Fraction
 from functools import cache, lru_cache
 from typing import Any, NamedTuple
@@ -106,11 +107,12 @@ def _parse(text: str, unit: str) -> float:
 
 
 def _exact(text: str, over: str, under: str | None, factor: Fraction | int) -> float:
-    divisor = Fraction(under or 1)
+    dividend, share = Decimal(over).as_integer_ratio()
+    divisor, parts = Decimal(under or 1).as_integer_ratio()
     if not divisor:
         raise WordError("divides by zero", received=shown(text))
-    try:
-        return float(Fraction(over) / divisor * factor)
+    try:  # a quotient of whole numbers is the float nearest to it
+        return (dividend * parts * factor.numerator) / (share * divisor * factor.denominator)
     except OverflowError:
         return math.inf
 

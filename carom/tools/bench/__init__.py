@@ -14,4 +14,5 @@ BENCHES = {  # name on the command line: module
     "fields": "fields",
     "render": "render",
     "record": "record",
+    "worlds": "worlds",
 }

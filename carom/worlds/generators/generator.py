@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import DeclarationError
+from carom.ecs.spatial import angles
 from carom.systems.registry import enter
 from carom.worlds.values import Words
 
@@ -20,14 +21,14 @@ GENERATORS: dict[str, type[Generator]] = {}
 class Setting(NamedTuple):
     """What copies are made in: which axis is up, the seeded draws of the world, and how large one copy is.
 
-    It lies within a box of half extents ``half`` (3,) about ``center`` (3,), m, from its origin, along the axes of the
-    world; None of what has no collider.
+    It lies within a box of half extents ``half`` (3,), m, about its origin, along the axes of the
+    world, and within ``reach`` (m) of its origin whichever way it is turned; None of what has no collider, or one without end.
     """
 
     up: int
     draws: np.random.Generator
     half: Floats | None = None
-    center: Floats | None = None
+    reach: float | None = None
 
     @property
     def across(self) -> tuple[int, int]:
@@ -36,9 +37,19 @@ class Setting(NamedTuple):
 
     def size(self, key: str) -> Floats:
         """Return the edges (3,) of the box about a copy, m; raise DeclarationError where it has none."""
-        if self.half is None or not np.isfinite(self.half).all():
-            raise DeclarationError(f"{key}: needs the size of what is copied; give it a collider of finite size")
+        if self.half is None:
+            raise _sizeless(key)
         return 2.0 * self.half
+
+    def radius(self, key: str) -> float:
+        """Return the radius of the ball about a copy, m; raise DeclarationError where it has none."""
+        if self.reach is None:
+            raise _sizeless(key)
+        return self.reach
+
+
+def _sizeless(key: str) -> DeclarationError:
+    return DeclarationError(f"{key}: needs the size of what is copied; give it a collider of finite size")
 
 
 class Copies(NamedTuple):
@@ -81,6 +92,17 @@ class Generator(Words):
         if self.amount() > MOST_COPIES:
             raise DeclarationError(f"{self.key}: asks for {self.amount()} copies, at most {MOST_COPIES} are made")
         return self.lay(setting)
+
+
+def turns(draws: np.random.Generator, count: int) -> Floats:
+    """Return random rotations (count, 4), all alike likely.
+
+    K. Shoemake, Uniform Random Rotations, Graphics Gems III, 1992.
+    """
+    share, *angle = draws.uniform(size=(3, count))
+    (sine, cosine), (other_sine, other_cosine) = (angles.sines_cosines(2.0 * np.pi * one) for one in angle)
+    less, more = np.sqrt(1.0 - share), np.sqrt(share)
+    return np.column_stack([less * sine, less * cosine, more * other_sine, more * other_cosine])
 
 
 def numbered(*counts: int) -> Integers:

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from pydantic import Field
 
 from carom.worlds.generators.generator import Copies, Generator, Setting, numbered
-from carom.worlds.values import In, Vector3, Whole, either
-
-Count = Annotated[int, Whole(1)]
-Length = Annotated[float, In("m")]
-Lengths = Annotated[Vector3, In("m")]
+from carom.worlds.generators.words import Count, Length, Lengths
+from carom.worlds.values import either
 
 
 class Grid(Generator):

@@ -1,0 +1,15 @@
+"""Words that several generators have."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from carom.worlds.values import In, Vector3, Whole
+
+Count = Annotated[int, Whole(1)]
+Counts = tuple[Count, Count]
+Length = Annotated[float, In("m")]
+Lengths = Annotated[Vector3, In("m")]
+Gap = Annotated[float, In("m", least=0.0)]
+Edge = Annotated[float, In("m", above=0.0)]
+Edges = Annotated[Vector3, In("m", above=0.0)]
