@@ -179,8 +179,8 @@ def test_check_tells_what_is_wrong_with_its_words(site: Path, tmp_path: Path) ->
         f"{world}:6:24: entities.1.health.armor: must be a list of 3 numbers; received [1, 2]; accepted: numbers in m\n"
         f"{world}:6:51: entities.1.collider.egg.length: is missing; accepted: from end to end (m)\n"
         f"{world}:7:15: entities.2.helth: unknown key; received 'helth'; accepted: name, prefab, transform, motion, "
-        "body, keyframes, collider, material, visual, emitter, joint, tags, health, parent, spring, grid, chain, "
-        "parameters, entities; did you mean 'health'?\n"
+        "body, keyframes, collider, material, visual, emitter, joint, tags, health, parent, spring, grid, heap, line, "
+        "pyramid, random, ring, stack, wall, chain, parameters, entities; did you mean 'health'?\n"
         f"{world}:9:15: forces.0.tether.stiffness: must be above 0 N/m; received 0\n"
     )
     world.write_text("carom: 1\nentities: [{name: a, health: {guardian: aa}}]\nexpect: [{never: a.health.point > 2}]\n")

@@ -36,7 +36,6 @@ from carom.worlds.reader import read
 from carom.worlds.run import RunPlan, plan
 from carom.worlds.sections import RecordingWords, Render
 from carom.worlds.source import Source
-from carom.worlds.variables import Variables
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -120,7 +119,7 @@ def load_text(
     add_events(source, populator, values["events"])
     simulation.world.add(Pictures(values["cameras"]))
     if values["oracle"]:
-        look_up = Variables(source, ("variables",), source.data.get("variables")).look_up
+        look_up = prefabs.variables.look_up
         simulation.world.add(read_oracle(source, simulation.world, values["oracle"], look_up))
     expectations = read_expectations(source, simulation, values["expect"])
     check_entities(source, values["cameras"], simulation.world.names())

@@ -153,11 +153,8 @@ def test_what_cannot_be_laid_is_told(words: str, message: str) -> None:
 
 def test_what_has_no_size_is_not_stacked() -> None:
     """A plane has no end, and a group no collider."""
-    with pytest.raises(
-        WorldError, match="entities.0.stack: needs the size of what is copied; give it a collider of finite size"
-    ):
-        load_text("carom: 1\nentities: [{collider: {plane: {}}, stack: {count: 2}}]\n")
-    with pytest.raises(
-        WorldError, match="entities.0.stack: needs the size of what is copied; give it a collider of finite size"
-    ):
-        load_text("carom: 1\nentities: [{name: g, entities: [], stack: {count: 2}}]\n")
+    for words in ("collider: {plane: {}}", "name: g, entities: []"):
+        with pytest.raises(
+            WorldError, match=r"\.stack: needs the size of what is copied; give it a collider of finite size$"
+        ):
+            load_text(f"carom: 1\nentities: [{{{words}, stack: {{count: 2}}}}]\n")

@@ -177,7 +177,7 @@ def test_entities_written_one_by_one_are_those_that_are_alike_or_not() -> None:
         (
             ("  cart:\n", "  cart:\n    body: {}\n"),
             ("10:5: prefabs.cart.body: unknown key; received 'body'; "
-            "accepted: name, transform, grid, parameters"),
+            "accepted: name, transform, grid, heap, line, pyramid, random, ring, stack, wall, parameters"),
         ),
         (
             ("{name: second, prefab: cart", "{prefab: cart"),

@@ -21,8 +21,8 @@ GENERATORS: dict[str, type[Generator]] = {}
 class Setting(NamedTuple):
     """What copies are made in: which axis is up, the seeded draws of the world, and how large one copy is.
 
-    It lies within a box of half extents ``half`` (3,), m, about its origin, along the axes of the
-    world, and within ``reach`` (m) of its origin whichever way it is turned; None of what has no collider, or one without end.
+    It lies within a box of half extents ``half`` (3,), m, about its origin, along the axes of the world, and within
+    ``reach`` (m) of its origin whichever way it is turned; None of what has no collider, or one without end.
     """
 
     up: int
