@@ -27,12 +27,11 @@ class SnapshotError(CaromError):
 
 
 class NonFiniteError(CaromError):
-    """A NaN or an infinity appeared in a state column."""
+    """A NaN or an infinity appeared in a column of ``entity``, or of a contact of two; ``by`` says what wrote it."""
 
-    def __init__(self, frame: int, column: str, entity: str, value: str, system: str | None = None) -> None:
-        by = f"written by system '{system}'" if system else "found at the end of the step"
+    def __init__(self, frame: int, column: str, entity: str, value: str, by: str) -> None:
         super().__init__(f"frame {frame}: {column} of entity '{entity}' is {value}, {by}")
-        self.frame, self.column, self.entity, self.value, self.system = frame, column, entity, value, system
+        self.frame, self.column, self.entity, self.value, self.by = frame, column, entity, value, by
 
 
 def did_you_mean(word: str, choices: Iterable[str], most: int = 1) -> str:

@@ -25,10 +25,10 @@ class Observer(Protocol):
 
 @contextmanager
 def unobserved(simulation: Simulation) -> Iterator[None]:
-    """Let nobody see or hear of the steps a simulation takes within this context."""
-    observers, hearers = simulation.observers, simulation.hearers
-    simulation.observers, simulation.hearers = [], []
+    """Let nobody see or hear of the steps a simulation takes within this context, and no breakpoint stop them."""
+    before = simulation.observers, simulation.hearers, simulation.breakpoints
+    simulation.observers, simulation.hearers, simulation.breakpoints = [], [], []
     try:
         yield
     finally:
-        simulation.observers, simulation.hearers = observers, hearers
+        simulation.observers, simulation.hearers, simulation.breakpoints = before

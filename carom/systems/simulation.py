@@ -13,6 +13,7 @@ from carom.ecs import (
     Entity,
     NonFiniteError,
     Schedule,
+    Snapshot,
     System,
     World,
     restore_snapshot,
@@ -29,6 +30,7 @@ from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import Materials, add_entities, add_entity
 from carom.systems.awake import Awake
 from carom.systems.bookkeeping import Bookkeeping
+from carom.systems.breakpoints import Breakpoint, StoppedError, look
 from carom.systems.clock import Clock
 from carom.systems.compound import StatedBodies
 from carom.systems.continuous import Fast
@@ -41,7 +43,6 @@ from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
 from carom.systems.events import Events, read_event
 from carom.systems.explosion import Explosion, blast
-from carom.systems.finish import find_not_finite
 from carom.systems.forces import LAWS
 from carom.systems.forces.law import Forces, Law
 from carom.systems.forces.reach import read_reach
@@ -67,6 +68,7 @@ from carom.systems.shapes.geometry import Geometries
 from carom.systems.step import STEP, has_strangers
 from carom.systems.threads import Threads
 from carom.systems.ties import Ties
+from carom.systems.tracing import find_source, refuse_stated
 
 CHECK_VARIABLE = "CAROM_CHECK"
 
@@ -76,7 +78,8 @@ class Simulation:
 
     ``checked`` enforces what systems declare to touch (default: the environment variable CAROM_CHECK). Set ``watched``
     to have a NaN traced to the system that made it, at the price of a snapshot before every step. ``observers`` see the
-    world after each step, ``hearers`` are told of each system that has run.
+    world after each step, ``hearers`` are told of each system that has run; ``breakpoints`` stop it before a step that
+    meets one is committed, ``stopped`` is the last such stop.
     """
 
     def __init__(self, *, checked: bool | None = None, **settings: Any) -> None:
@@ -86,6 +89,8 @@ class Simulation:
         self.checked = bool(os.environ.get(CHECK_VARIABLE)) if checked is None else checked
         self.watched = False
         self.observers: list[Observer] = []
+        self.breakpoints: list[Breakpoint] = []
+        self.stopped: StoppedError | None = None
         self.clock = Clock()
         self.space = Space(self.world)
         self._earlier = EarlierPoses()
@@ -204,18 +209,37 @@ class Simulation:
         return self.world.frame * self.settings.dt
 
     def step(self, count: int = 1, *, after: Callable[[System], None] | None = None) -> None:
-        """Take ``count`` steps of dt; ``after`` is told of every system run."""
+        """Take ``count`` steps of dt; ``after`` is told of every system run.
+
+        Raises NonFiniteError for a NaN, and `StoppedError` where a breakpoint is met, which observers have seen then.
+        The world is what it was before that step, or as far as that came where nobody watches.
+        """
         for _ in range(count):
-            before = take_snapshot(self.world) if self.watched else None
+            before = take_snapshot(self.world) if self.watched or self.breakpoints else None
+            stopped = None
             try:
                 self._take_step(after)
+                stopped = look(self.breakpoints, self) if self.breakpoints else None
             except NonFiniteError:
                 if before is None:
                     raise
-                restore_snapshot(self.world, before)  # the same step again, looking after every system
-                self._take_step(lambda system: find_not_finite(self.world, system.name))
+                restore_snapshot(self.world, before)
+                self._trace(before)
+            self.stopped = stopped or self.stopped
             for observer in self.observers:
                 observer.observe(self)
+            if stopped and before:
+                restore_snapshot(self.world, before)
+                raise stopped
+
+    def _trace(self, before: Snapshot) -> None:
+        """Take the same step again, looking for the NaN after every system; leave the world before it once found."""
+        try:
+            refuse_stated(self.world)
+            self._take_step(lambda system: find_source(self.world, system.name))
+        except NonFiniteError:
+            restore_snapshot(self.world, before)
+            raise
 
     def _take_step(self, after: Callable[[System], None] | None) -> None:
         self.world[Awake].strangers = has_strangers(self.schedule)

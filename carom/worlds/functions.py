@@ -7,47 +7,47 @@ from collections.abc import Callable
 import numpy as np
 
 from carom.ecs import Motion, Transform, World
-from carom.ecs.column import Floats
+from carom.ecs.column import Floats, Integers
 from carom.ecs.components.joint import Joint
 from carom.systems.energy import kinetic_energies
 from carom.systems.queries.space import Space
 from carom.worlds.oracle import errors
 
 
-def _speed(world: World, rows: list[int]) -> Floats:
+def _speed(world: World, rows: Integers) -> Floats:
     return np.asarray(np.linalg.norm(world[Motion].linear[rows], axis=1))
 
 
-def _spin(world: World, rows: list[int]) -> Floats:
+def _spin(world: World, rows: Integers) -> Floats:
     return np.asarray(np.linalg.norm(world[Motion].angular[rows], axis=1))
 
 
-def _energy(world: World, rows: list[int]) -> Floats:
-    return kinetic_energies(world, np.array(rows, np.int64))
+def _energy(world: World, rows: Integers) -> Floats:
+    return kinetic_energies(world, rows)
 
 
-def _load(world: World, rows: list[int]) -> Floats:
+def _load(world: World, rows: Integers) -> Floats:
     return np.asarray(np.linalg.norm(world[Joint].force[rows], axis=1))
 
 
-def _distance(world: World, rows: list[int]) -> float:
+def _distance(world: World, rows: Integers) -> float:
     first, second = world[Transform].position[rows]
     return float(np.linalg.norm(second - first))
 
 
-def _sees(world: World, rows: list[int]) -> float:
+def _sees(world: World, rows: Integers) -> float:
     """Return 1 where nothing stands on the straight line between two origins but the two themselves, else 0."""
     first, second = world[Transform].position[rows]
     reach = _distance(world, rows)
-    pair = world.entities(np.array(rows))
+    pair = world.entities(rows)
     return float(not reach or not Space(world).cast_rays_any(first, second - first, reach, without=pair)[0])
 
 
-CALLS: dict[str, tuple[str, str, Callable[[World, list[int]], Floats]]] = {  # unit, a column who is asked must have
+CALLS: dict[str, tuple[str, str, Callable[[World, Integers], Floats]]] = {  # unit, a column who is asked must have
     "speed": ("m/s", "linear", _speed),
     "spin": ("rad/s", "linear", _spin),
     "kinetic_energy": ("J", "linear", _energy),
     "load": ("N", "break_force", _load),
     "error": ("m", "position", errors),
 }
-PAIRS: dict[str, tuple[str, Callable[[World, list[int]], float]]] = {"distance": ("m", _distance), "sees": ("1", _sees)}
+PAIRS: dict[str, tuple[str, Callable[[World, Integers], float]]] = {"distance": ("m", _distance), "sees": ("1", _sees)}

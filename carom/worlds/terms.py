@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from carom.ecs import Component, Entity, Material, Motion, RigidBody, Transform, World
-from carom.ecs.column import Floats
+from carom.ecs.column import Floats, Integers
 from carom.ecs.components.joint import Joint
 from carom.ecs.errors import did_you_mean
 from carom.systems.own_components import is_own
@@ -40,7 +40,7 @@ Read = Callable[[World], Floats]
 class Term:
     """A value of one or several entities; ``read`` returns it for each, shape (entities, size), in ``unit``.
 
-    ``looks`` is whether it is asked of a picture.
+    ``entities`` are whom its values are of, where each is of one; ``looks`` is whether it is asked of a picture.
     """
 
     text: str
@@ -48,11 +48,23 @@ class Term:
     size: int
     names: tuple[str, ...]
     read: Read
+    entities: tuple[Entity, ...] = ()
     looks: bool = False
 
 
-def _rows(world: World, entities: list[Entity]) -> list[int]:
-    return [world.row(entity) for entity in entities]
+class _Rows:
+    """The rows of entities, looked up again only where rows may have changed."""
+
+    def __init__(self, entities: list[Entity]) -> None:
+        self._entities, self._seen = entities, (-1, -1)
+        self._rows: Integers = np.zeros(0, np.int64)
+
+    def __call__(self, world: World) -> Integers:
+        """Return them as they are now; raise EntityError for one who is gone."""
+        if self._seen != (world.structure, world.restored):
+            self._rows = np.array([world.row(entity) for entity in self._entities], np.int64)
+            self._seen = (world.structure, world.restored)
+        return self._rows
 
 
 def read_term(text: str, world: World) -> Term:
@@ -83,16 +95,16 @@ def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
         raise WordError("unknown function", received=repr(text), accepted=", ".join(forms), hint=hint)
     groups = [matching(pattern, world.names()) for pattern in patterns]
     if function in PAIRS:
-        (unit, between), pair = PAIRS[function], [world.find(group[0]) for group in groups]
-        return Term(text, unit, 1, (text,), lambda world: np.array([[between(world, _rows(world, pair))]]))
+        (unit, between), pair = PAIRS[function], _Rows([world.find(group[0]) for group in groups])
+        return Term(text, unit, 1, (text,), lambda world: np.array([[between(world, pair(world))]]))
     unit, column, measure = CALLS[function]
     entities = [world.find(name) for name in groups[0]]
     for entity in entities:
         _kinds(world, entity, column)
         if function == "error":
             check_foretold(world, entity)
-    names = tuple(f"{function}({name})" for name in groups[0])
-    return Term(text, unit, 1, names, lambda world: measure(world, _rows(world, entities))[:, None])
+    names, rows = tuple(f"{function}({name})" for name in groups[0]), _Rows(entities)
+    return Term(text, unit, 1, names, lambda world: measure(world, rows(world))[:, None], tuple(entities))
 
 
 def _question(text: str, function: str, patterns: list[str], world: World) -> Term:
@@ -131,16 +143,15 @@ def _column(text: str, end: int, names: list[str], world: World) -> Term:
         raise WordError(f"{steps[-1]} has no {part}", received=repr(text), accepted=", ".join(parts))
     if part is None and len(units) > 1:
         raise WordError(f"{steps[-1]} has a value for each way", received=repr(text), accepted=", ".join(parts))
-    axis = None if part is None else parts.index(part)
+    axis, rows = None if part is None else parts.index(part), _Rows(entities)
     unit = units[-1] if axis is not None and axis >= TURNS else units[0]
 
     def read(world: World) -> Floats:
-        rows = _rows(world, entities)
-        values = np.asarray(getattr(world[kind], steps[-1])[rows], np.float64).reshape(len(rows), size)
+        values = np.asarray(getattr(world[kind], steps[-1])[rows(world)], np.float64).reshape(len(entities), size)
         return values if axis is None else values[:, axis : axis + 1]
 
     whole = tuple(name + text[end:] for name in names)
-    return Term(text, unit, 1 if axis is not None else size, whole, read)
+    return Term(text, unit, 1 if axis is not None else size, whole, read, tuple(entities))
 
 
 def _kinds(world: World, entity: Entity, *steps: str) -> type[Component]:

@@ -15,4 +15,5 @@ BENCHES = {  # name on the command line: module
     "render": "render",
     "record": "record",
     "worlds": "worlds",
+    "debug": "debug",
 }

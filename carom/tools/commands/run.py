@@ -7,6 +7,7 @@ import dataclasses
 import sys
 from pathlib import Path
 
+from carom.tools.commands.breaks import Breaks, declare_breaks
 from carom.tools.commands.look import declare_look, look
 from carom.tools.commands.options import (
     declare_overrides,
@@ -42,12 +43,14 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--audit", action="store_true", help="measure every contact by FCL as well, and tell where kernels disagree"
     )
+    declare_breaks(parser)
     declare_overrides(parser)
 
 
 def execute(arguments: argparse.Namespace) -> int:
-    """Run the world and print the summary; 1 when an expectation or the audit failed or a number became infinite."""
+    """Run the world and print the summary; 1 when something failed, or a breakpoint or a NaN stopped it."""
     from carom.ecs.errors import NonFiniteError
+    from carom.systems.breakpoints import StoppedError
     from carom.tools.auditing import Auditing
     from carom.tools.comparing import load_futures
     from carom.tools.filming import Filming, photograph, shot_of
@@ -68,8 +71,8 @@ def execute(arguments: argparse.Namespace) -> int:
         print_warnings(vantage_warnings(shot, loaded.simulation))
     pace = Pace(factor("--speed", arguments.speed)) if arguments.speed else None
     futures = Futures([(name, world.simulation) for name, world in worlds]) if worlds else None
-    records = Records(arguments, loaded, shot)
-    observers = [*([futures] if futures else []), *records.observers]
+    records, breaks = Records(arguments, loaded, shot), Breaks(arguments, loaded)
+    observers = [*([futures] if futures else []), *records.observers, *breaks.observers]
     if arguments.film:
         observers.append(Filming(shot, arguments.film))
     prepare_outputs([arguments.record, arguments.film, arguments.picture])
@@ -90,6 +93,10 @@ def execute(arguments: argparse.Namespace) -> int:
         return 130
     except NonFiniteError as fault:
         print(f"{fault}{records.after_a_stop(simulation)}", file=sys.stderr)
+        return 1
+    except StoppedError as stopped:
+        records.after_a_stop(simulation)
+        breaks.tell(stopped, records.path)
         return 1
     if reason := records.after(simulation, summary.failures):
         print(reason, file=sys.stderr)

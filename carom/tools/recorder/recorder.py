@@ -117,7 +117,8 @@ class Recorder:
         self._sample(simulation, self._stream, every_step=True)
         if self._edits.sample(simulation, _stamp(simulation)):
             self._snapshots.after_edit(simulation, _stamp(simulation))
-        if simulation.frame % self._every == 0:
+        stopped = simulation.stopped and simulation.stopped.frame == simulation.frame
+        if simulation.frame % self._every == 0 or stopped:
             self._record(simulation, self._stream)
         enough = self._fps * (1.0 + self._blocks / BLOCKS)
         if self._waiting >= enough or monotonic() - self._flushed > self._patience:

@@ -1,0 +1,80 @@
+"""Breaks: what stops a run before a step is committed, and what is told of it."""
+
+from __future__ import annotations
+
+import argparse
+import shlex
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from carom.tools.commands.options import print_json
+
+if TYPE_CHECKING:
+    from carom.systems.breakpoints import StoppedError
+    from carom.systems.observer import Observer
+    from carom.worlds.builder import LoadedWorld
+
+REACH = 5.0  # s that a prompt goes back, where no ring says how many
+
+
+def declare_breaks(parser: argparse.ArgumentParser) -> None:
+    """Declare the conditions and the prompt."""
+    parser.add_argument(
+        "--break",
+        dest="breaks",
+        action="append",
+        default=[],
+        metavar="CONDITION",
+        help="stop before a step after which it holds: 'speed(crate) > 20', 'overlap > 1 cm', 'energy rises 5 %%', "
+        "'not finite'; may be stated several times",
+    )
+    parser.add_argument("--pdb", action="store_true", help="open a prompt on the world where a --break stops it")
+
+
+class Breaks:
+    """The breakpoints of a run; raises CaromError for conditions that are none, or a prompt without any."""
+
+    def __init__(self, arguments: argparse.Namespace, loaded: LoadedWorld) -> None:
+        from carom.ecs.errors import CaromError
+        from carom.systems.ring import Ring
+        from carom.tools.commands.options import seconds
+        from carom.worlds.breaks import break_when
+
+        if arguments.pdb and not arguments.breaks:
+            raise CaromError("--pdb: goes with --break CONDITION, at which it opens")
+        self._arguments, self._loaded = arguments, loaded
+        break_when(loaded.simulation, *arguments.breaks, place="--break")
+        reach = seconds("--ring", arguments.ring, above=0.0) if arguments.ring else REACH
+        self._ring = Ring.of_seconds(reach, loaded.simulation) if arguments.pdb else None
+
+    @property
+    def observers(self) -> list[Observer]:
+        """The ring that a prompt goes back in."""
+        return [self._ring] if self._ring else []
+
+    def tell(self, stopped: StoppedError, recording: Path | None) -> None:
+        """Print who and where, and the command that opens it there; open the prompt if it was asked for."""
+        from carom.tools.stops import Prompt, place_of, text
+
+        command = self._command(stopped, recording)
+        told = text(stopped, self._loaded, command)
+        if self._arguments.json:
+            files = [place_of(self._loaded, name) for name in stopped.names]
+            found = {"condition": stopped.breakpoint.text, "frame": stopped.frame, "time": stopped.time}
+            found |= {"values": stopped.met.values, "entities": stopped.names, "files": files, "command": command}
+            print_json({"stopped": found})
+        elif self._ring:
+            Prompt(self._loaded.simulation, stopped, self._ring).open(told)
+        else:
+            print(told)
+
+    def _command(self, stopped: StoppedError, recording: Path | None) -> str:
+        """Return what opens the recording at the step that broke, or else a prompt on the world there."""
+        if recording:
+            selected = ["--select", stopped.names[0]] if stopped.names else []
+            return shlex.join(["carom", "view", str(recording), "--frame", str(stopped.frame), *selected])
+        stated = [word for text in self._arguments.breaks for word in ("--break", text)]
+        for option in ("collision", "dt", "integrator", "seed"):
+            if (value := getattr(self._arguments, option)) is not None:
+                stated += [f"--{option}", str(value)]
+        return shlex.join(["carom", "run", self._arguments.world, *stated, "--pdb"])
