@@ -138,12 +138,12 @@ class Futures:
         )
         apart = not future.first and future.ended is None and len(rows) > 0
         worst = int(np.nanargmax(away)) if apart and np.isfinite(away).any() else -1
-        foretold = world[Oracle].rows(world).tolist() if Oracle in world else []
+        foretold = world[Oracle].rows(world) if Oracle in world else np.zeros(0, np.int64)
         return Outcome(
             future.name,
             future.energy_before,
             total_energy(world),
             float(away[worst]) if worst >= 0 else 0.0,
             shown.world.name(shown.world.entity(int(rows[worst]))) if worst >= 0 else "",
-            float(errors(world, foretold).max()) if foretold else None,
+            float(errors(world, foretold).max()) if len(foretold) else None,
         )

@@ -54,9 +54,9 @@ class Oracle(Resource):
         return np.asarray(should - np.where(np.array([form.of_center for form in forms])[:, None], offset, 0.0))
 
 
-def errors(world: World, rows: list[int]) -> Floats:
+def errors(world: World, rows: Integers) -> Floats:
     """Return how far entities are from where they should be (m)."""
-    away = world[Transform].position[rows] - world[Oracle].positions(world, np.array(rows, np.int64))
+    away = world[Transform].position[rows] - world[Oracle].positions(world, rows)
     return np.asarray(np.linalg.norm(away, axis=1))
 
 

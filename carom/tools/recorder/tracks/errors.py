@@ -40,7 +40,7 @@ class Errors(NamedCurves):
         """Return a number for each entity."""
         world = simulation.world
         rows = world[Oracle].rows(world) if Oracle in world else np.zeros(0, np.int64)
-        values = errors(world, rows.tolist()).tolist() if len(rows) else []
+        values = errors(world, rows).tolist() if len(rows) else []
         return dict(zip(world.names_told(world.entities(rows)), values, strict=True))
 
 
