@@ -12,6 +12,8 @@ from carom.systems.simulation import Simulation
 from carom.tools.ghosts import Ghost, Ghosts
 from carom.tools.recorder.curves import ROOT, Curves
 from carom.tools.recorder.layout import Layout
+from carom.tools.recorder.stream import Stream
+from carom.tools.recorder.track import Track
 from carom.tools.recorder.tracks.promoted import own_path
 from carom.worlds.oracle import Oracle, errors
 
@@ -50,6 +52,14 @@ class Differences(NamedCurves):
     key: ClassVar[str] = "difference"
     title: ClassVar[str] = "Difference of futures (m)"
     unit: ClassVar[str] = "m"
+
+    def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:
+        """Write the colours of the curves, which are those of the futures."""
+        import rerun
+
+        for ghost in simulation.world[Ghosts].ghosts[1:] if Ghosts in simulation.world else []:
+            color = np.rint(255.0 * np.array(ghost.color)).astype(np.uint8)
+            stream.static(self.path(ghost.name), rerun.SeriesLines(colors=[color]))
 
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the plot where there are futures."""
