@@ -16,7 +16,7 @@ from carom.systems.simulation import Simulation
 from carom.systems.threads import FEWEST
 
 FRAMES = 240
-WORLDS = ("billiards", "stack", "cannon", "heap")  # heap: boxes, balls and capsules stirred by a paddle
+WORLDS = ("billiards", "stack", "cannon", "heap")  # heap: boxes, balls and capsules stirred by a paddle in shallow water
 HASHES = """
 import itertools
 import sys
@@ -60,6 +60,7 @@ def heap():
         collider=paddle, body={"type": "kinematic"}, transform={"position": (0.0, 0.3, 0.0)},
         motion={"angular": (0.0, 2.0, 0.0)},
     )
+    simulation.force("buoyancy", density=500.0, level=0.5)
     kinds = (
         {"box": {"size": (0.5, 0.4, 0.3)}},
         {"sphere": {"radius": 0.25}},

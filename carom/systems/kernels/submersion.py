@@ -75,7 +75,7 @@ def parts(corners, height, faces, below, ox, oy, oz):
     volume, mx, my, mz, whole = 0.0, 0.0, 0.0, 0.0, 0.0
     for f in range(len(faces)):
         i, j, k = faces[f, 0], faces[f, 1], faces[f, 2]
-        under = (height[i] < 0.0) + (height[j] < 0.0) + (height[k] < 0.0)
+        under = int(height[i] < 0.0) + int(height[j] < 0.0) + int(height[k] < 0.0)
         while under % 3 and (height[i] < 0.0) != (under == 1):  # i is the corner that is alone on its side
             i, j, k = j, k, i
         ax, ay, az = corners[i, 0] - ox, corners[i, 1] - oy, corners[i, 2] - oz
