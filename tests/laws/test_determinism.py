@@ -16,7 +16,12 @@ from carom.systems.simulation import Simulation
 from carom.systems.threads import FEWEST
 
 FRAMES = 240
-WORLDS = ("billiards", "stack", "cannon", "heap")  # heap: boxes, balls and capsules stirred by a paddle in shallow water
+WORLDS = (
+    "billiards",
+    "stack",
+    "cannon",
+    "heap",
+)  # heap: boxes, balls and capsules stirred in shallow water
 HASHES = """
 import itertools
 import sys

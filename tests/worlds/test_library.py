@@ -91,6 +91,8 @@ def test_expectations_hold(name: str, collision: str) -> None:
         ("line_of_sight", r"12 s, position: \[(9), 0, -8", 1.01, 0.0),
         ("line_of_sight", r"name: sill, collider: {box: {size: \[10, (0\.6), 0\.2", 1.05, 0.0),
         ("camera_follow", r"2 s, position: \[4, 0\.9, (-4)\]", 1.01, 0.0),
+        ("glider", WEIGHT, 1.01, 0.0),
+        ("glider", r"mass: (1)}", 1.05, 0.0),
         ("ship_in_water", WEIGHT, 1.01, 0.0),
         ("ship_in_water", r"mass: (23370)", 1.05, 0.0),
         ("orbit", r"mass: (100)\b", 1.05, 0.0),
