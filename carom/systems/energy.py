@@ -47,7 +47,8 @@ def potential_energies(world: World) -> dict[str, float]:
     for kind, entries in world[Forces].entries.items():
         if kind.conservative:
             held = [(law, reach.rows(world)) for law, reach in entries if reach.conserves]
-            energies[kind.key] = sum(law.energy_of(world, rows) for law, rows in held)
+            with world.faces(None):
+                energies[kind.key] = sum(law.energy_of(world, rows) for law, rows in held)
     return energies
 
 

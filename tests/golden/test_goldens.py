@@ -26,7 +26,7 @@ from carom.worlds import load_world
         ("mirror_room", 120),
         ("newtons_cradle", 480),
         ("pong", 60),
-        ("ship_in_water", 180),
+        ("ship_in_water", 90),
         ("solar_system", 300),
         ("trap", 420),
         ("whip", 240),

@@ -58,16 +58,16 @@ def test_a_cube_heaves_as_the_formula_says(axis: int) -> None:
 
 def test_a_cube_comes_to_rest_at_its_draft_and_sleeps_there() -> None:
     """0.6 m within 1 mm with the drag that water has by default; a push wakes it, and so does a tide."""
-    body = f"body: {{mass: 600, locked: {UPRIGHT}}}, transform: {{position: [0, -0.05, 0]}}"
-    low, high = "{buoyancy: {}, during: [0, 20]}", "{buoyancy: {level: 0.5, damping: 4}, during: [20, end]}"
+    body = f"body: {{mass: 600, locked: {UPRIGHT}}}, transform: {{position: [0, -0.085, 0]}}"
+    low, high = "{buoyancy: {}, during: [0, 9]}", "{buoyancy: {level: 0.5, damping: 6}, during: [9, end]}"
     simulation = water(f"name: cube, collider: {{{CUBE}}}, {body}", low, high, sleeping="true")
-    simulation.step(240 * 15)
+    simulation.step(240 * 8)
     assert simulation["cube"].motion.asleep
     assert 0.5 - simulation["cube"].transform.position[1] == pytest.approx(0.6, abs=1e-3)
     simulation["cube"].external_force.force = (0.0, -500.0, 0.0)
     simulation.step()
     assert not simulation["cube"].motion.asleep
-    simulation.step(240 * 15)
+    simulation.step(240 * 6)
     assert simulation["cube"].motion.asleep
     assert 0.5 - simulation["cube"].transform.position[1] + 0.5 == pytest.approx(0.6, abs=1e-3)
 
@@ -79,7 +79,7 @@ def test_a_beam_stands_by_its_metacentre(width: float, rights: bool) -> None:
     pose = "transform: {rotation: {axis: [0, 0, 1], angle: 3 deg}}"
     simulation = water(f"name: beam, {body}, {pose}", "buoyancy: {damping: 0.2}")
     tilts = []
-    for _ in range(240 * 6):
+    for _ in range(240 * 4):
         simulation.step()
         tilts.append(tilt(simulation, "beam"))
     assert bool(max(np.abs(tilts)) < math.radians(3.0)) is rights
@@ -119,7 +119,7 @@ def test_half_as_dense_floats_half_submerged_and_as_dense_stays() -> None:
         "buoyancy: {damping: 4}",
     )
     start = +simulation["cone"].transform.position
-    simulation.step(240 * 8)
+    simulation.step(240 * 7)
     assert simulation["ball"].transform.position == pytest.approx([0.0, 0.0, 0.0], abs=1e-3)
     assert simulation["cone"].transform.position == pytest.approx(start, abs=1e-9)
     assert not simulation.world[Motion].linear[:, [0, 2]].any()
@@ -137,7 +137,7 @@ def test_all_colliders_of_a_body_float_together() -> None:
     )
     mass = 500.0 * 1.6 + 2.0 * 300.0 * 1.28
     assert simulation["deck"].rigid_body.mass == pytest.approx(mass)
-    simulation.step(240 * 8)
+    simulation.step(240 * 4)
     draft = mass / (1000.0 * 2.0 * 1.6)
     assert simulation["deck"].transform.position == pytest.approx([0.0, 0.9 - draft, 0.0], abs=1e-3)
     found = loads(simulation)

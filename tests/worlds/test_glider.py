@@ -47,7 +47,7 @@ def test_the_gliders_fly_as_integrated() -> None:
                 _, y, z = item[f"{name}.position"]["is"]
                 assert (y, z) == pytest.approx((height, -way), abs=1e-3)
                 told += 1
-    assert told == 4
+    assert told == 3
 
 
 def test_small_departures_swing_as_the_formula_says() -> None:

@@ -57,12 +57,12 @@ def immersed(world: World, bodies: Booleans, surface: Surface) -> Immersion:
     """
     transform, collider = world[Transform], world[Collider]
     position, rotation = transform.position, transform.rotation
-    if len(children := world.row_numbers(Parent, Transform)):
-        position, rotation = +position, +rotation  # in the middle of a substep those carried lag behind
-        carry(world, children, position, rotation)
     owner, rows = bodies_of(world), world.row_numbers(Collider)
     rows = rows[(owner[rows] >= 0) & bodies[owner[rows]] & ~collider.sensor[rows]]
     count = len(rows)
+    if (owner[rows] != rows).any():
+        position, rotation = +position, +rotation  # in the middle of a substep those carried lag behind
+        carry(world, world.row_numbers(Parent, Transform), position, rotation)
     place, turn = np.empty((count, 3)), np.empty((count, 4))
     normal, below, found = np.empty((count, 3)), np.empty(count), np.empty((count, FOUND))
     look_down(
