@@ -10,7 +10,7 @@ from carom.tools.commands.options import ending, print_json, quantity
 
 def declare(parser: argparse.ArgumentParser) -> None:
     """Declare the model, what its axes and units are, and where the world goes."""
-    parser.add_argument("model", type=Path, metavar="MODEL", help="a URDF file")
+    parser.add_argument("model", type=Path, metavar="MODEL", help="a URDF or MJCF file")
     parser.add_argument(
         "-o", "--out", type=ending(".yaml", ".yml"), metavar="WORLD", help="the world file; MODEL.yaml here by default"
     )

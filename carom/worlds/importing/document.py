@@ -16,6 +16,7 @@ from carom.worlds.importing.meshes import Meshes
 from carom.worlds.importing.model import Connection, Inertia, Link, Model, Piece
 
 UNNAMED = re.compile(r"[^\w-]+")
+NEXT_TO_NOTHING = Inertia(LIGHTEST, np.zeros(3), np.eye(3) * LIGHTEST * SMALLEST**2)
 STEP_OF_CHAIN = 0.01  # share of a body's mass that links between the joints it has beside each other get
 
 
@@ -49,10 +50,11 @@ class Document:
         words["entities"] = self.entities
         return words | ({"cameras": model.cameras} if model.cameras else {})
 
-    def name(self, stated: str, element: Element) -> str:
-        """Return a name that world files take and that nothing else has."""
+    def name(self, stated: str, element: Element, ending: str = "") -> str:
+        """Return a name that world files take and that nothing else has, with an ending or a number where it must."""
         name = UNNAMED.sub("_", stated)
-        name = (name if name[:1].isalpha() or name[:1] == "_" else f"_{name}")[: NAME_LENGTH - 4]
+        name = (name if name[:1].isalpha() or name[:1] == "_" else f"_{name}")[: NAME_LENGTH - 10]
+        name = f"{name}{ending}" if name in self.taken else name
         free, number = name, 1
         while free in self.taken:
             number += 1
@@ -123,8 +125,7 @@ class Document:
         """Return the words of a body; one without mass gets the least that lets it move."""
         inertia = self.masses.get(link.name)
         if inertia is None:
-            tensor = np.eye(3) * LIGHTEST * SMALLEST**2
-            inertia = Inertia(LIGHTEST, np.zeros(3), tensor)
+            inertia = NEXT_TO_NOTHING
             self.report.approximate(link.element, f"a body without mass, now {LIGHTEST:g} kg", link.name)
         words, raised = body_words(inertia)
         if raised:
@@ -133,31 +134,32 @@ class Document:
         return words | ({"gravity_scale": link.gravity_scale} if link.gravity_scale != 1.0 else {})
 
     def connect(self, connection: Connection) -> None:
-        """Add a joint; where none of carom's has all its freedoms, one after another with light links between."""
-        held = {key: self.names["link", name] for key, name in (("a", connection.a), ("b", connection.b)) if name}
-        words = joint_words(connection)
-        if words is not None:
-            ((kind, stated),) = words.items()
-            self.add(
-                connection.element, name=self.name(connection.name, connection.element), joint={kind: stated | held}
-            )
+        """Add a joint, or several in a row where none has all its freedoms."""
+        words, element = joint_words(connection), connection.element
+        if words is None:
+            self.connect_in_a_row(connection)
             return
-        link = self.links[connection.b]
-        self.report.approximate(
-            connection.element, "joints beside each other, now with light links between", connection.name
-        )
-        inertia = self.masses.get(connection.b, Inertia(LIGHTEST, np.zeros(3), np.eye(3) * LIGHTEST * SMALLEST**2))
-        light = Inertia(STEP_OF_CHAIN * inertia.mass, np.zeros(3), STEP_OF_CHAIN * inertia.tensor)
-        ahead = held.get("a")
+        ends = {key: self.names["link", name] for key, name in (("a", connection.a), ("b", connection.b)) if name}
+        ((kind, stated),) = words.items()
+        self.add(element, name=self.name(connection.name, element, "-joint"), joint={kind: ends | stated})
+
+    def connect_in_a_row(self, connection: Connection) -> None:
+        """Add a joint for each freedom, with light links between; the first and the last still do not touch."""
+        link, element = self.links[connection.b], connection.element
+        self.report.approximate(element, "joints beside each other, now with light links between", connection.name)
+        if connection.a is not None:
+            at, name = link.pose.position, f"{connection.name}-apart"
+            self.connect(Connection(element, name, connection.a, connection.b, at=at, apart=True))
+        whole = self.masses.get(link.name, NEXT_TO_NOTHING)
+        light = Inertia(STEP_OF_CHAIN * whole.mass, np.zeros(3), STEP_OF_CHAIN * whole.tensor)
+        ahead = None if connection.a is None else self.names["link", connection.a]
         for number, freedom in enumerate(connection.freedoms, 1):
-            last = number == len(connection.freedoms)
-            behind = held["b"] if last else self.name(f"{held['b']}-{number}", connection.element)
-            if not last:
-                self.add(connection.element, name=behind, transform=pose_words(link.pose), body=body_words(light)[0])
-            single = joint_words(Connection(connection.element, "", None, "", [freedom]))
-            assert single is not None
+            behind, name = self.names["link", link.name], connection.name
+            if number < len(connection.freedoms):
+                behind, name = self.name(f"{behind}-{number}", element), f"{name}-{number}"
+                self.add(element, name=behind, transform=pose_words(link.pose), body=body_words(light)[0])
+            single = joint_words(Connection(element, name, None, "", [freedom])) or {}
             ((kind, stated),) = single.items()
-            ends = {"a": ahead} if ahead is not None else {}
-            name = self.name(f"{connection.name}-{number}" if not last else connection.name, connection.element)
-            self.add(connection.element, name=name, joint={kind: {**ends, **stated, "b": behind}})
+            ends = {key: end for key, end in (("a", ahead), ("b", behind)) if end is not None}
+            self.add(element, name=self.name(name, element, "-joint"), joint={kind: ends | stated})
             ahead = behind

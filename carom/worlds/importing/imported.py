@@ -7,17 +7,18 @@ from pathlib import Path
 
 from carom.systems.shapes.model_files import ENDINGS
 from carom.worlds.errors import Fault, WorldError
+from carom.worlds.importing import mjcf, urdf
 from carom.worlds.importing.convention import Convention
 from carom.worlds.importing.document import Document
 from carom.worlds.importing.elements import Element, Reading, read_xml
 from carom.worlds.importing.files import ModelFiles
 from carom.worlds.importing.meshes import Meshes
 from carom.worlds.importing.report import Report
-from carom.worlds.importing.urdf import UP, read_urdf
 from carom.worlds.importing.writing import text_of
 
 TOUCHING = ("hull", "none")  # how meshes touch
-FORMATS = "a URDF <robot>"
+FORMATS = "<robot> of URDF or <mujoco> of MJCF"
+INCLUDED = (".xml", ".mjcf")
 
 
 @dataclass(frozen=True)
@@ -48,8 +49,11 @@ def import_model(path: Path, options: Options, folder: Path, stem: str) -> Impor
     """
     reading, report = Reading(), Report()
     root = _root_of(path)
-    files = ModelFiles(path.parent, options.root or path.parent, ENDINGS, reading, report)
-    model, up = read_urdf(root, files, reading, report, options.base), UP
+    files = ModelFiles(path.parent, options.root or path.parent, (*ENDINGS, *INCLUDED), reading, report)
+    if root.tag == "robot":
+        model, up = urdf.read_urdf(root, files, reading, report, options.base), urdf.UP
+    else:
+        model, up = mjcf.read_mjcf(root, files, reading, report), mjcf.UP
     convention = Convention(options.up or up, options.hand, options.unit)
     convention.model(model)
     meshes = Meshes(convention, folder, stem)
@@ -61,6 +65,6 @@ def import_model(path: Path, options: Options, folder: Path, stem: str) -> Impor
 
 def _root_of(path: Path) -> Element:
     root = read_xml(path, str(path))
-    if root.tag != "robot":
+    if root.tag not in ("robot", "mujoco"):
         raise WorldError([Fault(root.file, root.line, root.column, "", "is no model", f"<{root.tag}>", FORMATS)])
     return root

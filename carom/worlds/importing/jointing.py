@@ -15,29 +15,28 @@ FREE = dict.fromkeys((*LINEAR, *ANGULAR), "free")
 
 
 def joint_words(connection: Connection) -> dict[str, Any] | None:
-    """Return the words of the joint, or None where no single one has these freedoms."""
-    ends = {key: name for key, name in (("a", connection.a), ("b", connection.b)) if name is not None}
+    """Return the words of the joint but for its ends, or None where no single one has these freedoms."""
     free = connection.freedoms
     if connection.apart:
-        return {"generic": ends | FREE}
+        return {"generic": {"at": connection.at} | FREE}
     if connection.ball:
         swing = {} if connection.swing is None else {"axis": np.array((0.0, 1.0, 0.0)), "swing": connection.swing}
-        return {"ball": ends | {"at": connection.at} | swing}
+        return {"ball": {"at": connection.at} | swing}
     if not free:
-        return {"fixed": ends | {"at": connection.at}}
+        return {"fixed": {"at": connection.at}}
     if len(free) == 1:
         kind = "slider" if free[0].kind == SLIDE else "hinge"
-        return {kind: ends | {"at": free[0].at, "axis": free[0].axis} | way_words(free[0])}
+        return {kind: {"at": free[0].at, "axis": free[0].axis} | way_words(free[0])}
     slides, turns = ([f for f in free if f.kind == kind] for kind in (SLIDE, TURN))
     if not _fits(free, slides, turns):
         return None
-    if not slides and len(turns) == 2:
+    if not slides and len(turns) == 2 and turns[0].friction == turns[1].friction:
         first, second = turns
-        words = ends | {"at": first.at, "axis": first.axis, "second_axis": second.axis} | way_words(first)
+        words = {"at": first.at, "axis": first.axis, "second_axis": second.axis} | way_words(first)
         more = way_words(second)
         words |= {f"second_{key}": value for key, value in more.items() if key != "friction"}
-        return {"universal": words} if first.friction == second.friction else None
-    return {"generic": ends | _generic(slides, turns)}
+        return {"universal": words}
+    return {"generic": _generic(slides, turns)}
 
 
 def way_words(freedom: Freedom, sign: float = 1.0) -> dict[str, Any]:

@@ -22,7 +22,10 @@ class Looks:
         """Return collider, material and visual of a link with at most one shape to touch and one to be seen."""
         words: dict[str, Any] = {}
         for piece in pieces:
-            place = pose_words(piece.pose)
+            if any(np.min(value) <= 0.0 for key, value in piece.words.items() if key != "normal"):
+                self.report.drop(piece.element, "a shape without size", piece.element.attributes.get("name", ""))
+                continue
+            place = pose_words(piece.pose) if piece.kind != "plane" else {}
             if piece.touches and (shape := self.touched(piece, moves)):
                 words["collider"] = shape | place | ({} if piece.layer == "default" else {"layer": piece.layer})
                 words |= {"material": piece.material} if piece.material else {}
@@ -43,12 +46,12 @@ class Looks:
         if self.touching == "none":
             self.report.drop(piece.element, "a mesh to touch", whose)
             return None
-        if not moves and not piece.words.get("hull") and not self.meshes.fault(piece, AS_MESH):
+        if not moves and not piece.hull and not self.meshes.fault(piece, AS_MESH):
             return {AS_MESH: self.meshes.words(piece)}
         if fault := self.meshes.fault(piece, AS_HULL):
             self.report.drop(piece.element, f"a mesh to touch, which has no hull: {fault.partition(': ')[2]}", whose)
             return None
-        if not piece.words.get("hull"):
+        if not piece.hull:
             self.report.approximate(piece.element, "a mesh to touch as its hull", whose)
         return {AS_HULL: self.meshes.words(piece)}
 

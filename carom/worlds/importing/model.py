@@ -40,7 +40,7 @@ class Piece:
     """A shape of a link, to touch others or to be seen.
 
     ``words`` are those of a carom shape but for axes: cylinders and capsules lie along z, planes face z. A mesh has
-    ``file`` and ``scale`` (3,), which is also its mirror image where negative.
+    ``file`` and ``scale`` (3,), which is also its mirror image where negative; ``hull`` says that it touches as such.
     """
 
     element: Element
@@ -54,6 +54,7 @@ class Piece:
     layer: str = "default"
     file: Path | None = None
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    hull: bool = False
 
 
 class Inertia(NamedTuple):

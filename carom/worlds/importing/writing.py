@@ -63,6 +63,6 @@ def flow(value: Any) -> str:
     if isinstance(value, bool) or value is None:
         return json.dumps(value)
     if isinstance(value, (int, float, np.floating, np.integer)):
-        return f"{float(value):.{DIGITS}g}"
+        return f"{float(value) + 0.0:.{DIGITS}g}"
     text = str(value)
     return text if PLAIN.fullmatch(text) and text.lower() not in WORDS else json.dumps(text, ensure_ascii=False)

@@ -170,7 +170,7 @@ UNSAFE = (
     ("text", "message"),
     [
         ("<robot", "1:1: is not XML: unclosed token"),
-        ("<world/>", "1:1: is no model; received <world>; accepted: a URDF <robot>"),
+        ("<world/>", "1:1: is no model; received <world>; accepted: <robot> of URDF or <mujoco> of MJCF"),
         (BOMB, UNSAFE),
         ("<robot>" + "<a>" * 200, "1:389: is nested deeper than 128 levels"),
     ],

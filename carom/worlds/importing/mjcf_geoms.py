@@ -1,0 +1,180 @@
+"""Geoms of MJCF: shapes, how they touch, and what they weigh."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+import numpy as np
+
+from carom.ecs.errors import DeclarationError
+from carom.ecs.spatial import quaternion
+from carom.systems.joints.frames import shortest_turn
+from carom.systems.shapes import SHAPES
+from carom.systems.shapes.geometry import hull_of
+from carom.systems.shapes.model_files import read_scene
+from carom.systems.shapes.shape import MassProperties
+from carom.systems.shapes.solid import solid_properties
+from carom.worlds.importing.elements import Element, Reading
+from carom.worlds.importing.files import ModelFiles
+from carom.worlds.importing.masses import placed
+from carom.worlds.importing.mjcf_file import Compiler
+from carom.worlds.importing.model import HERE, Inertia, Piece, Pose
+from carom.worlds.importing.report import Report
+
+KINDS = ("plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "hfield", "sdf")
+LONG = ("capsule", "cylinder", "box", "ellipsoid")  # those that fromto places
+SHOWN_GROUPS = 3  # geoms of higher groups are not drawn unless asked for
+SOFTNESS = ("solref", "solimp", "solmix", "margin", "gap", "priority")
+Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+WATER = 1000.0  # kg/m3, MuJoCo's default density
+
+
+class Geoms:
+    """Reads geoms; ``met`` counts the pairs of contype and conaffinity, for their layers."""
+
+    def __init__(self, compiler: Compiler, files: ModelFiles, reading: Reading, report: Report) -> None:
+        self.compiler, self.files, self.reading, self.report = compiler, files, reading, report
+        self.colors: dict[str, Any] = {}
+        self.meshes: dict[str, tuple[Element, Any]] = {}
+        self.met: Counter[tuple[int, int]] = Counter()
+        self.smooth: list[tuple[Piece, str]] = []  # of condim 1, and whose they are
+
+    def asset(self, element: Element) -> None:
+        """Note a mesh or material."""
+        words = element.attributes
+        if element.tag == "material":
+            self.colors[words.get("name", "")] = self.reading.numbers(element, "rgba", 4, (1.0, 1.0, 1.0, 1.0))
+            if "texture" in words:
+                self.report.drop(element, "textures", words.get("name", ""))
+        elif element.tag == "mesh":
+            name = words.get("name", words.get("file", "").rpartition("/")[2].rpartition(".")[0])
+            if "file" not in words:
+                self.report.drop(element, "meshes of numbers", name)
+                return
+            for key in ("refpos", "refquat"):
+                if key in words:
+                    self.report.drop(element, f"{key} of meshes", name)
+            path = self.files.find(element, words["file"], name, folder=self.compiler.meshes)
+            self.meshes[name] = (element, path)
+        elif element.tag not in ("texture", "hfield"):
+            self.report.drop(element, f"assets <{element.tag}>", words.get("name", ""))
+
+    def piece(self, element: Element, body: str) -> Piece | None:
+        """Return the shape of a geom with its default class filled in, or None where it does not come over."""
+        read, words = self.reading, element.attributes
+        whose = words.get("name", body)
+        kind = read.choice(element, "type", KINDS, "mesh" if "mesh" in words and "type" not in words else "sphere")
+        if kind in ("hfield", "sdf"):
+            self.report.drop(element, f"geoms of type {kind}", whose)
+            return None
+        pose = self.compiler.pose(element)
+        piece = Piece(element, kind, {}, pose)
+        if kind == "mesh":
+            if not self.mesh(piece, whose):
+                return None
+        else:
+            pose, piece.words = self.size(element, kind, pose)
+            piece.pose = pose
+        self.touching(piece, whose)
+        group = int(read.number(element, "group", 0.0))
+        piece.seen = group < SHOWN_GROUPS
+        if "rgba" in words or words.get("material") in self.colors:
+            color = read.numbers(element, "rgba", 4, self.colors.get(words.get("material", ""), (0.5, 0.5, 0.5, 1.0)))
+            piece.color = tuple(min(max(part, 0.0), 1.0) for part in color)
+            piece.seen = piece.seen and color[3] > 0.0
+        return piece if piece.touches or piece.seen else None
+
+    def mesh(self, piece: Piece, whose: str) -> bool:
+        """Let a piece be a mesh, which MuJoCo collides as its hull; tell whether there is one."""
+        name = piece.element.attributes.get("mesh", "")
+        if name not in self.meshes:
+            self.reading.fault(piece.element, "unknown mesh", received=repr(name), accepted=", ".join(self.meshes))
+            return False
+        asset, piece.file = self.meshes[name]
+        x, y, z = self.reading.numbers(asset, "scale", 3, (1.0, 1.0, 1.0))
+        piece.scale, piece.hull = (x, y, z), True
+        return piece.file is not None
+
+    def size(self, element: Element, kind: str, pose: Pose) -> tuple[Pose, dict[str, Any]]:
+        """Return the pose and the words of a shape by its half sizes, or by where it leads from and to."""
+        sizes = [*self.reading.numbers(element, "size", 3, (), fewer=True), 0.0, 0.0, 0.0][:3]
+        if "fromto" in element.attributes and kind in LONG:
+            ends = np.array(self.reading.numbers(element, "fromto", 6))
+            along, half = ends[:3] - ends[3:], float(np.sqrt(((ends[3:] - ends[:3]) ** 2).sum())) / 2.0
+            rotation = shortest_turn(Z, along) if half > 0.0 else HERE.rotation
+            pose = Pose((ends[:3] + ends[3:]) / 2.0, rotation)
+            sizes = [sizes[0], half, 0.0] if kind in ("capsule", "cylinder") else [sizes[0], sizes[0], half]
+        if kind == "box":
+            return pose, {"size": 2.0 * np.array(sizes)}
+        if kind == "ellipsoid":
+            return pose, {"radii": np.array(sizes)}
+        if kind == "plane":
+            return pose, {}
+        return pose, {"radius": sizes[0]} | ({} if kind == "sphere" else {"length": 2.0 * sizes[1]})
+
+    def touching(self, piece: Piece, whose: str) -> None:
+        """Let a piece touch by contype and conaffinity, with its friction, the greater of which counts."""
+        element, read = piece.element, self.reading
+        pair = (int(read.number(element, "contype", 1.0)), int(read.number(element, "conaffinity", 1.0)))
+        piece.touches = any(pair)
+        if not piece.touches:
+            return
+        self.met[pair] += 1
+        piece.layer = layer_of(pair)
+        slides, *_ = read.numbers(element, "friction", 3, (1.0, 0.005, 0.0001), fewer=True)
+        piece.material = {"friction": {"value": slides, "combine": "max"}}
+        dimensions = int(read.number(element, "condim", 3.0))
+        if dimensions == 1:
+            self.smooth.append((piece, whose))
+        if dimensions > 3:
+            self.report.drop(element, "friction against spinning and rolling (condim)", whose)
+        for key in SOFTNESS:
+            if key in element.attributes:
+                self.report.drop(element, f"softness of contacts ({key})", whose)
+
+    def settle_friction(self) -> None:
+        """Let geoms of condim 1 be without friction where all are, for it takes two of them."""
+        alone = len(self.smooth) == self.met.total()
+        for piece, whose in self.smooth:
+            if alone:
+                piece.material = {"friction": 0.0}
+            else:
+                what = "condim 1: there without friction on each other, here as on the rest"
+                self.report.approximate(piece.element, what, whose)
+
+    def inertia(self, piece: Piece) -> Inertia | None:
+        """Return what a piece weighs in the frame of its body, by its own mass or density."""
+        element = piece.element
+        try:
+            solid = self.solid(piece)
+        except DeclarationError:
+            return None
+        density = self.reading.number(element, "density", WATER, least=0.0)
+        mass = self.reading.number(element, "mass", density * solid.volume, least=0.0)
+        if mass == 0.0:
+            return None
+        axes = quaternion.matrix(solid.axes)
+        own = Inertia(mass, np.array(solid.center), mass * (axes @ np.diag(solid.inertia) @ axes.T))
+        if piece.kind in ("capsule", "cylinder"):
+            own = placed(own, Pose(np.zeros(3), shortest_turn(Y, Z)))
+        return placed(own, piece.pose)
+
+    def solid(self, piece: Piece) -> MassProperties:
+        """Return volume, centre and moments of a piece in its own frame, cylinders and capsules along y."""
+        if piece.kind == "plane":
+            return MassProperties(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+        if piece.file is None:
+            return SHAPES[piece.kind].stated(**piece.words).mass_properties()
+        return solid_properties(hull_of(np.array(read_scene(piece.file).vertices) * piece.scale))
+
+    def layers(self) -> dict[str, list[str]]:
+        """Return the layers: two geoms meet when the contype of one shares a bit with the other's conaffinity."""
+        pairs = sorted(self.met)
+        met = {one: [other for other in pairs if one[0] & other[1] or other[0] & one[1]] for one in pairs}
+        return {layer_of(one): [layer_of(other) for other in met[one]] for one in pairs if layer_of(one) != "default"}
+
+
+def layer_of(pair: tuple[int, int]) -> str:
+    """Return the layer of a contype and conaffinity; the default ones meet whoever meets them."""
+    return "default" if pair == (1, 1) else f"layer_{pair[0]}_{pair[1]}"
