@@ -46,7 +46,8 @@ class LoadedWorld:
     """A world file ready to run; ``document`` is its plain data and ``up`` the direction pictures keep upright.
 
     ``warnings`` are lines for the user on what the file can be used without, such as triangles without area; ``files``
-    are those that it names or includes, by its words for them; ``source`` knows where each of its words stands.
+    are those that it names or includes, by its words for them; ``source`` knows where each of its words stands,
+    and ``places`` which of them an entity is of.
     """
 
     simulation: Simulation
@@ -64,6 +65,7 @@ class LoadedWorld:
     warnings: list[str] = field(default_factory=list)
     files: dict[str, Path] = field(default_factory=dict)
     source: Source = field(default_factory=lambda: Source("", ""))
+    places: dict[int, tuple[str | int, ...]] = field(default_factory=dict)
 
     def contents(self) -> dict[str, bytes]:
         """Return what is in its files, by the words of the world for them; none needs another file beside it."""
@@ -134,7 +136,7 @@ def load_text(
     return LoadedWorld(
         simulation, data, name, text, plan(values["run"], simulation.settings.dt), expectations,
         values["name"], values["description"], UP[values["up"]], values["cameras"], render, recording, source.warnings,
-        files_of_world.used, source,
+        files_of_world.used, source, populator.places_in_file,
     )  # fmt: skip
 
 

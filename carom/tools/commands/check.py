@@ -1,4 +1,4 @@
-"""Check: read world files and tell everything wrong in them."""
+"""Check: read world files, and tell everything that is wrong in them and what they can hardly mean."""
 
 from __future__ import annotations
 
@@ -18,21 +18,23 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.ecs.errors import CaromError
     from carom.tools.look import look_of
     from carom.worlds.builder import load_world
+    from carom.worlds.lint import lint
 
     results = []
     for world in arguments.worlds:
         try:
             loaded = load_world(world)
             look_of(loaded)
+            entities = int(loaded.simulation.world.slots.alive.sum())
+            warnings = lint(loaded)
         except CaromError as fault:
             results.append({"world": world, "faults": str(fault).splitlines()})
             if not arguments.json:
                 print(fault, file=sys.stderr)
             continue
-        entities = int(loaded.simulation.world.slots.alive.sum())
         counts = {"entities": entities, "expectations": len(loaded.expectations)}
-        results.append({"world": world, "faults": [], **counts, "warnings": loaded.warnings})
-        print_warnings(loaded.warnings)
+        results.append({"world": world, "faults": [], **counts, "warnings": warnings})
+        print_warnings(warnings)
         if not arguments.json:
             print(f"ok     {world}: {entities} entities, {len(loaded.expectations)} expectations")
     if arguments.json:
