@@ -1,4 +1,4 @@
-"""What a world says and can hardly mean is told by check, where it stands; worlds as they should be are told nothing."""
+"""What a world says and can hardly mean is told by check, where it stands."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ import pytest
 from carom.tools.cli import main
 from carom.worlds import load_text
 from carom.worlds.lint import lint
+
+BALL = "entities:\n- {name: a, collider: {sphere: {radius: 1}}, body: {}}\n"
 
 
 def warnings(text: str, folder: Path | None = None) -> list[str]:
@@ -52,13 +54,11 @@ def warnings(text: str, folder: Path | None = None) -> list[str]:
             ["w.yaml:2:12: entities.0: ball moves at 2e+03 m/s; was another unit meant?"],
         ),
         (
-            "entities:\n- {name: a, collider: {sphere: {radius: 1}}, body: {}}\n"
-            "- {name: b, collider: {sphere: {radius: 1}}, transform: {position: [1.5, 0, 0]}}\n",
+            BALL + "- {name: b, collider: {sphere: {radius: 1}}, transform: {position: [1.5, 0, 0]}}\n",
             ["w.yaml:4:3: entities.1: a and b are 0.5 m in each other at the start"],
         ),
         (
-            "entities:\n- {name: a, collider: {box: {size: [1, 1, 1]}}, body: {}, transform: {position: [0, 0.499, 0]}}\n"
-            "- {name: floor, collider: {plane: {}}}\n",
+            BALL + "- {name: floor, collider: {plane: {offset: -0.99}}}\n",
             [],
         ),
     ],
