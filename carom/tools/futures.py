@@ -19,6 +19,7 @@ from carom.tools.ghosts import Ghost, Ghosts, owners
 from carom.tools.moments import ROUNDING as SAME_TIME
 from carom.worlds.oracle import Oracle, errors
 
+MOST_PATHS = 100  # bodies: of more nobody could tell the paths apart, and only where they are now is kept
 ROUNDING = 1e-12  # of an energy: a smaller change is none
 
 
@@ -43,7 +44,9 @@ class Future(Ghost):
                 simulation.step()
             except NonFiniteError as fault:
                 self.ended = fault
-        self._path.append(self.places(shown, time)[dynamic_rows(shown)])
+        bodies = dynamic_rows(shown)
+        self._path = self._path if len(bodies) <= MOST_PATHS else []
+        self._path.append(self.places(shown, time)[bodies])
 
     def rows(self, world: World) -> Integers:
         """Return the bodies that obey forces, and what belongs to them."""

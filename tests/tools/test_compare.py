@@ -127,6 +127,18 @@ def test_a_table_tells_what_became_of_each(world: str, capsys: pytest.CaptureFix
     ]
 
 
+def test_a_future_that_explodes_is_told_and_left_behind(world: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """The others go on; from then on it has no ghost, and the table says what became of it."""
+    futures = compared(world, "gravity=[0, -10, 0], [0, -1e308, 0]")
+    first, lost = futures.futures
+    assert first.simulation.frame == 30
+    assert lost.ended is not None and lost.simulation.frame < 30
+    assert np.isfinite(lost.path()[0]).all() and np.isnan(lost.path()[-1]).all()
+    assert futures.outcomes()[1].whose == ""
+    row = futures.text().splitlines()[2]
+    assert row.startswith("gravity=[0, -1e+308, 0]  frame ")
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -42,7 +42,8 @@ def test_each_level_has_all_of_those_before_it() -> None:
     """In their order."""
     light, full, solver = (list(tracks_of(level)) for level in DETAILS)
     assert light == [
-        "bodies", "ledger", "cameras", "contacts", "dissipation", "log", "impacts", "plots", "promoted", "triggers"
+        "bodies", "ledger", "cameras", "contacts", "dissipation", "error", "difference", "ghosts", "log", "impacts",
+        "plots", "promoted", "triggers",
     ]  # fmt: skip
     own = {
         "bounds", "colliders", "forces", "manifolds", "normals", "shapes", "states", "trails", "velocities"

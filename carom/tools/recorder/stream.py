@@ -29,6 +29,13 @@ def application_id(title: str) -> str:
     return f"carom: {plain}" if plain == title else f"carom: {plain} {crc32(title.encode()):08x}"
 
 
+def own_path(root: str, name: str) -> str:
+    """Return the path below another of what has this name, with marks before letters that mean something in paths."""
+    import rerun
+
+    return str(rerun.new_entity_path([*root.split("/"), name]))
+
+
 class Stamp(NamedTuple):
     """When something is: the frame number and the simulated time in s."""
 

@@ -17,7 +17,7 @@ from carom.tools.cameras import Camera
 from carom.tools.recorder.block import Block, Columns
 from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.rows import RowTrack, text
-from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.stream import Stamp, Stream, own_path
 from carom.tools.rigs import Rig
 
 ROOT = "world/cameras"
@@ -108,6 +108,4 @@ class Cameras(RowTrack):
 
 def place(name: str) -> str:
     """Return the path of a camera."""
-    import rerun
-
-    return str(rerun.new_entity_path([*ROOT.split("/"), name]))
+    return own_path(ROOT, name)

@@ -12,9 +12,8 @@ from carom.systems.simulation import Simulation
 from carom.tools.ghosts import Ghost, Ghosts
 from carom.tools.recorder.curves import ROOT, Curves
 from carom.tools.recorder.layout import Layout
-from carom.tools.recorder.stream import Stream
+from carom.tools.recorder.stream import Stream, own_path
 from carom.tools.recorder.track import Track
-from carom.tools.recorder.tracks.promoted import own_path
 from carom.worlds.oracle import Oracle, errors
 
 

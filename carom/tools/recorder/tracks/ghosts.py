@@ -14,10 +14,9 @@ from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.tools.ghosts import Ghost, ghosts_of
 from carom.tools.recorder.layout import Layout
-from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.stream import Stamp, Stream, own_path
 from carom.tools.recorder.track import Track
 from carom.tools.recorder.tracks.bodies import Bodies
-from carom.tools.recorder.tracks.promoted import own_path
 
 ROOT, PATHS = "world/ghosts", "world/paths"
 RADIUS = -0.8  # px
@@ -55,7 +54,7 @@ class GhostPath:
     def sample(self, stamp: Stamp) -> None:
         """Keep the ways since the last frame."""
         path = self._ghost.path(self._last)
-        if len(path):
+        if len(path) > 1:
             ways = np.swapaxes(path, 0, 1).astype(np.float32)
             self._pending.append((stamp, ways[np.isfinite(ways).all(axis=(1, 2))]))
             self._last += len(path) - 1

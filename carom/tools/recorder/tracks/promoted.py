@@ -21,7 +21,7 @@ from carom.tools.recorder.choice import Choice
 from carom.tools.recorder.lanes import Lanes, told
 from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.rows import RowTrack, handle, number
-from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.stream import Stamp, Stream, own_path
 from carom.tools.recorder.track import Track
 from carom.tools.recorder.tracks.bodies import Bodies
 
@@ -155,13 +155,6 @@ class Promoted(RowTrack):
         """Return the rows of those chosen that obey forces."""
         rows = dynamic_rows(world)
         return rows[self.choice.rows(world)[rows]]
-
-
-def own_path(root: str, name: str) -> str:
-    """Return the path of a body of this name."""
-    import rerun
-
-    return str(rerun.new_entity_path([*root.split("/"), name]))
 
 
 def _touched(world: World, rows: Integers) -> list[str]:
