@@ -17,7 +17,6 @@ HALO = 1.25  # px of dark around arrows and dots, which sets them off from bodie
 HALO_ALPHA = 0.5
 HEAD = 3.6  # length of an arrow's head over its width
 BLUNT = 1.5  # half width of a head over the arrow's width
-FULL = 480  # px: in higher pictures widths grow with the height
 SHORTEST = 1.0  # px: of a shorter arrow nothing is drawn
 
 Picture = npt.NDArray[np.uint8]
@@ -32,7 +31,7 @@ def draw(picture: Picture, view: View, marks: Sequence[Mark], survey: Survey) ->
     """
     needed = any(getattr(mark, "behind", 1.0) < 1.0 or getattr(mark, "rows", None) is not None for mark in marks)
     ids, depth = survey() if needed else (None, np.ones(picture.shape[:2], np.float32))
-    large = max(1.0, view.height / FULL)
+    large = view.magnification
     for mark in marks:
         if isinstance(mark, Lines):
             starts, ends = view.segments(mark.starts, mark.ends)

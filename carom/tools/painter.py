@@ -18,6 +18,7 @@ from carom.tools.marks import Mark
 from carom.tools.overlays import OVERLAYS
 from carom.tools.overlays.overlay import Overlay, Seen
 from carom.tools.overlays.plot import Plot
+from carom.tools.particles import particle_marks
 from carom.tools.quantities import quantity
 from carom.tools.scene import Scene
 from carom.tools.view import View
@@ -96,4 +97,5 @@ class Painter:
         marks = [mark for overlay in self._overlays for mark in overlay.marks(seen)]
         legends = [legend for legend in (self._coloring.legend, legend_of_ghosts(seen.world)) if legend is not None]
         paths = [lines for ghost in ghosts_of(seen.world) if (lines := path_lines(ghost)) is not None]
-        return [*paths, *(legend_inset(legend, seen.view) for legend in legends), *marks]
+        clouds = particle_marks(seen.world, seen.view)
+        return [*clouds, *paths, *(legend_inset(legend, seen.view) for legend in legends), *marks]

@@ -16,6 +16,7 @@ from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import Surface
 from carom.tools.batch import Batch
 from carom.tools.coloring import Coloring
+from carom.tools.particles import particle_batches
 
 SPREAD = 100.0  # an endless surface is drawn this many times as wide as its sample, so that its edge lies in the haze
 
@@ -51,8 +52,9 @@ class Scene:
         visual, transform = world[Visual], world[Transform] if transform is None else transform
         rows = world.row_numbers(Visual, Transform)
         rows = rows[visual.visible[rows]]
+        solids = particle_batches(world)
         if not len(rows):
-            return []
+            return solids
         rotation = transform.rotation[rows]
         poses = np.zeros((len(rows), 4, 4))
         poses[:, 3, 3] = 1.0
@@ -68,7 +70,7 @@ class Scene:
             for mesh in self._meshes_of(int(rows[members[0]]), looks[members[0]].tobytes()):
                 finish = mesh.finish if coloring is None or coloring.keeps_looks else None
                 batches.append(Batch(mesh.vertices, mesh.faces, *place, mesh.smooth, mesh.floor, finish, mesh.coarser))
-        return batches
+        return batches + solids
 
     def _meshes_of(self, row: int, look: bytes) -> list[Mesh]:
         found = self._meshes.get(look)

@@ -10,6 +10,7 @@ import numpy as np
 from carom.ecs.column import Booleans, Floats
 from carom.tools.cameras import Camera
 
+FULL = 480  # px: in higher pictures widths of marks grow with the height
 NEARER = 0.005  # of its distance, by which what is drawn on a surface is taken to be in front of it
 
 
@@ -30,9 +31,26 @@ class View:
         return self.camera.projection(self.width / self.height)
 
     @property
+    def magnification(self) -> float:
+        """How many times wider than stated marks are drawn."""
+        return max(1.0, self.height / FULL)
+
+    @property
     def metres_per_pixel(self) -> float:
         """Return how large a pixel is at the camera's target (m)."""
         return 2.0 * self.camera.reach / self.height
+
+    def ahead(self, points: Floats) -> Floats:
+        """Return how far ahead of the camera points (n, 3) are, m."""
+        return np.asarray(-self._before_camera(points)[:, 2])
+
+    def pixels_per_metre(self, points: Floats) -> Floats:
+        """Return how large a metre across the line of sight is at points (n, 3), px; 0 behind the near plane."""
+        if self.camera.height is not None:
+            return np.full(len(points), 1.0 / self.metres_per_pixel)
+        ahead = self.ahead(points)
+        seen = ahead > self.camera.planes[0]
+        return np.where(seen, self.camera.distance / np.where(seen, ahead, 1.0), 0.0) / self.metres_per_pixel
 
     def pixels(self, points: Floats) -> Floats:
         """Return x, y (px from the corner on top and left) and depth (0 near, 1 far) of points (n, 3), m.

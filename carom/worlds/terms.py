@@ -18,6 +18,7 @@ from carom.worlds.functions import CALLS, PAIRS
 from carom.worlds.joint_terms import TURNS, WAYS, readings, spelled_out
 from carom.worlds.names import fitting, matching
 from carom.worlds.oracle import check_foretold
+from carom.worlds.particle_terms import WORD, emits, particle_measure
 from carom.worlds.pictures import QUESTIONS, Pictures, check_drawn, read_camera
 
 NAME_PATTERN = r"[^\W\d][\w*-]*(?:\[[\d,*]*\]|\.[\w*][\w*-]*)*"  # rain[3,0,1], rope.joint[2], cart.wheel[0]
@@ -129,7 +130,12 @@ def _question(text: str, function: str, patterns: list[str], world: World) -> Te
 def _column(text: str, end: int, names: list[str], world: World) -> Term:
     """Return the term of a column, whose name follows those of entities from ``end`` on."""
     entities = [world.find(name) for name in names]
-    steps = spelled_out(world, entities[0], text[end + 1 :].split("."))
+    steps = text[end + 1 :].split(".")
+    if steps[0] == WORD and len(steps) > 1 and all(emits(world, entity) for entity in entities):
+        unit, size, measure = particle_measure(text, steps[1:])
+        told = tuple(".".join([name, *steps]) for name in names)
+        return Term(text, unit, size, told, lambda world: np.array([measure(world, entity) for entity in entities]))
+    steps = spelled_out(world, entities[0], steps)
     part = steps.pop() if len(steps) > 1 and steps[-1] in (*AXES, *WAYS) else None
     kind = _kinds(world, entities[0], *steps)
     for entity in entities[1:]:

@@ -63,9 +63,11 @@ class CaromSnapshot:
     def _actual(self, simulation: Simulation, camera: Camera | None, size: tuple[int, int]) -> Actual:
         __tracebackhide__ = True
         from carom.tools.offscreen import GraphicsError
+        from carom.tools.particles import particle_marks
         from carom.tools.scene import Scene
         from carom.tools.snapshot_kit.golden import Actual
         from carom.tools.snapshot_kit.state import state_golden
+        from carom.tools.view import View
 
         if camera is None:
             return Actual(state_golden(simulation.world))
@@ -73,7 +75,8 @@ class CaromSnapshot:
             renderer = self._kit.renderer(size)
         except GraphicsError as fault:
             pytest.fail(f"the picture cannot be drawn: {fault}", pytrace=False)
-        picture = renderer.picture(Scene(simulation.world).batches(), camera)
+        marks = particle_marks(simulation.world, View(camera, *size))
+        picture = renderer.picture(Scene(simulation.world).batches(), camera, marks)
         return Actual(state_golden(simulation.world, renderer.driver), picture)
 
     def _report(
