@@ -40,7 +40,7 @@ from carom.systems.mass import Part, rigid_body
 from carom.systems.own_components import own_component
 from carom.systems.particles.words import emitter_of
 from carom.systems.paths import path_of, stated
-from carom.systems.settings import Settings
+from carom.systems.settings import Settings, time_of
 from carom.systems.shapes import SHAPES, Shape
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import Bounds
@@ -171,7 +171,7 @@ def bundles_of(
     if seen is not None:
         bundles.append(seen)
     if emitter is not None:
-        bundles.append(emitter if isinstance(emitter, Emitter) else emitter_of(emitter))
+        bundles.append(emitter if isinstance(emitter, Emitter) else emitter_of(emitter, time_of(world)))
     if body is not None and "parent" in own:
         raise DeclarationError("parent: a body moves by forces, not with who carries it; remove body or parent")
     return bundles + further

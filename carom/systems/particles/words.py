@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from carom.ecs.components.emitter import Collide, Drawn, Emitter, Source, Within
 from carom.ecs.errors import DeclarationError
 from carom.systems.declared import Stated, Steps, choice, direction, part, read_words, span, tint
@@ -54,7 +56,9 @@ class EmitterWords(Stated):
     rate: float = parameter(unit="1/s", doc="particles born in a second", default=0.0, least=0.0)
     burst: int = parameter(unit="1", doc="particles born at once, when it begins", default=0, least=0)
     every: float = parameter(unit="s", doc="time between bursts, 0 for a single one", default=0.0, least=0.0)
-    start: float = parameter(unit="s", doc="simulated time at which it begins", default=0.0, least=0.0)
+    start: float = parameter(
+        unit="s", doc="simulated time at which it begins, not before it is added", default=0.0, least=0.0
+    )
     duration: float = parameter(unit="s", doc="for how long it emits, for good by default", default=math.inf, above=0.0)
     source: Any = part(SourceWords, words=("point",), doc="where they are born, in a point by default", default="point")
     direction: tuple[float, float, float] | None = direction(doc="mean direction, frame of the entity; y by default")
@@ -125,10 +129,14 @@ def read_emitter(words: Any, faults: list[WordFault]) -> Emitter | None:
     return None if stated is None else stated.component()
 
 
-def emitter_of(words: Any) -> Emitter:
-    """Return the component that words state; raise DeclarationError naming everything that is wrong with them."""
+def emitter_of(words: Any, now: float) -> Emitter:
+    """Return the component that words state, which begins at the earliest ``now`` (s).
+
+    Raises DeclarationError naming everything that is wrong with them.
+    """
     faults: list[WordFault] = []
     made = read_emitter(words, faults)
     if made is None:
         raise DeclarationError("; ".join(map(str, faults)))
+    made.start = np.maximum(made.start, now)
     return made

@@ -1,0 +1,66 @@
+"""Particles: all of them as one batch of points, in their colours and sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+import numpy as np
+
+from carom.ecs.column import Column
+from carom.ecs.components.emitter import Drawn, Emitter
+from carom.ecs.relations.particle import Particle
+from carom.systems.simulation import Simulation
+from carom.tools.particles import POINT_WIDTH, clouds
+from carom.tools.recorder.block import Block, Columns
+from carom.tools.recorder.rows import RowTrack, handle, number
+from carom.tools.recorder.stream import Stream
+
+
+class Particles(RowTrack):
+    """The particles of all emitters; a world without any costs nothing."""
+
+    key: ClassVar[str] = "particles"
+    path: ClassVar[str] = "world/particles"
+    columns: ClassVar[Mapping[str, Column]] = {
+        "emitter": handle("whose it is"),
+        "number": Particle.columns["number"],
+        "position": number("m", "position, world frame", 3, dtype="float32"),
+    }
+    drawn: ClassVar[Mapping[str, str]] = {"position": "Points3D:positions"}
+    sparse: ClassVar[bool] = True
+
+    def rows(self, simulation: Simulation) -> Columns | None:
+        """Return a row for each particle; none at all where nothing emits."""
+        world = simulation.world
+        seen, count = list(clouds(world)), world.count(Particle)
+        if not seen:
+            return _nothing() if world.count(Emitter) else None
+        radii = [
+            np.full(len(cloud.places), -0.5 * POINT_WIDTH)  # px
+            if cloud.drawn == Drawn.POINTS
+            else 0.5 * cloud.diameters
+            for cloud in seen
+        ]
+        return {
+            "emitter": np.array(world[Particle].emitter[:count]),
+            "number": np.array(world[Particle].number[:count]),
+            "position": np.concatenate([cloud.places for cloud in seen]).astype(np.float32),
+            "radius": np.concatenate(radii).astype(np.float32),
+            "color": np.rint(255.0 * np.concatenate([cloud.colors for cloud in seen])).astype(np.uint8),
+        }
+
+    def draw(self, block: Block, stream: Stream) -> None:
+        """Write the points."""
+        import rerun
+
+        columns = rerun.Points3D.columns(
+            positions=block.columns["position"], radii=block.columns["radius"], colors=block.columns["color"]
+        )
+        stream.rows(self.path, block.stamps, columns.partition(block.counts))
+
+
+def _nothing() -> Columns:
+    shapes = {"emitter": (0,), "number": (0,), "position": (0, 3), "radius": (0,), "color": (0, 4)}
+    kinds = {"emitter": np.int64, "number": np.int64, "color": np.uint8}
+    return {name: np.zeros(shape, kinds.get(name, np.float32)) for name, shape in shapes.items()}
