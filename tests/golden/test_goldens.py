@@ -21,6 +21,8 @@ from carom.worlds import load_world
         ("double_pendulum", 480),
         ("falling_ball", 3),
         ("gravity_well", 200),
+        ("fireworks", 156),
+        ("fountain", 144),
         ("jump", 78),
         ("line_of_sight", 600),
         ("mirror_room", 120),
@@ -28,7 +30,9 @@ from carom.worlds import load_world
         ("pong", 60),
         ("ship_in_water", 90),
         ("solar_system", 300),
+        ("sand_storm", 144),
         ("trap", 420),
+        ("vapour_trail", 108),
         ("whip", 240),
     ],
 )

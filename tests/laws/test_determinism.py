@@ -16,12 +16,7 @@ from carom.systems.simulation import Simulation
 from carom.systems.threads import FEWEST
 
 FRAMES = 240
-WORLDS = (
-    "billiards",
-    "stack",
-    "cannon",
-    "heap",
-)  # heap: boxes, balls and capsules stirred in shallow water
+WORLDS = ("billiards", "stack", "cannon", "fireworks", "heap")  # heap: solids stirred in shallow water
 HASHES = """
 import itertools
 import sys

@@ -91,7 +91,7 @@ def test_a_world_without_emitters_records_no_particles(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("draw", "area"), [("sprites", pi * 20.0**2), ("spheres", pi * 20.0**2), ("boxes", 40.0**2)])
 def test_a_particle_covers_as_many_pixels_as_its_size_says(renderer: Renderer, draw: str, area: float) -> None:
     """0.4 m at 1 cm a pixel: a disc, a ball and a box of 40 px."""
-    assert np.count_nonzero(drawn(renderer, hanging(draw)) > 20) == pytest.approx(area, rel=0.03)
+    assert np.count_nonzero(drawn(renderer, hanging(draw)) > 40) == pytest.approx(area, rel=0.04)
 
 
 def test_points_are_as_large_at_any_distance(renderer: Renderer) -> None:

@@ -29,7 +29,8 @@ from carom.systems.forces.reach import Reach
 from carom.systems.forces.vortex import apply_vortex
 from carom.systems.forces.wind import Wind, apply_wind
 from carom.systems.integration import clear_forces
-from carom.systems.kernels.particle_arcs import CHUNK, lay_arcs
+from carom.systems.kernels.lanes import WIDTH, aligned
+from carom.systems.kernels.particle_arcs import ARC_ROWS, CHUNK, lay_arcs
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 
@@ -79,9 +80,10 @@ class StandIn(World):
 
 
 class Fields(Resource):
-    """The stand-in, made when it is first needed, and the user's functions; a cache."""
+    """The stand-in, made when it is first needed, the user's functions, and room for the arcs of a chunk; a cache."""
 
     def __init__(self) -> None:
+        self.arcs = aligned(ARC_ROWS * CHUNK // WIDTH, WIDTH)
         self.functions: list[System] = []
         self._stand: StandIn | None = None
 

@@ -9,7 +9,7 @@ from carom.ecs.column import Floats
 from carom.ecs.components.emitter import Collide, Emitter
 from carom.ecs.relations.particle import PLACE, VELOCITY, Particle
 from carom.systems.forces.law import Forces
-from carom.systems.kernels.lanes import WIDTH, aligned
+from carom.systems.kernels.lanes import WIDTH
 from carom.systems.kernels.particle_arcs import ARC_ROWS, CHUNK, lay_even_arcs
 from carom.systems.kernels.particle_flight import fly
 from carom.systems.particles.fields import Even, Fields
@@ -49,8 +49,8 @@ class Flight:
 
     def __init__(self, world: World, emitter: int, row: int, even: Even | None, obstacles: Floats) -> None:
         self.world, self.emitter, self.row, self.even, self.planes = world, emitter, row, even, obstacles
-        self._arcs = aligned(ARC_ROWS * CHUNK // WIDTH, WIDTH)
         self._room = np.zeros(len(VELOCITY + PLACE) * WIDTH, np.float32)
+        self._arcs = world[Fields].arcs
         self._flat = self._arcs.reshape(ARC_ROWS, CHUNK)
 
     def fly(self, first: int, count: int, times: Floats, dt: float) -> None:
@@ -70,4 +70,4 @@ class Flight:
             *(getattr(particle, name) for name in PLACE + VELOCITY),
         )  # fmt: skip
         if before is not None:
-            bounce_off_colliders(world, self.row, rows, before, times)
+            bounce_off_colliders(world, self.row, rows, before, times, self.planes)

@@ -10,7 +10,7 @@ from carom.ecs.relations.particle import PLACE, VELOCITY, Particle
 from carom.ecs.spatial import vector
 from carom.systems.bodies import centers_of_mass
 from carom.systems.constants import PARTICLE_SKIN
-from carom.systems.kernels.particle_flight import PLANE_COLUMNS
+from carom.systems.kernels.particle_flight import NORMAL, OFFSET, PLANE_COLUMNS
 from carom.systems.kernels.particle_planes import combine_materials, place_planes
 from carom.systems.kernels.rays import FIRST, face_hits
 from carom.systems.queries.rays import meet
@@ -51,11 +51,11 @@ def combined_with(world: World, row: int, rows: Integers) -> tuple[Floats, Float
     return restitution, friction
 
 
-def bounce_off_colliders(world: World, row: int, rows: slice, before: Floats, times: Floats) -> None:
+def bounce_off_colliders(world: World, row: int, rows: slice, before: Floats, times: Floats, beside: Floats) -> None:
     """Let particles, which were at ``before`` (n, 3) and flew for ``times`` (n,), bounce off what was in their way.
 
-    Their way is straight, their velocity that at its end. Planes are not in it, nor is the body the emitter is on; what
-    a particle is inside of it leaves freely.
+    Their way is straight, their velocity that at its end. Planes are not in it, but ``beside`` them are those that none
+    is pushed through. Nor is the body in it that the emitter is on; what a particle is inside of it leaves freely.
     """
     particle, scene = world[Particle], world[Scene].of_now(world)
     takes = np.zeros(world.used(), np.bool_)
@@ -68,7 +68,7 @@ def bounce_off_colliders(world: World, row: int, rows: slice, before: Floats, ti
     origin, left = before, times
     for _ in range(BOUNCES):
         way = particle.position(who) - origin
-        length = np.sqrt((way * way).sum(axis=1))
+        length = vector.length(way)
         moves = np.nonzero(length > 0.0)[0]
         direction = way[moves] / length[moves, None]
         ray, met, distance, face = meet(scene, takes, FIRST, origin[moves], direction, length[moves])
@@ -86,8 +86,21 @@ def bounce_off_colliders(world: World, row: int, rows: slice, before: Floats, ti
         velocity = _reflected(world, row, who, met, origin, normal)
         for k in range(3):
             getattr(particle, PLACE[k])[who] = origin[:, k] + left * velocity[:, k]
+        _keep_above(particle, who, beside)
     for k in range(3):
         getattr(particle, PLACE[k])[who] = origin[:, k]
+    _keep_above(particle, who, beside)
+
+
+def _keep_above(particle: Particle, who: Integers, planes: Floats) -> None:
+    """Put those of ``who`` that are below planes onto them, and let them go no deeper."""
+    for plane in planes:
+        normal = plane[NORMAL : NORMAL + 3]
+        depth = np.minimum(0.0, vector.dot(particle.position(who), normal) - plane[OFFSET])
+        closing = np.where(depth < 0.0, np.minimum(0.0, vector.dot(particle.velocity(who), normal)), 0.0)
+        for k in range(3):
+            getattr(particle, PLACE[k])[who] -= depth * normal[k]
+            getattr(particle, VELOCITY[k])[who] -= closing * normal[k]
 
 
 def _reflected(world: World, row: int, who: Integers, met: Integers, point: Floats, normal: Floats) -> Floats:
@@ -102,10 +115,10 @@ def _reflected(world: World, row: int, who: Integers, met: Integers, point: Floa
         surface[moving] = motion.linear[by] + vector.cross(motion.angular[by], lever)
     velocity -= surface
     restitution, friction = combined_with(world, row, met)
-    closing = np.minimum(0.0, (velocity * normal).sum(axis=1))
+    closing = np.minimum(0.0, vector.dot(velocity, normal))
     push = -(1.0 + restitution) * closing
-    along = velocity - (velocity * normal).sum(axis=1)[:, None] * normal
-    size = np.sqrt((along * along).sum(axis=1))
+    along = velocity - vector.dot(velocity, normal)[:, None] * normal
+    size = vector.length(along)
     rubbed = np.minimum(1.0, friction * push / np.where(size > 0.0, size, 1.0))
     velocity += push[:, None] * normal - rubbed[:, None] * along + surface
     for k in range(3):
