@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -55,17 +55,22 @@ def weigh(world: World, bodies: Integers) -> None:
     What was stated of a body goes before; sensors it carries weigh nothing. Raises DeclarationError for one without
     mass.
     """
-    belongs, stated, dimensions = bodies_of(world), world[StatedBodies].words, world[Settings].dimensions
-    rows = world.row_numbers(Collider)
-    rows = rows[~world[Collider].sensor[rows] | (belongs[rows] == rows)]
-    rows = rows[np.argsort(belongs[rows], kind="stable")]
-    first, last = (np.searchsorted(belongs[rows], bodies, side) for side in ("left", "right"))
-    for body, begin, end in zip(bodies.tolist(), first, last, strict=True):
-        parts = [part_at(world, row, body) for row in rows[begin:end].tolist()]
+    stated, dimensions = world[StatedBodies].words, world[Settings].dimensions
+    for body, parts in parts_of(world, bodies):
         made = rigid_body(stated.get(world.entity(body), {}), parts, dimensions)
         with world.edit(RigidBody) as table:
             for name, value in vars(made).items():
                 getattr(table, name)[body] = value
+
+
+def parts_of(world: World, bodies: Integers) -> Iterator[tuple[int, list[Part]]]:
+    """Yield each of some bodies (rows) with what it weighs by: its colliders, and those it carries but for sensors."""
+    belongs, rows = bodies_of(world), world.row_numbers(Collider)
+    rows = rows[~world[Collider].sensor[rows] | (belongs[rows] == rows)]
+    rows = rows[np.argsort(belongs[rows], kind="stable")]
+    first, last = (np.searchsorted(belongs[rows], bodies, side) for side in ("left", "right"))
+    for body, begin, end in zip(bodies.tolist(), first, last, strict=True):
+        yield body, [part_at(world, row, body) for row in rows[begin:end].tolist()]
 
 
 def part_at(world: World, row: int, body: int) -> Part:

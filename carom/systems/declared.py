@@ -54,6 +54,11 @@ def choice(words: tuple[str, ...], *, doc: str, default: str) -> Any:
     return dataclasses.field(default=default, metadata={"choices": words, "doc": doc})
 
 
+def numbers(count: int, *, doc: str, default: Any) -> Any:
+    """Declare so many numbers."""
+    return dataclasses.field(default=default, metadata={"unit": "1", "doc": doc, "width": count})
+
+
 def direction(*, doc: str) -> Any:
     """Declare a direction, a vector of any length but 0."""
     return dataclasses.field(default=None, metadata={"unit": "1", "doc": doc, "width": 3, "directed": True})

@@ -47,6 +47,26 @@ def vector(*, unit: str, doc: str, default: Any = dataclasses.MISSING, above: fl
     return dataclasses.field(default=default, metadata={"unit": unit, "doc": doc, "width": 3, "above": above})
 
 
+def words_of(stated: Any) -> dict[str, Any]:
+    """Return the words that state a dataclass of declared fields, but its defaults; the inverse of reading them."""
+    words: dict[str, Any] = {}
+    for field in dataclasses.fields(stated):
+        value = getattr(stated, field.name)
+        if value is None or same(value, field.default):
+            continue
+        words[field.name] = words_of(value) if dataclasses.is_dataclass(value) else value
+    return words
+
+
+def same(value: Any, other: Any) -> bool:
+    """Tell whether two values are the same to the bit, so that -0 is not 0 and NaN is NaN."""
+    if isinstance(value, float) and isinstance(other, float):
+        return value.hex() == other.hex()
+    if isinstance(value, (tuple, list)) and isinstance(other, (tuple, list)):
+        return len(value) == len(other) and all(map(same, value, other))
+    return type(value) is type(other) and bool(value == other)
+
+
 def number_fault(metadata: Mapping[str, Any], received: Any) -> str:
     """Return what is wrong with the value received for a declared parameter; nothing where it is in its bounds."""
     unit, width = metadata["unit"], metadata.get("width")

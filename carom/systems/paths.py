@@ -79,7 +79,7 @@ def poses(frames: Sequence[Words], transform: Words) -> tuple[Floats, Floats]:
     for n, frame in enumerate(frames):
         now |= frame
         position[n], rotation[n] = now["position"], now["rotation"]
-    return position, quaternion.normalise(rotation)
+    return position, quaternion.unit(rotation)
 
 
 def path_of(world: World, words: Words) -> tuple[Transform, Path]:

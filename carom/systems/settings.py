@@ -65,11 +65,36 @@ def time_of(world: World) -> float:
     return world.frame * world[Settings].dt
 
 
+PCG_MULTIPLIER, PCG_PERIOD = 0x2360ED051FC65DA44385DF649FCCF645, 1 << 128  # of PCG64 (O'Neill, 2014)
+
+
 class Random(Resource):
     """The one seeded generator of a world."""
 
     def __init__(self, seed: int) -> None:
         self.generator = np.random.Generator(np.random.PCG64(seed))
+
+    def drawn(self, seed: int) -> int | None:
+        """Return how many numbers were drawn since the generator began with ``seed``; None where none of it has.
+
+        By bits from the lowest, since those of a linear congruential generator repeat with the period of their place
+        (Brown, Random number generation with arbitrary strides, 1994).
+        """
+        begin, now = np.random.PCG64(seed).state, self.generator.bit_generator.state
+        state, plus, end = begin["state"]["state"], begin["state"]["inc"], now["state"]["state"]
+        if now["state"]["inc"] != plus or now["has_uint32"]:
+            return None
+        times, bit, count = PCG_MULTIPLIER, 1, 0
+        while state != end:
+            if (state ^ end) & bit:
+                state = (state * times + plus) % PCG_PERIOD
+                count |= bit
+            times, plus, bit = times * times % PCG_PERIOD, (times + 1) * plus % PCG_PERIOD, 2 * bit
+        return count
+
+    def draw(self, count: int) -> None:
+        """Go on by so many numbers."""
+        self.generator.bit_generator.advance(count)  # type: ignore[attr-defined]
 
     def state(self) -> bytes:
         """Return the generator's position, and the half of a draw that a 32-bit number left over, if any."""

@@ -36,6 +36,7 @@ from carom.worlds.reader import read
 from carom.worlds.run import RunPlan, plan
 from carom.worlds.sections import RecordingWords, Render
 from carom.worlds.source import Source
+from carom.worlds.state import take_state
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -118,6 +119,7 @@ def load_text(
         source.report(("entities",), str(fault))
     populator.join_all()
     _forces(source, simulation, values["forces"])
+    take_state(source, simulation.world, values["state"])
     add_events(source, populator, values["events"])
     simulation.world.add(Pictures(values["cameras"]))
     if values["oracle"]:
@@ -153,6 +155,7 @@ def _simulation(source: Source, values: dict[str, Any], checked: bool | None, op
         source.report((place,), what, received=received, accepted="[x, y, 0]")
         settings["gravity"] = (*settings["gravity"][:2], 0.0)
     simulation = Simulation(checked=checked, **settings)
+    simulation.world[Random].draw(values["drawn"] or 0)
     for name, words in values["materials"].items():
         simulation.material(name, **({} if words is None else words.model_dump(exclude_unset=True)))
     try:

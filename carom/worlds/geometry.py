@@ -14,12 +14,15 @@ from carom.systems.shapes.model_files import UNITS
 from carom.systems.shapes.shape import Shape
 from carom.worlds.errors import WordError
 from carom.worlds.files import WorldFiles, joined
-from carom.worlds.values import In, Vector3, Words, either, word_of
+from carom.worlds.values import In, Vector3, Whole, Words, either, word_of
 
 Scale = Annotated[float, In("1", above=0.0)]
 Length = Annotated[float, In("m")]
 Spacing = Annotated[float, In("m", above=0.0)]
 Spacings = Annotated[tuple[float, float], In("m", above=0.0)]
+Points = list[Annotated[Vector3, In("m")]]
+Corner = Annotated[int, Whole(0)]
+Faces = list[tuple[Corner, Corner, Corner]]
 FILE = "OBJ, STL, PLY or glTF, relative to the world file"
 FILE_WORDS = ("file", "image")  # words that name files beside the world
 
@@ -35,13 +38,22 @@ class ModelWords(Words):
 class MeshWords(ModelWords):
     """A closed mesh."""
 
-    file: str = Field(description=FILE)
+    file: str | None = Field(None, description=FILE)
+    vertices: Points | None = Field(None, description="vertices (m), of which faces are made")
+    faces: Faces = Field([], description="triangles: three numbers of vertices each, from 0, outward")
+
+    @model_validator(mode="after")
+    def check(self) -> MeshWords:
+        """Refuse both sources and neither."""
+        _refuse_two_sources(self, "file", "vertices")
+        return self
 
 
 class ConvexWords(ModelWords):
     """The hull of points, stated or those of a model file."""
 
-    points: list[Annotated[Vector3, In("m")]] | None = Field(None, description="points (m)")
+    points: Points | None = Field(None, description="points (m)")
+    faces: Faces | None = Field(None, description="triangles of points that are all corners; found by default")
     file: str | None = Field(None, description=FILE)
 
     @model_validator(mode="after")

@@ -32,7 +32,7 @@ from carom.worlds.names import known, whole_of_copy
 from carom.worlds.source import Source
 from carom.worlds.unfold import Item, generators_of
 
-SOURCES = ("file", "image", "points", "heights")  # words that say where a geometry comes from
+SOURCES = ("file", "image", "points", "vertices", "heights")  # words that say where a geometry comes from
 PROVISIONAL = {"mass": 1.0}
 SUB_PATH = re.compile(r"([a-z_]+(?:\.[a-z_]+)*): (.*)", re.DOTALL)
 
@@ -54,7 +54,8 @@ class Populator:
         """Add the entities of a file in its order, those together that differ only in where they are and move."""
         stated = [(item, item.words.model_dump(exclude_unset=True)) for item in items if item.words is not None]
         parents = [(item.group, words["parent"].get("entity")) for item, words in stated if "parent" in words]
-        self.carriers = {whole_of_copy(group.whole(name)) for group, name in parents if name is not None}
+        carriers = [group.whole(name) for group, name in parents if name is not None]
+        self.carriers = {*carriers, *map(whole_of_copy, carriers)}
         crowd: list[Some] = []
         for item, words in stated:
             if "chain" in words:  # its links are laid at once, after those before it

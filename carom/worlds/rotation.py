@@ -87,7 +87,7 @@ def _unit(value: Rotation) -> Rotation:
     if abs(length - 1.0) > HAND_TYPED:
         what = "is not a unit quaternion" if length else "is a zero quaternion"
         raise WordError(what, received=f"{shown(list(value))} of length {length:.6g}", accepted=FORMS)
-    x, y, z, w = quaternion.normalise(value) if length != 1.0 else value
+    x, y, z, w = quaternion.unit(value)
     return (float(x), float(y), float(z), float(w))
 
 

@@ -46,7 +46,8 @@ from carom.worlds.sections import (
     Time,
     TimeWindow,
 )
-from carom.worlds.values import Flag, Name, Words, either, word_of
+from carom.worlds.state import StateWords
+from carom.worlds.values import EntityName, Flag, Name, Whole, Words, either, word_of
 
 Variable = Annotated[
     Any,
@@ -54,6 +55,7 @@ Variable = Annotated[
 ]
 Member = Annotated[Any, WithJsonSchema({"type": "object", "x-entity": True})]
 SPAWNED = ("prefab", "transform", "motion", "body", "collider", "material", "visual", "tags")  # who comes later
+Drawn = Annotated[int, Whole(0, 1 << 62)]
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
@@ -111,7 +113,7 @@ def document() -> type[Words]:
         "tags": (names, Field([], description="what it is, for queries")),
     }  # fmt: skip
     chain = (ChainWords, Field(None, description="copies as links, which joint joins"))
-    named = (Name, Field(None, description="unique name"))
+    named = (EntityName, Field(None, description="unique name"))
     copying, parts = generator_fields(), _group_fields()
     words |= own_fields((*words, "name", "chain", *copying, *parts))
     prefab = _model("Prefab", "Words shared by entities.", **words, **parts)
@@ -142,6 +144,7 @@ def document() -> type[Words]:
         up=(word_of("y", "z"), Field("y", description="which axis is up, for gravity's default, cameras and display")),
         include=(list[str], Field([], description="files beside this one whose words go under its own")),
         **setting_fields(in_step=False),
+        drawn=(Drawn, Field(0, description="random numbers drawn before, as a written world has it")),
         step=(step, Field(None, description="how time advances")),
         run=(Run, Field(None, description="how long a run takes")),
         variables=(dict[str, Variable], Field({}, description="values by name, for ${table.length / 2}")),
@@ -159,6 +162,7 @@ def document() -> type[Words]:
         render=(Render, Field(None, description="pictures and films")),
         recording=(RecordingWords, Field(None, description="recordings")),
         expect=(list[Expect], Field([], description="what must hold in a run")),
+        state=(StateWords, Field(None, description="what words cannot say of a world that was written in mid-run")),
     )  # fmt: skip
 
 

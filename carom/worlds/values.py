@@ -25,6 +25,7 @@ from carom.worlds.units import read_quantity
 Vector3 = tuple[float, float, float]
 EXPRESSION = {"type": "string", "pattern": r"\$\{", "description": "an expression: ${table.length / 2}"}
 NAME = re.compile(r"[^\W\d][\w-]*")
+ENTITY_NAME = re.compile(rf"{NAME.pattern}(?:\.[\w-]+|\[\d+(?:,\d+)*\])*")
 
 
 def _or_expression(node: dict[str, Any]) -> dict[str, Any]:
@@ -102,7 +103,13 @@ def _read_flag(value: Any) -> bool:
     return value
 
 
+def _read_entity_name(value: Any) -> str:
+    copy = isinstance(value, str) and len(value) <= NAME_LENGTH and ENTITY_NAME.fullmatch(value)
+    return str(value) if copy else _read_name(value)
+
+
 Name = Annotated[str, BeforeValidator(_read_name)]
+EntityName = Annotated[str, BeforeValidator(_read_entity_name)]  # that of a copy too: rain[3,0,1]
 Flag = Annotated[bool, BeforeValidator(_read_flag), WithJsonSchema(_or_expression({"type": "boolean"}))]
 
 

@@ -184,7 +184,7 @@ entities:
     assert simulation["other"].joint.mode.tolist() == [LOCKED] * 6
 
 
-KINDS = "ball, distance, fixed, generic, hinge, rope, slider, spring, universal"
+KINDS = "ball, distance, fixed, framed, generic, hinge, rope, slider, spring, universal"
 NO_ANCHOR = "states no anchor; accepted: at (world frame), anchor_a or anchor_b (frames of the bodies)"
 NO_AXIS = "states no axis; accepted: axis (world frame), axis_a or axis_b (frames of the bodies)"
 HINGE = "b: door, at: [0, 0, 0], axis: [0, 0, 1]"

@@ -31,10 +31,12 @@ __all__ = [
     "slerp",
     "to_axis_angle",
     "to_euler",
+    "unit",
 ]
 
 IDENTITY = IDENTITY_ROTATION
 AXES = (4,)
+ROUNDING = 1e-15  # how far from 1 the length of a quaternion may be that has been normalised
 PARALLEL = 1e-18  # squared sine below which the direction of a cross product would be rounding
 
 
@@ -83,6 +85,13 @@ def normalise(q: npt.ArrayLike) -> Floats:
     refuse(~((size > 0.0) & (size < np.inf))[..., 0], "a quaternion of length 0 or infinity is no rotation")
     unit: Floats = q / size
     return unit
+
+
+def unit(q: npt.ArrayLike) -> Floats:
+    """Return q over its length, shape (..., 4), and as it is where that is 1 but for rounding: twice changes no bit."""
+    q, scaled = np.asarray(q, np.float64), normalise(q)
+    size = np.sqrt((q * q).sum(axis=-1, keepdims=True))
+    return np.where(np.abs(size - 1.0) <= ROUNDING, q, scaled)
 
 
 def slerp(a: npt.ArrayLike, b: npt.ArrayLike, t: npt.ArrayLike) -> Floats:

@@ -1,6 +1,6 @@
 """Joints, one file each; importing this package fills the registry of kinds."""
 
-from carom.systems.joints import ball, distance, fixed, generic, hinge, rope, slider, spring, universal
+from carom.systems.joints import ball, distance, fixed, framed, generic, hinge, rope, slider, spring, universal
 from carom.systems.joints.kind import JOINTS, JointKind
 
 __all__ = [
@@ -9,6 +9,7 @@ __all__ = [
     "ball",
     "distance",
     "fixed",
+    "framed",
     "generic",
     "hinge",
     "rope",

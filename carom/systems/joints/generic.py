@@ -48,9 +48,14 @@ class Generic(TwoAxisJoint):
 
     def hold(self, ways: Ways, a: Held, b: Held) -> None:
         """Do with each way what is stated of it."""
-        for slot, name in enumerate(AXES):
-            way = getattr(self, name)
-            if way == LOCKED:
-                ways.lock(slot)
-            elif way != FREE:
-                ways.follow(slot, way)
+        hold_all(ways, self)
+
+
+def hold_all(ways: Ways, stated: Any) -> None:
+    """Do with each of six ways what a joint states of it."""
+    for slot, name in enumerate(AXES):
+        way = getattr(stated, name)
+        if way == LOCKED:
+            ways.lock(slot)
+        elif way != FREE:
+            ways.follow(slot, way)

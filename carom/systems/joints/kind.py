@@ -6,17 +6,18 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 from carom.ecs.components.joint import Joint
 from carom.systems.declared import Stated, Steps, flag, whom
 from carom.systems.joints.held import Held
 from carom.systems.joints.ways import Ways
-from carom.systems.parameters import parameter, vector
+from carom.systems.parameters import parameter, same, vector
 from carom.systems.registry import enter
 
 JOINTS: dict[str, type[JointKind]] = {}
 Vector = tuple[float, float, float]
+NOWHERE = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,6 +55,17 @@ class JointKind(Stated, ABC):
     def columns(self, a: Held, b: Held) -> dict[str, Any]:
         """Return where it is anchored, what it measures along and about, and the place of b."""
 
+    @classmethod
+    def of(cls, joint: Joint) -> Self | None:
+        """Return what states a joint of one row, a and b left out, wherever both are; None where this kind cannot."""
+        return None
+
     def misplaced(self, a: Held, b: Held) -> Iterator[tuple[Steps, str]]:
         """Yield what is wrong with its words for those whom it holds, as `faults` does."""
         yield from ()
+
+
+def anchors_of(joint: Joint) -> dict[str, Any]:
+    """Return the words for the anchors of a joint of one row, those at the origin left out."""
+    anchors = {name: tuple(getattr(joint, name).tolist()) for name in ("anchor_a", "anchor_b")}
+    return {name: anchor for name, anchor in anchors.items() if not same(anchor, NOWHERE)}

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
-from carom.ecs.components.joint import EULER, LINE
+from carom.ecs.components.joint import EULER, LINE, Joint
 from carom.ecs.spatial.vector import distance
 from carom.systems.declared import Steps
 from carom.systems.joints.held import Held
-from carom.systems.joints.kind import JointKind
+from carom.systems.joints.kind import NOWHERE, JointKind, anchors_of
 from carom.systems.parameters import parameter
 
 
@@ -24,8 +24,7 @@ class LineJoint(JointKind):
 
     def ends(self, a: Held, b: Held) -> tuple[Any, Any]:
         """Return the anchors in the frames of a and b."""
-        nowhere = (0.0, 0.0, 0.0)
-        return self.anchor_a or nowhere, self.anchor_b or nowhere
+        return self.anchor_a or NOWHERE, self.anchor_b or NOWHERE
 
     def distance(self, a: Held, b: Held) -> float:
         """Return how far the anchors are from each other, m."""
@@ -35,6 +34,13 @@ class LineJoint(JointKind):
     def rest(self, a: Held, b: Held) -> float:
         """Return the length that it has or tends to, m."""
         return self.distance(a, b) if self.length is None else self.length
+
+    @classmethod
+    def of_line(cls, joint: Joint, **words: Any) -> Self | None:
+        """Return what states a joint along a line with these further words; None for one along axes."""
+        if joint.along != LINE:
+            return None
+        return cls(**anchors_of(joint), break_force=float(joint.break_force), collide=bool(joint.collide), **words)
 
     def misplaced(self, a: Held, b: Held) -> Iterator[tuple[Steps, str]]:
         """Yield that an end in the world is nowhere, or that no length is stated of what has none."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
+from carom.ecs.components.joint import LIMITED, Joint
 from carom.systems.joints.held import Held
 from carom.systems.joints.line_joint import LineJoint
 from carom.systems.joints.ways import Ways
@@ -26,3 +27,10 @@ class Rope(LineJoint):
     def columns(self, a: Held, b: Held) -> dict[str, Any]:
         """Return the same as of a line, and how it bounces."""
         return super().columns(a, b) | {"restitution": self.restitution}
+
+    @classmethod
+    def of(cls, joint: Joint) -> Self | None:
+        """Return what states a joint whose length is bounded from above."""
+        if joint.mode[0] != LIMITED:
+            return None
+        return cls.of_line(joint, length=float(joint.upper[0]), restitution=float(joint.restitution))

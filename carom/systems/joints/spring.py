@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
+from carom.ecs.components.joint import Joint
 from carom.systems.declared import Steps
 from carom.systems.joints.held import Held
 from carom.systems.joints.line_joint import LineJoint
@@ -46,3 +47,11 @@ class Spring(LineJoint):
             mass, rate = 1.0 / (a.inverse_mass + b.inverse_mass), 2.0 * math.pi * self.frequency
             stiffness, damping = mass * rate * rate, 2.0 * (self.damping_ratio or 0.0) * mass * rate
         ways.drive(0, LinearMotor(target=self.rest(a, b), stiffness=stiffness, damping=damping))
+
+    @classmethod
+    def of(cls, joint: Joint) -> Self | None:
+        """Return what states a joint that is driven along its line."""
+        if not joint.driven[0]:
+            return None
+        stiffness, damping, length = (float(getattr(joint, name)[0]) for name in ("stiffness", "damping", "target"))
+        return cls.of_line(joint, length=length, stiffness=stiffness, damping=damping or None)

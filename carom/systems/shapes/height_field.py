@@ -52,6 +52,14 @@ class HeightField(Mesh):
             land(low + (high - low) * read_grey(Path(image)), float(steps[0]), float(steps[1]), f"image file {image}")
         )
 
+    def words(self) -> dict[str, Any]:
+        """Return its rows of heights and their spacing."""
+        x, heights, z = self.geometry.vertices.T
+        columns = int(np.count_nonzero(z == z[0]))
+        rows = len(z) // columns
+        spacing = [_step(x[:columns]), _step(z[::columns])]
+        return {"heights": heights.reshape(rows, columns).tolist(), "spacing": spacing}
+
     def mass_properties(self) -> MassProperties:
         """Return an infinite volume: land is static."""
         return MassProperties(math.inf, (0.0, 0.0, 0.0), (math.inf,) * 3, NO_AXES)
@@ -105,6 +113,14 @@ def read_grey(path: Path) -> Floats:
     except (UnidentifiedImageError, OSError, Image.DecompressionBombError) as fault:
         raise DeclarationError(f"image file {path} cannot be read: {fault}") from None
     return values / (65535.0 if deep else 255.0)
+
+
+def _step(places: Floats) -> float:
+    """Return the step (m) that makes these places along a grid about 0, to the bit where there is one."""
+    middle = (len(places) - 1) / 2.0
+    step = float(places[-1] / middle)
+    near = (step, float(np.nextafter(step, 0.0)), float(np.nextafter(step, np.inf)))
+    return next((one for one in near if np.array_equal((np.arange(len(places)) - middle) * one, places)), step)
 
 
 def _rows(heights: Any) -> Floats:

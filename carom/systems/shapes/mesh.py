@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import Any, ClassVar, Self
 
 import numpy as np
+import numpy.typing as npt
 
-from carom.ecs.column import Floats
+from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import DeclarationError
-from carom.systems.shapes.finish import load_seen
-from carom.systems.shapes.model_files import Axis, Unit, load_mesh
+from carom.systems.shapes.finish import Part, load_seen
+from carom.systems.shapes.geometry import Geometry
+from carom.systems.shapes.model_files import Axis, Unit, closed_surface, load_mesh, triangles
 from carom.systems.shapes.triangles import Triangles
 from carom.systems.shapes.welding import seams
 
@@ -29,14 +31,37 @@ class Mesh(Triangles):
     static: ClassVar[bool] = True
 
     @classmethod
-    def stated(cls, *, file: str | Path, scale: float = 1.0, unit: Unit = "m", up: Axis = "y") -> Self:
-        """Return the mesh of a file, read by `load_mesh`."""
-        return cls(load_mesh(file, scale=scale, unit=unit, up=up))
+    def stated(
+        cls,
+        *,
+        file: str | Path | None = None,
+        vertices: npt.ArrayLike | None = None,
+        faces: npt.ArrayLike = (),
+        scale: float = 1.0,
+        unit: Unit = "m",
+        up: Axis = "y",
+    ) -> Self:
+        """Return the mesh of a file, read by `load_mesh`, or of ``vertices`` (v, 3), m, and ``faces`` (f, 3)."""
+        if file is not None:
+            return cls(load_mesh(file, scale=scale, unit=unit, up=up))
+        return cls(closed_surface(*_stated(vertices, faces), cls.key, cls.key))
 
     @classmethod
-    def seen(cls, *, file: str | Path, scale: float = 1.0, unit: Unit = "m", up: Axis = "y") -> Self:
-        """Return the mesh of a file as it looks, read by `load_seen`."""
-        return cls(load_seen(file, scale=scale, unit=unit, up=up))
+    def seen(
+        cls,
+        *,
+        file: str | Path | None = None,
+        vertices: npt.ArrayLike | None = None,
+        faces: npt.ArrayLike = (),
+        scale: float = 1.0,
+        unit: Unit = "m",
+        up: Axis = "y",
+    ) -> Self:
+        """Return the mesh of a file as it looks, read by `load_seen`, or of stated triangles, which may be open."""
+        if file is not None:
+            return cls(load_seen(file, scale=scale, unit=unit, up=up))
+        places, corners = _stated(vertices, faces)
+        return cls(Geometry(places, corners, cls.key, parts=(Part(places, corners, None),)))
 
     @classmethod
     def submerged(cls, size: Floats, geometry: Any, normal: Floats, depth: Floats) -> Floats:
@@ -57,3 +82,9 @@ class Mesh(Triangles):
         model.addSubModel(np.asarray(self.geometry.vertices), np.asarray(self.geometry.faces))
         model.endModel()
         return model
+
+
+def _stated(vertices: npt.ArrayLike | None, faces: npt.ArrayLike) -> tuple[Floats, Integers]:
+    if vertices is None:
+        raise DeclarationError("mesh: must state one source, file or vertices")
+    return triangles("mesh", vertices, faces)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import DeclarationError
@@ -29,7 +30,11 @@ def load_mesh(file: str | Path, *, scale: float = 1.0, unit: Unit = "m", up: Axi
     triangles or too many, is not finite, open or inverted, or faces of it are turned both ways.
     """
     source = f"mesh file {file}"
-    vertices, faces = _read(Path(file), scale, unit, up)
+    return closed_surface(*_read(Path(file), scale, unit, up), source, str(file))
+
+
+def closed_surface(vertices: Floats, faces: Integers, source: str, name: str) -> Geometry:
+    """Return triangles made one closed surface, as `load_mesh` says; raise DeclarationError where they are none."""
     if not len(faces):
         raise DeclarationError(f"{source} holds no triangles")
     if len(faces) > MOST_TRIANGLES:
@@ -58,7 +63,7 @@ def load_mesh(file: str | Path, *, scale: float = 1.0, unit: Unit = "m", up: Axi
     lost = total - len(faces)
     verbs = ("have", "are") if lost > 1 else ("has", "is")
     notes = (f"{source}: {lost} of {total} triangles {verbs[0]} no area and {verbs[1]} left out",) if lost else ()
-    return Geometry(vertices, faces, str(file), notes)
+    return Geometry(vertices, faces, name, notes)
 
 
 def load_hull(file: str | Path, *, scale: float = 1.0, unit: Unit = "m", up: Axis = "y") -> Geometry:
@@ -90,12 +95,24 @@ def vertices_and_faces(source: str, scene: Any, scale: float, unit: str, up: str
     """Return finite vertices in m, y up, and the faces of what `read_scene` has read; raise DeclarationError."""
     vertices = np.array(scene.vertices, np.float64).reshape(-1, 3) * (scale * UNITS[unit])
     faces = np.array(getattr(scene, "faces", ()), np.int64).reshape(-1, 3)
+    refuse_triangles(source, vertices, faces)
+    return (along_y(vertices) if up == "z" else vertices), faces
+
+
+def triangles(source: str, vertices: npt.ArrayLike, faces: npt.ArrayLike) -> tuple[Floats, Integers]:
+    """Return stated vertices (v, 3), m, and faces (f, 3) as arrays; raise DeclarationError where they are none."""
+    found = np.asarray(vertices, np.float64).reshape(-1, 3), np.asarray(faces, np.int64).reshape(-1, 3)
+    refuse_triangles(source, *found)
+    return found
+
+
+def refuse_triangles(source: str, vertices: Floats, faces: Integers) -> None:
+    """Raise DeclarationError for vertices that are not finite, and for faces of vertices that are not there."""
     if not np.isfinite(vertices).all():
         bad = int(np.argmin(np.isfinite(vertices).all(axis=1)))
         raise DeclarationError(f"{source}: vertices must be finite, received {vertices[bad].tolist()} as vertex {bad}")
     if len(faces) and not 0 <= faces.min() <= faces.max() < len(vertices):
         raise DeclarationError(f"{source}: a face names vertex {faces.max()}, but there are {len(vertices)}")
-    return (along_y(vertices) if up == "z" else vertices), faces
 
 
 def read_scene(path: Path) -> Any:

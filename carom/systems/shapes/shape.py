@@ -16,7 +16,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.errors import DeclarationError
 from carom.systems.kernels.submersion import FOUND
-from carom.systems.parameters import number_fault, parameter
+from carom.systems.parameters import number_fault, parameter, words_of
 from carom.systems.registry import enter
 
 __all__ = ["BY_NUMBER", "NO_AXES", "SHAPES", "Bounds", "MassProperties", "Shape", "Surface", "parameter"]
@@ -140,6 +140,10 @@ class Shape(ABC):
             values[field.name] = float(size[at]) if width == 1 else tuple(float(v) for v in size[at : at + width])
             at += width
         return cls(**values)
+
+    def words(self) -> dict[str, Any]:
+        """Return the words, in SI, that state this shape to the bit; the inverse of `stated`."""
+        return words_of(self)
 
     @abstractmethod
     def mass_properties(self) -> MassProperties:

@@ -29,6 +29,10 @@ class Triangles(Shape):
         """Return the shape of ``geometry``."""
         return cls(geometry)
 
+    def words(self) -> dict[str, Any]:
+        """Return its vertices and faces."""
+        return {"vertices": self.geometry.vertices.tolist(), "faces": self.geometry.faces.tolist()}
+
     def mass_properties(self) -> MassProperties:
         """Return the integrals over the enclosed solid."""
         return solid_properties(self.geometry)
