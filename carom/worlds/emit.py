@@ -14,7 +14,7 @@ TAKEN = ("true", "false", "null", "yes", "no", "on", "off")  # which other reade
 
 
 def emit(data: Mapping[str, Any]) -> str:
-    """Return the text of a world: what does not fit on a line takes a line for each of its parts.
+    """Return the text of a world: what does not fit on a line takes a line for each of its parts, as do its lists.
 
     Floats are the shortest text that reads as the same bits. Texts of several lines keep them.
     """
@@ -25,8 +25,8 @@ def _entry(head: str, value: Any, indent: int) -> list[str]:
     """Return the lines of a value behind a key, or behind the dash of a list."""
     if isinstance(value, str) and "\n" in value:
         return [f"{' ' * indent}{head} |", *(" " * (indent + 2) + line for line in value.splitlines())]
-    line = f"{' ' * indent}{head} {flow(value)}"
-    if len(line) <= WIDTH or not isinstance(value, (Mapping, list, tuple)) or not _parted(value):
+    line, listed = f"{' ' * indent}{head} {flow(value)}", isinstance(value, (list, tuple)) and not indent
+    if not _parted(value) or (len(line) <= WIDTH and not listed):
         return [line]
     inner = indent + 2
     if isinstance(value, Mapping):
@@ -40,7 +40,9 @@ def _entry(head: str, value: Any, indent: int) -> list[str]:
 
 def _parted(value: Any) -> bool:
     """Tell whether there is anything to part but numbers and words."""
-    return isinstance(value, Mapping) or any(isinstance(item, (Mapping, list, tuple)) for item in value)
+    if isinstance(value, (list, tuple)):
+        return any(isinstance(item, (Mapping, list, tuple)) for item in value)
+    return isinstance(value, Mapping) and bool(value)
 
 
 def flow(value: Any) -> str:

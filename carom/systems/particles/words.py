@@ -5,20 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
 from carom.ecs.components.emitter import Collide, Drawn, Emitter, Source, Within
 from carom.ecs.errors import DeclarationError
 from carom.systems.declared import Stated, Steps, choice, direction, part, read_words, span, tint
-from carom.systems.forces.region import Region
+from carom.systems.forces.region import BoxRegion, Region, SphereRegion
 from carom.systems.parameters import WordFault, parameter, vector
 
 COLLIDE = tuple(kind.name.lower() for kind in Collide)
 DRAWN = tuple(kind.name.lower() for kind in Drawn)
 WHITE = (1.0, 1.0, 1.0, 1.0)
 Pair = tuple[float, float]
+PLAIN = (
+    "rate", "burst", "every", "start", "duration", "cone", "speed", "inherit", "life", "size", "color", "mass",
+    "gravity_scale", "most",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,8 +97,7 @@ class EmitterWords(Stated):
 
     def component(self) -> Emitter:
         """Return the component."""
-        plain = ("rate", "burst", "every", "start", "duration", "cone", "speed", "inherit", "life", "size", "color")
-        values = {name: getattr(self, name) for name in (*plain, "mass", "gravity_scale", "most")}
+        values = {name: getattr(self, name) for name in PLAIN}
         values["direction"] = self.direction or (0.0, 1.0, 0.0)
         values["end_size"] = self.size if self.end_size is None else self.end_size
         values["end_color"] = self.color if self.end_color is None else self.end_color
@@ -104,6 +107,30 @@ class EmitterWords(Stated):
         if self.within is not None:
             values |= _within(self.within)
         return Emitter(**values)
+
+    @classmethod
+    def of(cls, emitter: Emitter) -> Self:
+        """Return what states an emitter of one row; the inverse of `component`."""
+        held = {name: getattr(emitter, name).tolist() for name in Emitter.columns if hasattr(emitter, name)}
+        values: dict[str, Any] = {name: tuple(v) if isinstance(v := held[name], list) else v for name in PLAIN}
+        if held["direction"] != [0.0, 1.0, 0.0]:
+            values["direction"] = tuple(held["direction"])
+        for name in ("size", "color"):
+            if held[f"end_{name}"] != held[name]:
+                values[f"end_{name}"] = held[f"end_{name}"]
+        values |= {"collide": COLLIDE[held["collide"]], "draw": DRAWN[held["drawn"]]}
+        extent, source = tuple(held["extent"]), Source(held["source"])
+        if source is Source.BOX:
+            values["source"] = SourceWords(box=Edges(size=extent))
+        elif source is not Source.POINT:
+            words: dict[str, Any] = {source.name.lower(): Round(radius=extent[0])}
+            values["source"] = SourceWords(**words)
+        within, middle = tuple(held["within_extent"]), tuple(held["within_position"])
+        if held["within"] == Within.BOX:
+            values["within"] = Region(box=BoxRegion(within, middle))
+        elif held["within"] == Within.SPHERE:
+            values["within"] = Region(sphere=SphereRegion(within[0], middle))
+        return cls(**values)
 
 
 def _source(words: SourceWords) -> dict[str, Any]:

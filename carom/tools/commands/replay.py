@@ -22,6 +22,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
     declare_detail(parser)
     parser.add_argument("--film", type=Path, metavar="FILE", help="film these frames (.mp4, .webp or .gif)")
     parser.add_argument("--picture", type=ending(".png"), metavar="FILE", help="write a picture of the last (.png)")
+    parser.add_argument(
+        "--write", type=ending(".yaml", ".yml"), metavar="FILE", help="write the last as a world file (.yaml)"
+    )
     parser.add_argument("--camera", metavar="NAME", help="camera of film and picture; the world's 'main' by default")
 
 
@@ -35,6 +38,7 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.tools.recorder.of_world import recorder_of
     from carom.tools.replay import Replay
     from carom.tools.retrace import retrace
+    from carom.worlds import write_world
 
     if arguments.out and arguments.out.resolve() == arguments.file.resolve():
         raise CaromError(f"{arguments.out} is the recording itself; write another file")
@@ -59,10 +63,13 @@ def execute(arguments: argparse.Namespace) -> int:
     if arguments.picture:
         observers.append(painter)
     written = {"recording": arguments.out, "film": arguments.film, "picture": arguments.picture}
+    written["world"] = arguments.write
     prepare_outputs(written.values())
     verdict = retrace(replay, loaded, last, observers)
     if arguments.picture:
         photograph(shot, simulation, arguments.picture, painter)
+    if arguments.write:
+        write_world(loaded, arguments.write)
     outputs = {kind: str(path) for kind, path in written.items() if path}
     if arguments.json:
         print_json(dataclasses.asdict(verdict) | {"same": verdict.same, "outputs": outputs})

@@ -31,6 +31,9 @@ def declare(parser: argparse.ArgumentParser) -> None:
         "--picture", type=ending(".png"), metavar="FILE", help="write a picture of the last state (.png)"
     )
     parser.add_argument(
+        "--write", type=ending(".yaml", ".yml"), metavar="FILE", help="write the last state as a world file (.yaml)"
+    )
+    parser.add_argument(
         "--frames", type=whole_number, metavar="N", help="stop after N steps; what is expected is not judged"
     )
     parser.add_argument("--camera", metavar="NAME", help="camera of film and picture; the world's 'main' by default")
@@ -60,7 +63,7 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.tools.painter import Painter
     from carom.tools.session import run
     from carom.tools.vantage import vantage_warnings
-    from carom.worlds.builder import load_world
+    from carom.worlds import load_world, write_world
 
     stated = {"checked": arguments.check or None, **overrides(arguments)}
     worlds = load_futures(arguments.world, arguments.compare, **stated) if arguments.compare else []
@@ -75,7 +78,7 @@ def execute(arguments: argparse.Namespace) -> int:
     observers = [*([futures] if futures else []), *records.observers, *breaks.observers]
     if arguments.film:
         observers.append(Filming(shot, arguments.film))
-    prepare_outputs([arguments.record, arguments.film, arguments.picture])
+    prepare_outputs([arguments.record, arguments.film, arguments.picture, arguments.write])
     painter = Painter(loaded.simulation, shot.look)
     if arguments.picture:
         observers.append(painter)
@@ -102,7 +105,10 @@ def execute(arguments: argparse.Namespace) -> int:
         print(reason, file=sys.stderr)
     if arguments.picture:
         photograph(shot, loaded.simulation, arguments.picture, painter)
+    if arguments.write:
+        write_world(loaded, arguments.write)
     written = {"recording": records.path, "film": arguments.film, "picture": arguments.picture}
+    written["world"] = arguments.write
     summary.outputs = {kind: str(path) for kind, path in written.items() if path}
     if arguments.json:
         further = ({"audit": auditing.rows()} if arguments.audit else {}) | ({"ledger": ledger.since} if ledger else {})

@@ -11,6 +11,7 @@ import numpy as np
 from carom.ecs import Collider, Combine, Material, Motion, Parent, RigidBody, Transform, Visual, World
 from carom.ecs.column import Integers
 from carom.ecs.component import Component
+from carom.ecs.components.emitter import Emitter
 from carom.ecs.components.joint import Joint
 from carom.ecs.components.path import Path, Repeat
 from carom.ecs.relations.keyframe import Keyframe
@@ -19,11 +20,12 @@ from carom.systems.assembly import COLLIDER_COLUMNS, COMBINE_QUANTITIES, Materia
 from carom.systems.compound import parts_of
 from carom.systems.layers import Layers
 from carom.systems.own_components import components_of_files
-from carom.systems.parameters import same
+from carom.systems.parameters import same, words_of
+from carom.systems.particles.words import EmitterWords
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import BY_NUMBER
 from carom.worlds.writing.bodies import body_words
-from carom.worlds.writing.columns import Words, as_made, color_words, held, own_words, plain, stated
+from carom.worlds.writing.columns import Words, as_made, color_words, held, own_words, plain, sayable, stated
 from carom.worlds.writing.joints import joint_words
 from carom.worlds.writing.names import Callings
 from carom.worlds.writing.sections import layer_names
@@ -98,6 +100,7 @@ class EntityWriter:
             ("collider", self.has(Collider, row), self.collider),
             ("material", self.has(Material, row), self.material),
             ("visual", True, self.visual),
+            ("emitter", self.has(Emitter, row), self.emitter),
         ]
         return {key: make for key, there, make in makers if there}
 
@@ -164,6 +167,12 @@ class EntityWriter:
         if "color" in words:
             words["color"] = color_words(words["color"])
         return words
+
+    def emitter(self, row: int) -> Words | None:
+        """Return what it brings forth; colours are in numbers."""
+        columns = {name: value[row] for name, value in vars(self.world[Emitter]).items() if name in Emitter.columns}
+        words = plain(words_of(EmitterWords.of(Emitter(**columns))))
+        return words if sayable(words) else None
 
     def visual(self, row: int) -> Words | bool | None:
         """Return what is seen, None where that follows from the rest."""

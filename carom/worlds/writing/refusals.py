@@ -11,7 +11,7 @@ from carom.systems.places import extended
 from carom.systems.simulation import Simulation
 from carom.systems.step import STEP
 
-PACKAGE = "an extension, see docs/extensions.md, would be there for whoever loads the file"
+PACKAGE = "a package of your own, as the README tells, would be there for whoever loads the file"
 
 
 def refusals(simulation: Simulation) -> list[str]:

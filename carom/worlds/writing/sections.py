@@ -30,7 +30,7 @@ def settings_words(world: World, *, up: str = "y") -> Words:
         value = getattr(settings, field.name)
         if not same(value, field.default) or (field.name == "gravity" and up != "y"):
             (step if field.name in STEP_WORDS else top)[field.name] = plain(value)
-    if "dt" in step and same(1.0 / round(1.0 / step["dt"]), step["dt"]):
+    if step.get("dt", 1.0) < 1.0 and same(1.0 / round(1.0 / step["dt"]), step["dt"]):
         step["dt"] = f"1/{round(1.0 / step['dt'])}"
     drawn = world[Random].drawn(settings.seed)
     return top | ({"drawn": drawn} if drawn else {}) | ({"step": step} if step else {})
