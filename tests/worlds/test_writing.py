@@ -160,6 +160,35 @@ def test_what_is_said_of_those_in_reused_rows_is_said_of_them_again() -> None:
     assert again["second"].motion.linear[0] == simulation["second"].motion.linear[0] > 0.0
 
 
+def test_events_to_come_are_written_and_those_that_were_are_not() -> None:
+    """Who is gone is named no more; who is to come is stated in words, and comes."""
+    simulation = load_text("""carom: 1
+materials: {red: {color: red}}
+entities:
+  - {name: a, collider: {sphere: {radius: 0.1}}, body: {}, material: red}
+  - {name: b, collider: {sphere: {radius: 0.1}}, body: {}, transform: {position: [1, 0, 0]}}
+events:
+  - {at: 0.05 s, despawn: [a]}
+  - {at: 0.1 s, impulse: {entities: [a, b], linear: [1, 0, 0]}}
+  - {at: 0.1 s, explode: {impulse: 3, position: [0, -1, 0]}}
+  - {at: 0.15 s, spawn: {name: c, collider: {box: {size: [1, 1, 1]}}, body: {}, material: red}}
+""").simulation
+    simulation.step(4)
+    text = world_text(simulation)
+    assert (
+        text.partition("events:\n")[2].partition("\n\nstate")[0]
+        == """\
+  - {at: 0.1, impulse: {entities: [b], linear: [1, 0, 0]}}
+  - {at: 0.1, explode: {impulse: 3, position: [0, -1, 0]}}
+  - {at: 0.15, spawn: {name: c, body: {}, collider: {box: {size: [1, 1, 1]}}, material: red}}"""
+    )
+    again = loaded_as(simulation, text)
+    simulation.step(8)
+    again.step(8)
+    assert again.world.names() == ["c", "b"]
+    assert state_hash(again.world) == state_hash(simulation.world)
+
+
 @pytest.mark.parametrize(
     ("before", "after", "told"),
     [

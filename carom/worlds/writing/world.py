@@ -15,15 +15,16 @@ from carom.worlds.builder import LoadedWorld, load_text
 from carom.worlds.emit import emit
 from carom.worlds.errors import WorldError
 from carom.worlds.header import VERSION
-from carom.worlds.source import OPENING
 from carom.worlds.state import state_words
 from carom.worlds.writing.entities import EntityWriter
+from carom.worlds.writing.events import event_words
 from carom.worlds.writing.names import Callings
 from carom.worlds.writing.refusals import refusals
 from carom.worlds.writing.sections import force_words, layer_words, material_words, settings_words
 
 TOLD = ("name", "description", "up", "variables", "run")  # of a loaded world, before what it holds
 SEEN = ("cameras", "render", "recording")  # and after
+FORETOLD = ("oracle", "expect")  # of a whole run, from its first step
 WRITTEN = "the written world"
 
 
@@ -58,9 +59,9 @@ def world_text(world: Simulation | LoadedWorld) -> str:
 def _document(world: Simulation | LoadedWorld, simulation: Simulation) -> dict[str, Any]:
     """Return the sections of a file but its state."""
     stated = world.document if isinstance(world, LoadedWorld) else {}
-    after = [*SEEN, "expect"] if simulation.frame == 0 else [*SEEN]
+    after = [*SEEN, *FORETOLD] if simulation.frame == 0 else [*SEEN]
     kept = {key: stated[key] for key in (*TOLD, *after) if key in stated}
-    if OPENING not in repr(kept):
+    if "oracle" not in kept:
         kept.pop("variables", None)
     callings = Callings(simulation.world)
     forces = force_words(simulation.world, callings)
@@ -69,6 +70,7 @@ def _document(world: Simulation | LoadedWorld, simulation: Simulation) -> dict[s
         "layers": layer_words(simulation.world),
         "entities": EntityWriter(simulation.world, callings).all(),
         "forces": forces,
+        "events": event_words(simulation.world),
     }
     return {
         "carom": VERSION,
