@@ -36,19 +36,19 @@ def submerge_balls(radii, normal, depth, found):
 
 
 @kernel("found", makes_arrays=True)
-def submerge_polyhedra(vertices, lifted, faces, turns, stretch, lift, normal, depth, found):
+def submerge_polyhedra(vertices, lifted, faces, halves, stretch, lift, normal, depth, found):
     """Write what is below planes of polyhedra with outward ``faces`` (f, 3), exact but for rounding.
 
     Their vertices (v, 3) are stretched along the axes by ``stretch`` (n, 3) and moved along y by ``lift`` (n,) times
-    ``lifted`` (v,). With ``turns`` each stands for a solid of revolution about y: its x axis turns to where the plane
-    rises, so that it is as symmetric about that as the solid is.
+    ``lifted`` (v,). With ``halves`` each is the half, where z is not below 0, of what stands for a solid of revolution
+    about y: its x axis turns to where the plane rises, so that the other half is its mirror image.
     """
     corners, height = np.empty((len(vertices), 3)), np.empty(len(vertices))
     for m in range(len(depth)):
         nx, ny, nz = normal[m, 0], normal[m, 1], normal[m, 2]
         c, s = 1.0, 0.0
         level = sqrt(nx * nx + nz * nz)
-        if turns and level > 0.0:
+        if halves and level > 0.0:
             c, s = nx / level, nz / level
             nx, nz = level, 0.0
         below = False
@@ -62,6 +62,8 @@ def submerge_polyhedra(vertices, lifted, faces, turns, stretch, lift, normal, de
             above |= height[k] >= 0.0
         apex = depth[m] if below and above else 0.0  # on the plane, so that what the plane cuts open adds nothing
         volume, x, y, z, whole = parts(corners, height, faces, below, apex * nx, apex * ny, apex * nz)
+        if halves:
+            volume, whole, z = 2.0 * volume, 2.0 * whole, 0.0
         found[m, VOLUME], found[m, WHOLE] = volume, whole
         found[m, CENTER], found[m, CENTER + 1], found[m, CENTER + 2] = c * x - s * z, y, s * x + c * z
 

@@ -12,15 +12,15 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial.trigonometry import sine_cosine
 from carom.systems.kernels.submersion import FOUND, submerge_polyhedra
 
-SIDES = 32  # flat sides
+HALF = 24  # flat sides of each half
 CAP_RINGS = 8  # from the equator of a cap to its pole
-_SINE = sine_cosine(2.0 * math.pi / SIDES)[0]
+_SINE = sine_cosine(math.pi / HALF)[0]
 #: Radius of the regular polygon of the area of a circle of radius 1.
-FULL = math.sqrt(2.0 * math.pi / (SIDES * _SINE))
+FULL = math.sqrt(math.pi / (HALF * _SINE))
 
 
 class Rounded(NamedTuple):
-    """A polyhedron about y: vertices (v, 3), those ``lifted`` (v,) when it gets longer, outward faces (f, 3)."""
+    """Half a polyhedron about y, z at least 0: vertices (v, 3), ``lifted`` (v,) as it gets longer, faces (f, 3)."""
 
     vertices: Floats
     lifted: Floats
@@ -38,16 +38,15 @@ def revolve(*rings: tuple[float, float, float]) -> Rounded:
 
     The radii are those of the round solid; the polygons have the areas of its circles.
     """
-    turns = [sine_cosine(2.0 * math.pi * k / SIDES) for k in range(SIDES)]
+    turns = [sine_cosine(math.pi * k / HALF) for k in range(HALF + 1)]
     vertices = [(FULL * radius * c, height, FULL * radius * s) for radius, height, _ in rings for s, c in turns]
     lifted = [lift for _, _, lift in rings for _ in turns]
     faces = []
-    for ring in range(len(rings) - 1):
-        for k in range(SIDES):
-            low, beside = ring * SIDES + k, ring * SIDES + (k + 1) % SIDES
-            faces += [(low, low + SIDES, beside), (beside, low + SIDES, beside + SIDES)]
-    for k in range(1, SIDES - 1):
-        top = (len(rings) - 1) * SIDES
+    step, top = HALF + 1, (HALF + 1) * (len(rings) - 1)  # from a vertex to the one above, and to the highest
+    for low in range(0, top, step):
+        for k in range(low, low + HALF):
+            faces += [(k, k + step, k + 1), (k + 1, k + step, k + 1 + step)]
+    for k in range(1, HALF):
         faces += [(0, k, k + 1), (top, top + k + 1, top + k)]
     points, kept = np.array(vertices), np.array(faces)
     a, b, c = (np.column_stack([points, lifted])[kept[:, k]] for k in range(3))

@@ -25,8 +25,8 @@ OTHERS = (0.45, 0.8, 1.0)
 class ForceMarks(Overlay):
     """Arrows over everything, each with its name and size in N.
 
-    What acts on a body as a whole is drawn from its centre of mass, contacts and joints from where they act.
-    The scale is that of the former; a longer arrow is cut, and only its label tells.
+    Contacts, joints and laws that say so are drawn from where they act, all else from centres of mass. The scale is
+    that of all but contacts and joints; a longer arrow is cut, and only its label tells.
     """
 
     key: ClassVar[str] = "forces"

@@ -32,7 +32,7 @@ STANDARD_GRAVITY = 9.81  # m/s2, by which arrows are scaled where there is none
 
 
 class Forces(RowTrack):
-    """Forces where they act: those of contacts and joints at their points, all others on centres of mass."""
+    """Forces where they act: those of contacts, joints and laws with points there, all others on centres of mass."""
 
     key: ClassVar[str] = "forces"
     detail: ClassVar[str] = "full"
