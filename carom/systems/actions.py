@@ -10,7 +10,6 @@ import numpy as np
 
 from carom.ecs import Component, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
-from carom.ecs.commands import Commands
 from carom.ecs.components.joint import Joint
 from carom.ecs.components.path import Path
 from carom.ecs.components.rigid_body import BodyType
@@ -26,7 +25,7 @@ Vector = tuple[float, float, float]
 
 
 class Action(Stated):
-    """What is done at a time; `pushes` are done at once, everything else by commands right after."""
+    """What is done at a time, between two phases of a step."""
 
     key: ClassVar[str] = ""
     entities: tuple[str, ...] = ()
@@ -44,8 +43,8 @@ class Action(Stated):
         """Return the impulses it gives."""
         return None
 
-    def command(self, world: World) -> None:
-        """Ask for what it changes beside velocities."""
+    def change(self, world: World) -> None:
+        """Change what it changes beside velocities."""
 
 
 @dataclass(frozen=True)
@@ -104,16 +103,16 @@ class Release(Action):
             return "is no joint, no spring and no kinematic body"
         return "" if world[RigidBody].mass[row] > 0.0 else "has no mass; state body.mass"
 
-    def command(self, world: World) -> None:
+    def change(self, world: World) -> None:
         """Take joints, springs and keyframes from them, and let bodies be dynamic."""
         rows = self.rows(world)
         for kind in (Joint, Spring, Path):
             if len(held := rows[world.table(kind).present[rows]]):
-                world[Commands].detach(world.entities(held), kind)
+                world.detach(world.entities(held), kind)
         bodies = rows[world.table(RigidBody).present[rows]]
         entities = world.entities(bodies[world[RigidBody].mass[bodies] > 0.0])
         if len(entities):
-            world[Commands].ask(lambda world: let_move(world, entities))
+            let_move(world, entities)
 
 
 @dataclass(frozen=True)
@@ -123,9 +122,9 @@ class Despawn(Action):
     key: ClassVar[str] = "despawn"
     entities: tuple[str, ...] = called(doc="names, or patterns")
 
-    def command(self, world: World) -> None:
-        """Ask for them to be removed."""
-        world[Commands].despawn(world.entities(self.rows(world)))
+    def change(self, world: World) -> None:
+        """Remove them."""
+        world.despawn(world.entities(self.rows(world)))
 
 
 @dataclass(frozen=True)
@@ -137,11 +136,11 @@ class Spawn(Action):
     names: tuple[str, ...] | None
     bundles: tuple[Component, ...]
 
-    def command(self, world: World) -> None:
-        """Ask for them; copies whose name somebody has by then have none."""
+    def change(self, world: World) -> None:
+        """Add them; copies whose name somebody has by then have none."""
         taken = set(world.names())
         names = None if self.names is None else ["" if name in taken else name for name in self.names]
-        world[Commands].spawn_many(len(self.positions), *self.bundles, Transform(position=self.positions), names=names)
+        world.spawn_many(len(self.positions), *self.bundles, Transform(position=self.positions), names=names)
 
 
 ACTIONS: dict[str, type[Action]] = {kind.key: kind for kind in (Impulse, Explode, Release, Despawn, Spawn)}
@@ -155,7 +154,7 @@ def dynamic_among(world: World, rows: Integers) -> Integers:
 
 def let_move(world: World, entities: Integers) -> None:
     """Let bodies of any mass obey forces."""
-    rows = world.slots.rows(entities[world.slots.live(entities)])
+    rows = world.slots.rows(entities)
     with world.edit(RigidBody) as body:
         body.type[rows] = BodyType.DYNAMIC
         body.inverse_mass[rows] = 1.0 / body.mass[rows]

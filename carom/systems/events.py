@@ -8,13 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.ecs import Motion, RigidBody, World, system
+from carom.ecs import World, system
 from carom.ecs.commands import Commands
 from carom.ecs.component import Record, Resource
-from carom.ecs.components.joint import Joint
-from carom.ecs.components.name import Name
-from carom.ecs.components.path import Path
-from carom.ecs.components.spring import Spring
 from carom.ecs.errors import DeclarationError
 from carom.systems.actions import ACTIONS, Action, Spawn
 from carom.systems.assembly import bundles_of
@@ -22,7 +18,6 @@ from carom.systems.awake import Awake
 from carom.systems.declared import read_words
 from carom.systems.parameters import WordFault
 from carom.systems.pushes import Pushes, push
-from carom.systems.queries.space import ASKED
 from carom.systems.settings import Settings
 
 
@@ -53,26 +48,28 @@ class Events(Resource):
         self.structure = -1
 
 
-@system(
-    reads=(*ASKED, Name, RigidBody, Joint, Spring, Path, Settings),
-    writes=(Events, Motion, Commands, Awake),
-)
+@system(reads=(Settings,), writes=(Events, Commands))
 def carry_out_events(world: World, dt: float) -> None:
-    """Do what is due in this step, in the order stated: impulses at once, the rest by commands."""
+    """Ask for what is due in this step, which is done right after, in the order stated."""
     events = world[Events]
     events.pushed, events.given, events.structure = events.given, [], world.structure
     events.edited = set()
     events.due = [event.action for event in events.entries if event.frame(dt) == world.frame]
+    if events.due:
+        world[Commands].ask(_carry_out)
+
+
+def _carry_out(world: World) -> None:
+    """Do what is due; who is pushed wakes."""
+    events, before = world[Events], set(world.edited)
     for action in events.due:
         pushes = action.pushes(world)
         if pushes is not None:
             push(world, pushes)
             events.pushed.append(pushes)
             world[Awake].asked += world.entities(pushes.rows).tolist()
-        action.command(world)
-    if events.due:
-        before = set(world.edited)
-        world[Commands].ask(lambda world: events.edited.update(world.edited - before))
+        action.change(world)
+    events.edited = world.edited - before
 
 
 def read_event(world: World, at: float, words: Mapping[str, Any], faults: list[WordFault]) -> Event | None:

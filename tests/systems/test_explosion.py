@@ -29,7 +29,7 @@ def floating(*places: Place, collider: dict[str, object] = BALL) -> tuple[Simula
 def view_factor(x: float) -> float:
     """Return 1 / pi times the integral of cos over the solid angle of a square, x its half edge over its distance.
 
-    Howell, A catalog of radiation heat transfer configuration factors, B-4: four corners of it.
+    Four corners of it; Howell, A catalog of radiation heat transfer configuration factors.
     """
     return 4.0 / pi * x / sqrt(1.0 + x * x) * atan(x / sqrt(1.0 + x * x))
 

@@ -91,6 +91,18 @@ def test_release_lets_go_of_joints_and_lets_kinematic_bodies_fall() -> None:
     assert simulation["lift"].motion.linear == pytest.approx((1.0, 1.0, 0.0), abs=1e-12)
 
 
+def test_events_of_one_step_are_done_in_their_order() -> None:
+    """Who is released or spawned first can be pushed at the same time."""
+    simulation = load(
+        "at: 0 s, release: [lift]",
+        "at: 0 s, spawn: {name: late, prefab: ball, transform: {position: [0, 0, 7]}}",
+        "at: 0 s, impulse: {entities: [lift, late], linear: [0, 1000, 0]}",
+    ).simulation
+    simulation.step()
+    assert simulation["lift"].motion.linear == pytest.approx((1.0, 1.0, 0.0), abs=1e-12)
+    assert simulation["late"].motion.linear == pytest.approx((0.0, 500.0, 0.0), abs=1e-12)
+
+
 def test_spawn_and_despawn() -> None:
     """Who is spawned is there from that step on, with its words over the prefab's, and later events name it."""
     simulation = load(
