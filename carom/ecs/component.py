@@ -54,7 +54,7 @@ class Record(Dataframe):
     @classmethod
     def derived(cls) -> bool:
         """Tell whether every column is rewritten by the step, so that no file or snapshot supplies it."""
-        return all(column.role in ("derived", "cache") for column in cls.columns.values())
+        return bool(cls.columns) and all(column.role in ("derived", "cache") for column in cls.columns.values())
 
     @classmethod
     def blank(cls) -> Self:

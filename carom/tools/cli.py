@@ -10,6 +10,7 @@ from importlib import import_module
 import carom
 
 COMMANDS = (
+    "new",
     "run",
     "view",
     "replay",
