@@ -7,10 +7,12 @@ from pathlib import Path
 
 from carom.tools.commands.options import ending, print_json, quantity
 
+CONCAVITY = 0.05  # how far from convex parts of meshes may be, as of carom decompose
+
 
 def declare(parser: argparse.ArgumentParser) -> None:
     """Declare the model, what its axes and units are, and where the world goes."""
-    parser.add_argument("model", type=Path, metavar="MODEL", help="a URDF or MJCF file")
+    parser.add_argument("model", type=Path, metavar="MODEL", help="URDF, MJCF or glTF")
     parser.add_argument(
         "-o", "--out", type=ending(".yaml", ".yml"), metavar="WORLD", help="the world file; MODEL.yaml here by default"
     )
@@ -26,13 +28,17 @@ def declare(parser: argparse.ArgumentParser) -> None:
         "--base", choices=("auto", "fixed", "free"), default="auto",
         help="whether the first link of a URDF stands still; auto: where it has no mass",
     )  # fmt: skip
-    parser.add_argument("--meshes", choices=("hull", "none"), default="hull", help="how meshes touch; hull by default")
+    parser.add_argument(
+        "--meshes", choices=("hull", "parts", "none"), help="how meshes touch: URDF and MJCF hull, glTF none by default"
+    )
     parser.add_argument("--strict", action="store_true", help="exit with 1 when anything was not kept as it is")
 
 
 def execute(arguments: argparse.Namespace) -> int:
     """Write the world and print the report; 1 with --strict when anything was approximated or dropped."""
     from carom.ecs.errors import CaromError
+    from carom.systems.shapes.model_files import load_mesh
+    from carom.tools.decomposition import decompose, name_of
     from carom.tools.outputs import prepare_outputs
     from carom.worlds.builder import load_world
     from carom.worlds.importing.imported import Options, import_model
@@ -41,7 +47,13 @@ def execute(arguments: argparse.Namespace) -> int:
     if arguments.root is not None and not arguments.root.is_dir():
         raise CaromError(f"--root: is no folder; received {str(arguments.root)!r}")
     unit = quantity("--units", arguments.units, "m", above=0.0)
-    options = Options(arguments.up, arguments.handedness, unit, arguments.root, arguments.base, arguments.meshes)
+    beside = out.parent / f"{out.stem}-parts"
+
+    def cut(mesh: Path) -> list[Path]:
+        model = load_mesh(mesh)
+        return decompose(model, name_of(mesh), beside, parts=None, concavity=CONCAVITY).parts
+
+    options = Options(arguments.up, arguments.handedness, unit, arguments.root, arguments.base, arguments.meshes, cut)
     made = import_model(arguments.model, options, out.parent, out.stem)
     files = [out.parent / name for name in made.files]
     prepare_outputs([out, *files])

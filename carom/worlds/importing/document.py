@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,8 +25,10 @@ STEP_OF_CHAIN = 0.01  # share of a body's mass that links between the joints it 
 class Document:
     """The world of a model: ``words`` are its sections, ``origins`` says of each entity where the file states it."""
 
-    def __init__(self, model: Model, meshes: Meshes, touching: str) -> None:
-        self.model, self.looks = model, Looks(meshes, touching, model.report)
+    def __init__(
+        self, model: Model, meshes: Meshes, touching: str, cut: Callable[[Path], list[Path]] | None = None
+    ) -> None:
+        self.model, self.looks = model, Looks(meshes, touching, model.report, cut)
         self.report = model.report
         self.links = {link.name: link for link in model.links}
         self.names: dict[tuple[str, str], str] = {}
@@ -83,8 +87,9 @@ class Document:
     def add_link(self, link: Link) -> None:
         """Add a link: as one entity where it has a shape to touch and one to be seen, else with a part for each."""
         name = self.names["link", link.name]
-        touching = [piece for piece in link.pieces if piece.touches]
-        seen = [piece for piece in link.pieces if piece.seen and not piece.touches]
+        pieces = self.looks.pieces(link.pieces)
+        touching = [piece for piece in pieces if piece.touches]
+        seen = [piece for piece in pieces if piece.seen and not piece.touches]
         whole = len(touching) <= 1 and len(seen) <= 1
         words: dict[str, Any] = {"name": name}
         if link.carried is None or link.static:

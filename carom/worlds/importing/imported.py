@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import tempfile
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from carom.systems.shapes.model_files import ENDINGS
 from carom.worlds.errors import Fault, WorldError
-from carom.worlds.importing import mjcf, urdf
+from carom.worlds.importing import gltf, mjcf, urdf
 from carom.worlds.importing.convention import Convention
 from carom.worlds.importing.document import Document
 from carom.worlds.importing.elements import Element, Reading, read_xml
@@ -16,21 +18,26 @@ from carom.worlds.importing.meshes import Meshes
 from carom.worlds.importing.report import Report
 from carom.worlds.importing.writing import text_of
 
-TOUCHING = ("hull", "none")  # how meshes touch
+TOUCHING = ("hull", "parts", "none")  # how meshes touch
 FORMATS = "<robot> of URDF or <mujoco> of MJCF"
-INCLUDED = (".xml", ".mjcf")
+SCENES = (".gltf", ".glb")
+NAMED = (*ENDINGS, ".xml", ".mjcf", ".bin", ".png", ".jpg", ".jpeg")  # files that models name
 
 
 @dataclass(frozen=True)
 class Options:
-    """How to read a model: None stands for what its format has."""
+    """How to read a model: None stands for what its format has.
+
+    ``cut`` returns the files of the convex parts of a mesh, for ``meshes`` as parts.
+    """
 
     up: str | None = None
     hand: str = "right"
     unit: float = 1.0
     root: Path | None = None
     base: str = "auto"
-    meshes: str = "hull"
+    meshes: str | None = None
+    cut: Callable[[Path], list[Path]] | None = None
 
 
 @dataclass
@@ -48,19 +55,24 @@ def import_model(path: Path, options: Options, folder: Path, stem: str) -> Impor
     Raises WorldError with everything that is wrong with the file.
     """
     reading, report = Reading(), Report()
-    root = _root_of(path)
-    files = ModelFiles(path.parent, options.root or path.parent, (*ENDINGS, *INCLUDED), reading, report)
-    if root.tag == "robot":
-        model, up = urdf.read_urdf(root, files, reading, report, options.base), urdf.UP
-    else:
-        model, up = mjcf.read_mjcf(root, files, reading, report), mjcf.UP
-    convention = Convention(options.up or up, options.hand, options.unit)
-    convention.model(model)
-    meshes = Meshes(convention, folder, stem)
-    document = Document(model, meshes, options.meshes)
-    length = "" if options.unit == 1.0 else f", in units of {options.unit:g} m"
-    head = [f"From {path.name} by carom import; there {convention.up} is up, {convention.hand}-handed{length}."]
-    return Imported(text_of(head, document.words, document.origins), report, meshes.written)
+    files = ModelFiles(path.parent, options.root or path.parent, NAMED, reading, report)
+    with tempfile.TemporaryDirectory() as scratch:
+        if path.suffix.lower() in SCENES:
+            model, up, touching = gltf.read_gltf(path, files, reading, report, Path(scratch)), gltf.UP, "none"
+        else:
+            root = _root_of(path)
+            touching = "hull"
+            if root.tag == "robot":
+                model, up = urdf.read_urdf(root, files, reading, report, options.base), urdf.UP
+            else:
+                model, up = mjcf.read_mjcf(root, files, reading, report), mjcf.UP
+        convention = Convention(options.up or up, options.hand, options.unit)
+        convention.model(model)
+        meshes = Meshes(convention, folder, stem, Path(scratch))
+        document = Document(model, meshes, options.meshes or touching, options.cut)
+        length = "" if options.unit == 1.0 else f", in units of {options.unit:g} m"
+        head = [f"From {path.name} by carom import; there {convention.up} is up, {convention.hand}-handed{length}."]
+        return Imported(text_of(head, document.words, document.origins), report, meshes.written)
 
 
 def _root_of(path: Path) -> Element:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,10 +16,29 @@ from carom.worlds.importing.report import Report
 
 
 class Looks:
-    """Words of shapes; ``touching`` says how meshes touch: as their hull, or none of them."""
+    """Words of shapes; ``touching`` says how meshes touch: as hulls, as parts that ``cut`` finds, or not at all."""
 
-    def __init__(self, meshes: Meshes, touching: str, report: Report) -> None:
-        self.meshes, self.touching, self.report = meshes, touching, report
+    def __init__(
+        self, meshes: Meshes, touching: str, report: Report, cut: Callable[[Path], list[Path]] | None = None
+    ) -> None:
+        self.meshes, self.touching, self.report, self.cut = meshes, touching, report, cut
+
+    def pieces(self, stated: list[Piece]) -> list[Piece]:
+        """Return the shapes of a link, meshes that touch and are seen as two, and as parts where they are to be."""
+        found: list[Piece] = []
+        for piece in stated:
+            if piece.file is None or not piece.touches:
+                found.append(piece)
+                continue
+            if piece.seen:
+                found.append(replace(piece, touches=False))
+            if self.touching == "parts" and self.cut is not None and not self.meshes.fault(piece, AS_MESH):
+                parts = self.cut(piece.file)
+                self.report.approximate(piece.element, "a mesh to touch as convex parts", piece.file.name)
+                found += [replace(piece, file=part, seen=False, hull=True) for part in parts]
+            elif self.touching != "none":
+                found.append(replace(piece, seen=False))
+        return found
 
     def words(self, pieces: list[Piece], moves: bool) -> dict[str, Any]:
         """Return collider, material and visual of a link with at most one shape to touch and one to be seen."""
@@ -43,9 +65,6 @@ class Looks:
         if piece.kind != "mesh":
             return {piece.kind: piece.words}
         whose = piece.file.name if piece.file else ""
-        if self.touching == "none":
-            self.report.drop(piece.element, "a mesh to touch", whose)
-            return None
         if not moves and not piece.hull and not self.meshes.fault(piece, AS_MESH):
             return {AS_MESH: self.meshes.words(piece)}
         if fault := self.meshes.fault(piece, AS_HULL):

@@ -22,10 +22,13 @@ UNNAMED = re.compile(r"[^\w-]+")
 
 
 class Meshes:
-    """Meshes for a world file in ``folder``; ``written`` are those to be written beside it, as glTF."""
+    """Meshes for a world file in ``folder``; ``written`` are those to be written beside it, as glTF.
 
-    def __init__(self, convention: Convention, folder: Path, stem: str) -> None:
-        self.convention, self.folder = convention, folder
+    Those that lie in ``scratch`` do not stay there, so they are written as well.
+    """
+
+    def __init__(self, convention: Convention, folder: Path, stem: str, scratch: Path) -> None:
+        self.convention, self.folder, self.scratch = convention, folder, scratch
         self.beside = Path(f"{stem}-parts")
         self.written: dict[Path, bytes] = {}
         self.known: dict[tuple[Path, tuple[float, ...]], str] = {}
@@ -34,7 +37,8 @@ class Meshes:
         """Return the words that read the mesh of a piece in carom's axes and units."""
         assert piece.file is not None
         first, alike = piece.scale[0], len(set(piece.scale)) == 1
-        if alike and first > 0.0 and self.convention.hand == "right" and self.convention.up != "x":
+        stays = not piece.file.is_relative_to(self.scratch)
+        if stays and alike and first > 0.0 and self.convention.hand == "right" and self.convention.up != "x":
             scale = first * self.convention.unit
             words: dict[str, Any] = {"file": Path(os.path.relpath(piece.file, self.folder)).as_posix()}
             words |= {"scale": scale} if scale != 1.0 else {}

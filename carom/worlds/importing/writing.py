@@ -25,7 +25,7 @@ def text_of(head: Sequence[str], words: dict[str, Any], origins: Sequence[Elemen
         if key == "entities":
             lines.append("entities:" if value else "entities: []")
             for entity, origin in zip(value, origins, strict=True):
-                lines += [f"  {line}" for line in _entity(entity, f"{origin.file.rpartition('/')[2]}:{origin.line}")]
+                lines += [f"  {line}" for line in _entity(entity, origin)]
         elif key == "cameras":
             lines += ["cameras:", *(f"  {name}: {flow(camera)}" for name, camera in value.items())]
         else:
@@ -33,14 +33,16 @@ def text_of(head: Sequence[str], words: dict[str, Any], origins: Sequence[Elemen
     return "\n".join(lines) + "\n"
 
 
-def _entity(entity: dict[str, Any], origin: str) -> list[str]:
+def _entity(entity: dict[str, Any], origin: Element) -> list[str]:
     """Return the lines of an entity: one, or one for each of its words."""
-    whole = f"- {flow(entity)} # {origin}"
+    file = origin.file.rpartition("/")[2]
+    comment = f" # {file}:{origin.line}" if origin.line else ""
+    whole = f"- {flow(entity)}{comment}"
     if len(whole) <= WIDTH - 2:
         return [whole]
     first, *others = entity.items()
     lines = [line for key, value in others for line in _lines(key, value, 4)]
-    return [f"- {first[0]}: {flow(first[1])} # {origin}", *(line[2:] for line in lines)]
+    return [f"- {first[0]}: {flow(first[1])}{comment}", *(line[2:] for line in lines)]
 
 
 def _lines(key: str, value: Any, indent: int) -> list[str]:
