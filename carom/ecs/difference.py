@@ -45,6 +45,7 @@ class Difference:
     def __str__(self) -> str:
         """Return one sentence."""
         by = f", system '{self.system}', run {self.run} in phase '{self.phase}'" if self.system else ""
+        by += f", set by code outside before frame {self.frame + 1}" if self.phase and not self.system else ""
         return f"frame {self.frame}{by}: {self.what}"
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -28,10 +28,16 @@ class Run(NamedTuple):
 
 
 START = Run("", "", 0)
+OUTSIDE = "outside"  # the phase of what code outside the step does before it
 
 
-def first_divergence(a: Simulation, b: Simulation, steps: int) -> Difference | None:
+def first_divergence(
+    a: Simulation, b: Simulation, steps: int, outside: Callable[[], bool] | None = None
+) -> Difference | None:
     """Step two simulations side by side until their worlds differ; return where that began, None if nowhere.
+
+    Before each step ``outside`` does what code outside did then, and tells whether that was anything; where worlds
+    differ right after it, no system is named.
 
     The frame is then run once more from its start, unseen by observers, to name the system after which they first
     differ, derived columns included, and what it wrote; both simulations are left at the end of that frame. What
@@ -41,6 +47,8 @@ def first_divergence(a: Simulation, b: Simulation, steps: int) -> Difference | N
     found = first_difference(a.world, b.world)
     before: tuple[Snapshot | None, Snapshot | None] = (None, None)
     while found is None and steps > 0:
+        if outside is not None and outside() and (found := first_difference(a.world, b.world)) is not None:
+            return replace(found, phase=OUTSIDE)
         before = (take_snapshot(a.world, reuse=before[0]), take_snapshot(b.world, reuse=before[1]))
         for simulation in (a, b):
             simulation.step()

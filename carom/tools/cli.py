@@ -14,6 +14,8 @@ COMMANDS = (
     "run",
     "view",
     "replay",
+    "diff",
+    "bisect",
     "query",
     "salvage",
     "render",

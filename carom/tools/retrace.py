@@ -117,7 +117,7 @@ class Tracer:
         """Hold a world against the recording of this frame; make it what a snapshot of it says."""
         frame = world.frame
         if self._seen[0] is None and frame in self._recorded:
-            entity = _elsewhere(self._replay.recording, world)
+            entity = elsewhere(self._replay.recording, world)
             self._seen = (None, "") if entity is None else (frame, entity)
         saved = self._replay.states.get(frame)
         if saved is None:
@@ -141,7 +141,7 @@ class Tracer:
         self._verdict.partings.append(Parting(first, last, *self._seen, found, edits))
 
 
-def _elsewhere(recording: Recording, world: World) -> str | None:
+def elsewhere(recording: Recording, world: World) -> str | None:
     """Return somebody visible whose pose is not as recorded, or who is on one side only; None for nobody."""
     rows = world.row_numbers(Visual, Transform)
     rows = rows[world[Visual].visible[rows]]

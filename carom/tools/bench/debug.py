@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
-from carom.tools.bench import break_rows
+from carom.tools.bench import break_rows, diff_rows
 from carom.tools.bench.measure import Figure
 
 
@@ -14,4 +14,4 @@ def figures() -> Iterator[Figure]:
         yield from part()
 
 
-PARTS: dict[str, Callable[[], Iterator[Figure]]] = {"break": break_rows.figures}
+PARTS: dict[str, Callable[[], Iterator[Figure]]] = {"break": break_rows.figures, "diff": diff_rows.figures}
