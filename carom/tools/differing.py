@@ -41,9 +41,9 @@ class Apart:
 class Comparison:
     """Two runs held against each other over the frames ``first`` to ``last``.
 
-    ``good`` is a frame up to which all is the same, None for none, ``difference`` the first after it, None where there is none, and
-    ``start`` one from which both were simulated again; ``how`` tells in words whether it came in once and grew or comes
-    in again, ``reproduced`` whether both part here at all, ``apart`` how far they come to be.
+    ``good`` is a frame up to which all is the same, None for none, ``difference`` what differs first, None for nothing,
+    and ``start`` a frame from which both were simulated again; ``how`` tells in words whether it came in once and grew
+    or comes in again, ``reproduced`` whether both part here at all, ``apart`` how far they come to be.
     """
 
     a: str
