@@ -18,6 +18,7 @@ from carom.ecs.writes import WriteLog
 from carom.systems.awake import Awake
 from carom.systems.detection.answered import uncounted
 from carom.systems.edits import NOTHING, Done, EditWatch, Retelling
+from carom.systems.events import Events
 from carom.systems.forces.law import Forces
 from carom.systems.observer import Observer, unobserved
 from carom.systems.settings import Settings
@@ -30,7 +31,7 @@ class Ring:
     """Keep the last ``count`` snapshots, of every ``every``-th frame: ``simulation.observers.append(ring)``.
 
     Beside these it keeps one of each frame before which code outside the step changed the world, since that is not
-    done again on the way from one snapshot to the next; what was before other settings, forces or systems it forgets.
+    done again on the way from one snapshot to the next; what was before other settings, forces, events or systems it forgets.
     A new snapshot takes the memory of the oldest: once the ring is full, nothing grows, and no memory is touched for
     the first time, which costs more than the copying. Raises DeclarationError for less than one of either.
     """
@@ -44,7 +45,7 @@ class Ring:
         self._spare: list[Snapshot] = []
         self._edits = EditWatch()
         self._done: dict[int, Done] = {}  # from outside, by the frame it led to
-        self._rules: tuple[Settings, int, Schedule] | None = None
+        self._rules: tuple[Settings, int, int, Schedule] | None = None
         self._seen = -1
         self._showing = False
 
@@ -163,7 +164,7 @@ class Ring:
             self._spare.append(self._kept.pop())
 
 
-def _rules(simulation: Simulation) -> tuple[Settings, int, Schedule]:
+def _rules(simulation: Simulation) -> tuple[Settings, int, int, Schedule]:
     """Return what a snapshot does not hold and a step depends on."""
     world = simulation.world
-    return world[Settings], world[Forces].count, simulation.schedule
+    return world[Settings], world[Forces].count, len(world[Events].entries), simulation.schedule

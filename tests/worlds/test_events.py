@@ -159,7 +159,7 @@ def test_a_recording_is_replayed_and_a_snapshot_goes_on_to_the_same_bits(tmp_pat
         "at: 0.2 s, despawn: [late]",
     )
     simulation = loaded.simulation
-    recorder = Recorder(tmp_path / "a.rrd", title="events", source=loaded.source_text, files={})
+    recorder = Recorder(tmp_path / "a.rrd", title="events", source=loaded.source_text, files={}, detail="full")
     simulation.observers.append(recorder)
     recorder.begin(simulation)
     simulation.step(8)
@@ -171,6 +171,7 @@ def test_a_recording_is_replayed_and_a_snapshot_goes_on_to_the_same_bits(tmp_pat
     verdict = retrace(replay, replay.loaded(), replay.last)
     assert (verdict.same, verdict.full, verdict.changes, verdict.notes) == (True, 30, [], [])
     assert replay.recording.edits() == {}
+    assert set(replay.recording.table("forces").arrow()["source"].to_pylist()) == {"explosion", "joint"}
     reached = state_hash(simulation.world)
     restore_snapshot(simulation.world, kept)
     simulation.step(22)
