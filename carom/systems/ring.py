@@ -31,9 +31,9 @@ class Ring:
     """Keep the last ``count`` snapshots, of every ``every``-th frame: ``simulation.observers.append(ring)``.
 
     Beside these it keeps one of each frame before which code outside the step changed the world, since that is not
-    done again on the way from one snapshot to the next; what was before other settings, forces, events or systems it forgets.
-    A new snapshot takes the memory of the oldest: once the ring is full, nothing grows, and no memory is touched for
-    the first time, which costs more than the copying. Raises DeclarationError for less than one of either.
+    done again on the way from one snapshot to the next; what was before other settings, forces, events or systems it
+    forgets. A new snapshot takes the memory of the oldest: once the ring is full, nothing grows, and no memory is
+    touched for the first time, which costs more than the copying. Raises DeclarationError for less than one of either.
     """
 
     def __init__(self, count: int, every: int = 1) -> None:
