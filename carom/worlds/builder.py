@@ -18,7 +18,7 @@ from carom.systems.simulation import Simulation
 from carom.worlds import library
 from carom.worlds.camera import Camera, check_entities
 from carom.worlds.embedding import content_of
-from carom.worlds.errors import WordError
+from carom.worlds.errors import WordError, WorldError
 from carom.worlds.events import add_events, with_prefabs
 from carom.worlds.expect import Expectation, read_expectations
 from carom.worlds.files import WorldFiles
@@ -97,8 +97,18 @@ def load_text(
 
     ``files`` says of some where they are, by the words of the text for them.
     """
-    source = read(text, name)
     files_of_world = WorldFiles(folder or Path(), files or {})
+    try:
+        return _loaded(text, name, files_of_world, checked, options)
+    except WorldError as fault:
+        fault.files = [*files_of_world.used.values()]
+        raise
+
+
+def _loaded(
+    text: str, name: str, files_of_world: WorldFiles, checked: bool | None, options: dict[str, Any]
+) -> LoadedWorld:
+    source = read(text, name)
     with_header(source)
     Includes(source, files_of_world).take(source, (Path(name).name,))
     data, prefabs = filled(source, source.data)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path as FilePath
 from typing import Any
 
 from carom.ecs.errors import CaromError
@@ -52,10 +53,14 @@ class Fault:
 
 
 class WorldError(CaromError):
-    """A world file that cannot be used; ``faults`` holds everything wrong in it, in order of position."""
+    """A world file that cannot be used; ``faults`` holds everything wrong in it, in order of position.
+
+    ``files`` are those that it names, as far as it could be read.
+    """
 
     def __init__(self, faults: Iterable[Fault]) -> None:
         self.faults = sorted(set(faults))
+        self.files: list[FilePath] = []
         super().__init__("\n".join(map(str, self.faults)))
 
 

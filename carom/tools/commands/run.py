@@ -5,7 +5,9 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import sys
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from carom.tools.commands.breaks import Breaks, declare_breaks
 from carom.tools.commands.look import declare_look, look
@@ -19,6 +21,10 @@ from carom.tools.commands.options import (
     whole_number,
 )
 from carom.tools.commands.record import Records, declare_record
+
+if TYPE_CHECKING:
+    from carom.tools.watching import Watching
+    from carom.worlds.builder import LoadedWorld
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -41,6 +47,7 @@ def declare(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--compare", metavar="SETTING=A,B", help="run several futures side by side, such as integrator=euler,verlet"
     )
+    parser.add_argument("--watch", action="store_true", help="run it anew whenever it, or a file it names, is saved")
     parser.add_argument("--check", action="store_true", help="let every system touch only what it declares")
     parser.add_argument("--ledger", action="store_true", help="tell who gave energy and who took it")
     parser.add_argument(
@@ -51,11 +58,30 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(arguments: argparse.Namespace) -> int:
-    """Run the world and print the summary; 1 when something failed, or a breakpoint or a NaN stopped it."""
+    """Run the world, once or whenever it is saved; 1 when something failed, or a breakpoint or a NaN stopped it."""
+    from carom.ecs.errors import CaromError
+    from carom.tools.comparing import load_futures
+    from carom.tools.watching import Watching, keep_running
+    from carom.worlds import library, load_world
+
+    stated = {"checked": arguments.check or None, **overrides(arguments)}
+    if arguments.watch:
+        if arguments.compare:
+            raise CaromError("--compare: shows futures of a world that stays as it is; leave out --watch")
+        watching = Watching(library.find(arguments.world), lambda: load_world(arguments.world, **stated))
+        return keep_running(watching, lambda loaded: once(arguments, [("", loaded)], watching))
+    if arguments.compare:
+        return once(arguments, load_futures(arguments.world, arguments.compare, **stated))
+    return once(arguments, [("", load_world(arguments.world, **stated))])
+
+
+def once(
+    arguments: argparse.Namespace, worlds: Sequence[tuple[str, LoadedWorld]], watching: Watching | None = None
+) -> int:
+    """Run a world, with the other futures of it, and print the summary; return the exit status."""
     from carom.ecs.errors import NonFiniteError
     from carom.systems.breakpoints import StoppedError
     from carom.tools.auditing import Auditing
-    from carom.tools.comparing import load_futures
     from carom.tools.filming import Filming, photograph, shot_of
     from carom.tools.futures import Futures
     from carom.tools.outputs import prepare_outputs
@@ -63,17 +89,15 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.tools.painter import Painter
     from carom.tools.session import run
     from carom.tools.vantage import vantage_warnings
-    from carom.worlds import load_world, write_world
+    from carom.worlds import write_world
 
-    stated = {"checked": arguments.check or None, **overrides(arguments)}
-    worlds = load_futures(arguments.world, arguments.compare, **stated) if arguments.compare else []
-    loaded = worlds[0][1] if worlds else load_world(arguments.world, **stated)
+    loaded = worlds[0][1]
     print_warnings(loaded.warnings)
     shot = shot_of(loaded, arguments.camera, look(arguments, loaded))
     if arguments.film or arguments.picture:
         print_warnings(vantage_warnings(shot, loaded.simulation))
     pace = Pace(factor("--speed", arguments.speed)) if arguments.speed else None
-    futures = Futures([(name, world.simulation) for name, world in worlds]) if worlds else None
+    futures = Futures([(name, world.simulation) for name, world in worlds]) if arguments.compare else None
     records, breaks = Records(arguments, loaded, shot), Breaks(arguments, loaded)
     observers = [*([futures] if futures else []), *records.observers, *breaks.observers]
     if arguments.film:
@@ -85,8 +109,7 @@ def execute(arguments: argparse.Namespace) -> int:
     auditing = Auditing()
     if arguments.audit:
         observers.append(auditing)
-    if pace:
-        observers.append(pace)
+    observers += [item for item in (pace, watching) if item]
     ledger = loaded.simulation.keep_ledger() if arguments.ledger else None
     simulation = loaded.simulation
     try:
