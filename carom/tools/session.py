@@ -13,6 +13,7 @@ import numpy as np
 
 from carom.ecs import RigidBody
 from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.particle import Particle
 from carom.systems.detection.answered import Answered
 from carom.systems.energy import total_energy
 from carom.systems.observer import Observer
@@ -58,6 +59,7 @@ class Summary:
     points_refused: int = 0
     impacts_cut: int = 0
     looks_cut: int = 0
+    particles: int = 0  # at the end
     expectations: int = 0
     judged: bool = True
     failures: list[str] = field(default_factory=list)
@@ -66,9 +68,10 @@ class Summary:
     def text(self) -> str:
         """Return the summary for people."""
         speed = f"{self.simulated_seconds / self.real_seconds:.1f} x real time" if self.real_seconds else "no time"
+        particles = f", {self.particles} particles" if self.particles else ""
         held = f"{self.expectations - len(self.failures)} of {self.expectations} held"
         lines = [
-            f"{self.world}: {self.frames} frames, {self.bodies} bodies",
+            f"{self.world}: {self.frames} frames, {self.bodies} bodies{particles}",
             f"  time          {self.simulated_seconds:.2f} s simulated in {self.real_seconds:.2f} s, {speed}",
             f"  energy        {self.energy_before:.6g} J before, {self.energy_after:.6g} J after",
             f"  overlap       {1e3 * self.deepest_overlap:.3g} mm at the deepest",
@@ -134,6 +137,7 @@ def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None,
     summary.pairs_by_fcl, summary.pairs_by_kernels = answered.fcl, answered.kernels
     summary.points_refused = answered.refused
     summary.impacts_cut, summary.looks_cut = answered.impacts_cut, answered.looks_cut
+    summary.particles = simulation.world.count(Particle)
     summary.expectations = len(expectations)
     summary.failures = [str(outcome) for item in expectations if not (outcome := item.outcome()).held]
     return summary

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from sprays import emitting, positions, velocities
 
+from carom.ecs.errors import NonFiniteError
 from carom.systems.simulation import Simulation
 
 G = 9.81
@@ -111,3 +112,12 @@ def test_colliders_are_in_the_way_of_those_that_ask() -> None:
         simulation.add(name="source", emitter=words, transform={"position": (0.0, 2.0, 0.0)})
         simulation.step(150)
         assert positions(simulation)[:, 1] == pytest.approx(rest, abs=3e-3)
+
+
+def test_a_law_that_gives_no_number_is_stopped() -> None:
+    """The first NaN ends the step, and is told with the emitter whose particle it is."""
+    simulation = emitting(dt=1 / 60, burst=11, life=100.0)
+    simulation.force_function(lambda world, rows: np.where(rows[:, None] == 10, np.nan, 0.0), name="broken")
+    with pytest.raises(NonFiniteError) as told:
+        simulation.step()
+    assert str(told.value) == "frame 1: Particle.x of entity 'source' is nan, after 'move_particles'"

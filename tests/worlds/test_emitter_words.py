@@ -96,3 +96,32 @@ entities:
     assert (*found.color, *found.end_color) == (1.0, 0.0, 0.0, 1.0) * 2
     assert (found.gravity_scale, found.most, found.collide, found.drawn) == (0.5, 9, Collide.ALL, Drawn.BOXES)
     assert (found.within, found.within_extent[0], *found.within_position) == (Within.SPHERE, 5.0, 0.0, 1.0, 0.0)
+
+
+def test_expectations_say_what_particles_have() -> None:
+    """An unknown measure, an axis of a number, and particles of who is no emitter are refused with what is there."""
+    text = """carom: 1
+entities:
+  - {name: jet, emitter: {rate: 10}}
+  - {name: ball, collider: {sphere: {radius: 1}}}
+expect:
+  - {at: 1 s, jet.particles.counts: {is: 1, within: 1}}
+  - {at: 1 s, jet.particles.upper.w: {is: 1, within: 1}}
+  - {at: 1 s, jet.particles.count.x: {is: 1, within: 1}}
+  - {at: 1 s, ball.particles.count: {is: 1, within: 1}}
+"""
+    with pytest.raises(WorldError) as told:
+        load_text(text)
+    assert [line.partition(": expect.")[2] for line in str(told.value).splitlines()] == [
+        (
+            "0.jet.particles.counts: particles have no counts; received 'jet.particles.counts'; "
+            "accepted: count, center, lower, upper, velocity, speed; did you mean 'count'?"
+        ),
+        "1.jet.particles.upper.w: upper has no w; received 'jet.particles.upper.w'; accepted: x, y, z",
+        "2.jet.particles.count.x: count has no x; received 'jet.particles.count.x'",
+        (
+            "3.ball.particles.count: ball has no such column; received 'particles.count'; accepted: position, "
+            "rotation, friction, restitution, density, rolling_friction, spinning_friction, friction_combine, "
+            "restitution_combine, number, color"
+        ),
+    ]

@@ -6,13 +6,14 @@ from __future__ import annotations
 from carom.systems.constants import PARTICLE_REST, PARTICLE_SKIN
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import TINY
-from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, root, smaller, some, spread
+from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, root, smaller, some, spread, which
 from carom.systems.kernels.lanes_single import load_single, store_single
 from carom.systems.kernels.particle_arcs import ACCELERATION, CHUNK, FLOW, LEFT, TIME
 
 GROUPS = CHUNK // WIDTH
 NORMAL, OFFSET, RESTITUTION, FRICTION = 0, 3, 4, 5  # columns of planes, normals unit and world frame
 PLANE_COLUMNS = 6
+ALL_LANES = 2**WIDTH - 1
 
 
 @woven
@@ -32,8 +33,10 @@ def pushed(push, friction, vx, vy, vz, nx, ny, nz):
     """Return a velocity after a push along a normal (m/s), and after the friction that goes with it."""
     along = nx * vx + ny * vy + nz * vz
     tx, ty, tz = vx - along * nx, vy - along * ny, vz - along * nz
-    size = root(tx * tx + ty * ty + tz * tz)
-    part = smaller(spread(1.0), friction * push / larger(size, spread(TINY)))
+    square, most, part = tx * tx + ty * ty + tz * tz, friction * push, spread(1.0)
+    slips = square - most * most
+    if some(slips):
+        part = choose(slips, most / larger(root(square), spread(TINY)), part)
     return vx + push * nx - part * tx, vy + push * ny - part * ty, vz + push * nz - part * tz
 
 
@@ -79,7 +82,7 @@ def slid(half, x0, y0, z0, v0, v1, v2, vx, vy, vz, nx, ny, nz, offset, friction)
 
 @woven
 def fly_eight(at, apart, group, arcs, half_pace, planes, x, y, z, velocity_x, velocity_y, velocity_z):
-    """Fly eight particles, and let those that come below a plane bounce off it.
+    """Fly eight particles, and let those that come below a plane bounce off it; return 0 where they are somewhere.
 
     They are at place ``at`` of the first column, and ``apart`` farther on in each that follows.
     """
@@ -132,6 +135,8 @@ def fly_eight(at, apart, group, arcs, half_pace, planes, x, y, z, velocity_x, ve
     store_single(velocity_x, at + 3 * apart, vx)
     store_single(velocity_y, at + 4 * apart, vy)
     store_single(velocity_z, at + 5 * apart, vz)
+    total = px + py + pz + vx + vy + vz
+    return total - total  # no number where any of these is none
 
 
 @kernel("room", "x", "y", "z", "velocity_x", "velocity_y", "velocity_z")
@@ -140,12 +145,13 @@ def fly(first, count, arcs, half_pace, planes, room, x, y, z, velocity_x, veloci
 
     Half of the drag goes before the acceleration and half after it (Strang), as with bodies. ``half_pace`` (1/m) is
     half of the quadratic drag by mass. Fewer than eight fly in ``room`` (48,), where nobody is beside them.
+    Return whether all are at a place that is a number.
     """
     where = address(arcs)
     columns = address(x), address(y), address(z), address(velocity_x), address(velocity_y), address(velocity_z)
-    whole = count // WIDTH
+    whole, sound = count // WIDTH, spread(1.0)
     for group in range(whole):
-        fly_eight(first + group * WIDTH, 0, group % GROUPS, where, half_pace, planes, *columns)
+        sound = sound + fly_eight(first + group * WIDTH, 0, group % GROUPS, where, half_pace, planes, *columns)
     rest, last = count - whole * WIDTH, first + whole * WIDTH
     if rest:
         for k in range(rest):
@@ -160,3 +166,7 @@ def fly(first, count, arcs, half_pace, planes, room, x, y, z, velocity_x, veloci
             x[i], y[i], z[i] = room[k], room[WIDTH + k], room[2 * WIDTH + k]
             velocity_x[i], velocity_y[i] = room[3 * WIDTH + k], room[4 * WIDTH + k]
             velocity_z[i] = room[5 * WIDTH + k]
+            total = x[i] + y[i] + z[i] + velocity_x[i] + velocity_y[i] + velocity_z[i]
+            if total - total != 0.0:
+                return False
+    return which(sound) == ALL_LANES

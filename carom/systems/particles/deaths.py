@@ -9,6 +9,7 @@ from carom.ecs.column import Booleans
 from carom.ecs.components.emitter import Emitter, Within
 from carom.ecs.relations.particle import Particle
 from carom.systems.forces.region import BoxRegion, SphereRegion
+from carom.systems.kernels.particle_deaths import any_due
 from carom.systems.particles.pieces import Piece, pieces, remove
 from carom.systems.settings import Settings, time_of
 
@@ -19,21 +20,30 @@ def end_particles(world: World, dt: float) -> None:
 
     Of an emitter that is no more all go.
     """
-    count = world.count(Particle)
-    if not count:
+    if not world.count(Particle):
         return
-    gone: Booleans = world[Particle].dies[:count] <= time_of(world)
-    for piece in pieces(world):
-        if piece.emitter not in world:
-            gone[piece.rows] = True
-            continue
-        row = world.row(piece.emitter)
-        if world[Emitter].within[row] != Within.ANYWHERE:
-            gone[piece.rows] |= ~region_of(world[Emitter], row).contains(world[Particle].position(piece.rows))
-        if world[Emitter].most[row]:
-            gone[piece.rows] |= oldest(world[Particle], piece, gone[piece.rows], int(world[Emitter].most[row]))
-    if gone.any():
+    doomed = [(piece.rows, going) for piece in pieces(world) if (going := leaving(world, piece)) is not None]
+    if doomed:
+        gone: Booleans = np.zeros(world.count(Particle), np.bool_)
+        for rows, going in doomed:
+            gone[rows] = going
         remove(world, gone)
+
+
+def leaving(world: World, piece: Piece) -> Booleans | None:
+    """Return which of a piece must go, None where it is nobody."""
+    if piece.emitter not in world:
+        return np.ones(piece.size, np.bool_)
+    row, emitter, particle, time = world.row(piece.emitter), world[Emitter], world[Particle], time_of(world)
+    bounded, most = emitter.within[row] != Within.ANYWHERE, int(emitter.most[row])
+    if not (bounded or 0 < most < piece.size or any_due(particle.dies, piece.first, piece.size, time)):
+        return None  # as in most steps
+    going: Booleans = particle.dies[piece.rows] <= time
+    if bounded:
+        going |= ~region_of(emitter, row).contains(particle.position(piece.rows))
+    if most:
+        going |= oldest(particle, piece, going, most)
+    return going if going.any() else None
 
 
 def region_of(emitter: Emitter, row: int) -> BoxRegion | SphereRegion:

@@ -7,6 +7,7 @@ import numpy as np
 from carom.ecs import World, system
 from carom.ecs.column import Floats
 from carom.ecs.components.emitter import Collide, Emitter
+from carom.ecs.errors import NonFiniteError
 from carom.ecs.relations.particle import PLACE, VELOCITY, Particle
 from carom.systems.forces.law import Forces
 from carom.systems.kernels.lanes import WIDTH
@@ -44,6 +45,17 @@ def move_particles(world: World, dt: float) -> None:
             flight.fly(first, len(times), times, dt)
 
 
+def refuse_not_finite(world: World, rows: slice) -> None:
+    """Raise NonFiniteError for the first particle whose place or velocity is not finite."""
+    particle = world[Particle]
+    for name in PLACE + VELOCITY:
+        values = getattr(particle, name)[rows]
+        wrong = values[~np.isfinite(values)]
+        if len(wrong):
+            emitter = world.name(int(particle.emitter[rows.start]))
+            raise NonFiniteError(world.frame, f"Particle.{name}", emitter, str(wrong[0]), "after 'move_particles'")
+
+
 class Flight:
     """How the particles of one emitter fly in this step."""
 
@@ -65,9 +77,11 @@ class Flight:
         whole = world[Emitter].collide[self.row] == Collide.ALL
         rows = slice(first, first + count)
         before = particle.position(rows) if whole else None
-        fly(
+        sound = fly(
             first, count, self._arcs, 0.5 * even.pace if even is not None else 0.0, self.planes, self._room,
             *(getattr(particle, name) for name in PLACE + VELOCITY),
         )  # fmt: skip
+        if not sound:
+            refuse_not_finite(world, rows)
         if before is not None:
             bounce_off_colliders(world, self.row, rows, before, times, self.planes)

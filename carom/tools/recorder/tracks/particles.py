@@ -14,7 +14,7 @@ from carom.systems.simulation import Simulation
 from carom.tools.particles import POINT_WIDTH, clouds
 from carom.tools.recorder.block import Block, Columns
 from carom.tools.recorder.rows import RowTrack, handle, number
-from carom.tools.recorder.stream import Stream
+from carom.tools.recorder.stream import Stamp, Stream
 
 
 class Particles(RowTrack):
@@ -29,6 +29,20 @@ class Particles(RowTrack):
     }
     drawn: ClassVar[Mapping[str, str]] = {"position": "Points3D:positions"}
     sparse: ClassVar[bool] = True
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._told: list[int] = []
+
+    def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
+        """Keep the particles of this frame; tell the names of emitters where there are others than before."""
+        import rerun
+
+        emitters = simulation.world.query(Emitter).entities
+        if emitters.tolist() != self._told:
+            self._told, names = emitters.tolist(), simulation.world.names_told(emitters)
+            stream.row(f"{self.path}/emitters", stamp, rerun.AnyValues(entity=emitters, name=names))
+        super().sample(simulation, stamp, stream)
 
     def rows(self, simulation: Simulation) -> Columns | None:
         """Return a row for each particle; none at all where nothing emits."""
