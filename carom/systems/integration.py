@@ -26,12 +26,12 @@ def predict(world: World, dt: float) -> None:
     )  # fmt: skip
 
 
-@system(writes=(Force,))
+@system(reads=(RigidBody,), writes=(Force,))
 def clear_forces(world: World, dt: float) -> None:
-    """Start the sums of this substep from zero."""
+    """Start the sums of this substep from zero, of all bodies: forces act on those without `Force` of their own too."""
     force = world[Force]
     clear_sums(
-        world.row_numbers(Force),
+        world.row_numbers(RigidBody),
         force.force,
         force.torque,
         force.drag,

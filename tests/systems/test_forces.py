@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from carom.ecs import World
+from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import DeclarationError
 from carom.ecs.relations.contact import Contact
@@ -241,3 +241,13 @@ def test_gravity_scale(scale: float) -> None:
     assert simulation[ball].transform.position == pytest.approx(START - [0.0, fallen, 0.0], rel=1e-11)
     assert simulation[other].transform.position[1] == pytest.approx(-0.5 * 9.81, rel=1e-12)
     assert total_energy(simulation.world) == pytest.approx(before, rel=1e-12)
+
+
+def test_a_body_spawned_piece_by_piece_falls_like_another() -> None:
+    """Forces act on whoever is a body, also where nobody gave it a place for them: none is added up twice."""
+    simulation = Simulation(dt=1 / 60)
+    spawned = simulation.world.spawn(Transform(), Motion(), RigidBody())
+    added = simulation.add(body={"mass": 1.0})
+    simulation.step(60)
+    assert (simulation[spawned].transform.position == simulation[added].transform.position).all()
+    assert simulation[spawned].motion.linear[1] == pytest.approx(-9.81, rel=1e-12)
