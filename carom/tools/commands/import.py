@@ -41,7 +41,7 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.tools.decomposition import decompose, name_of
     from carom.tools.outputs import prepare_outputs
     from carom.worlds.builder import load_world
-    from carom.worlds.importing.imported import Options, import_model
+    from carom.worlds.importing import Options, import_model
 
     out = arguments.out or Path(arguments.model.stem + ".yaml")
     if arguments.root is not None and not arguments.root.is_dir():
@@ -54,7 +54,7 @@ def execute(arguments: argparse.Namespace) -> int:
         return decompose(model, name_of(mesh), beside, parts=None, concavity=CONCAVITY).parts
 
     options = Options(arguments.up, arguments.handedness, unit, arguments.root, arguments.base, arguments.meshes, cut)
-    made = import_model(arguments.model, options, out.parent, out.stem)
+    made = import_model(arguments.model, options, folder=out.parent, stem=out.stem)
     files = [out.parent / name for name in made.files]
     prepare_outputs([out, *files])
     for path, content in zip(files, made.files.values(), strict=True):

@@ -49,11 +49,12 @@ class Imported:
     files: dict[Path, bytes] = field(default_factory=dict)
 
 
-def import_model(path: Path, options: Options, folder: Path, stem: str) -> Imported:
-    """Return a model as a world file that would lie in ``folder``, with meshes that it needs beside it.
+def import_model(path: Path, options: Options | None = None, *, folder: Path, stem: str = "model") -> Imported:
+    """Return a model as a world file that would lie in ``folder``, with meshes that it needs in ``stem``-parts there.
 
     Raises WorldError with everything that is wrong with the file.
     """
+    options = options or Options()
     reading, report = Reading(), Report()
     files = ModelFiles(path.parent, options.root or path.parent, NAMED, reading, report)
     with tempfile.TemporaryDirectory() as scratch:

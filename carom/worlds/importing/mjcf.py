@@ -142,7 +142,7 @@ class _Mujoco:
     def geom(self, element: Element, pose: Pose, link: Link | None) -> None:
         """Add a geom to its body; those of the world each stand by themselves."""
         piece = self.geoms.piece(element, "" if link is None else link.name)
-        if piece is None:
+        if piece is None or (link is None and not (piece.touches or piece.seen)):
             return
         if link is None:
             name = element.attributes.get("name") or f"{piece.kind}-{len(self.made.links) + 1}"

@@ -83,7 +83,7 @@ class Geoms:
             color = read.numbers(element, "rgba", 4, self.colors.get(words.get("material", ""), (0.5, 0.5, 0.5, 1.0)))
             piece.color = tuple(min(max(part, 0.0), 1.0) for part in color)
             piece.seen = piece.seen and color[3] > 0.0
-        return piece if piece.touches or piece.seen else None
+        return piece
 
     def mesh(self, piece: Piece, whose: str) -> bool:
         """Let a piece be a mesh, which MuJoCo collides as its hull; tell whether there is one."""

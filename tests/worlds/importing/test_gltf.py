@@ -13,7 +13,7 @@ import pytest
 from carom.ecs.spatial import quaternion
 from carom.systems.shapes.model_files import read_scene
 from carom.worlds import WorldError, load_text
-from carom.worlds.importing.imported import Imported, Options, import_model
+from carom.worlds.importing import Imported, Options, import_model
 
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 3]], np.float32)  # no mirror image of itself
 FACES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.uint16)
@@ -37,7 +37,7 @@ def scene(nodes: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
 def imported(folder: Path, data: Any, **options: Any) -> Imported:
     """Return what becomes of a scene; its meshes are written."""
     (folder / "model.gltf").write_text(data if isinstance(data, str) else json.dumps(data))
-    made = import_model(folder / "model.gltf", Options(**options), folder, "world")
+    made = import_model(folder / "model.gltf", Options(**options), folder=folder, stem="world")
     for name, content in made.files.items():
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_bytes(content)

@@ -176,3 +176,11 @@ def test_the_report_counts_and_groups(tmp_path: Path) -> None:
         "dropped       <site>: s; T/model.xml:1",
         "dropped       actuators <motor>, which push as a program commands: m; T/model.xml:1",
     ]
+
+
+def test_what_is_neither_seen_nor_touched_weighs_all_the_same(tmp_path: Path) -> None:
+    """Geoms of hidden groups, as many models have for their mass."""
+    hidden = '<geom size="0.1" mass="2" group="3" contype="0" conaffinity="0"/>'
+    simulation = world_of(tmp_path, mujoco(f'<body name="b"><freejoint/>{hidden}</body>')).simulation
+    assert simulation["b"].rigid_body.mass == 2.0
+    assert simulation["b"].rigid_body.inertia == pytest.approx([0.4 * 2.0 * 0.01] * 3, rel=1e-11)

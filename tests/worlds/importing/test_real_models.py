@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import os
-from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 import pytest
+from packages import folder_of
 
 from carom.ecs import RigidBody
 from carom.ecs.components.joint import Joint
 from carom.worlds import LoadedWorld, load_world
-from carom.worlds.importing.imported import Options, import_model
+from carom.worlds.importing import Options, import_model
 
 REPORTS = Path(__file__).parent / "reports"
 MODELS = {  # by name: package, path, and the folder below which its files lie
@@ -26,17 +25,6 @@ MODELS = {  # by name: package, path, and the folder below which its files lie
     "lift_link": ("dexmate_urdf", "robots/humanoid/vega_1u/meshes/visual/lift_link.glb", "robots/humanoid"),
     "torso_l2": ("dexmate_urdf", "robots/humanoid/vega_1/meshes/visual/torso_l2.glb", "robots/humanoid"),
 }
-MISSING = "the package {} is not there: pip install 'carom[models]'"
-
-
-def folder_of(package: str) -> Path:
-    """Return where a package lies; without it the test is skipped, or fails where it must not be."""
-    found = find_spec(package)
-    if found is None or not found.submodule_search_locations:
-        if os.environ.get("CAROM_MODELS") == "required":
-            pytest.fail(MISSING.format(package))
-        pytest.skip(MISSING.format(package))
-    return Path(found.submodule_search_locations[0])
 
 
 def summary(world: LoadedWorld) -> str:
@@ -52,7 +40,7 @@ def test_a_real_model_comes_over_as_expected(name: str, tmp_path: Path, pytestco
     """The report is the golden one, the world loads, and half a second on nothing came apart."""
     package, path, root = MODELS[name]
     folder = folder_of(package)
-    made = import_model(folder / path, Options(root=folder / root), tmp_path, name)
+    made = import_model(folder / path, Options(root=folder / root), folder=tmp_path, stem=name)
     for part, content in made.files.items():
         (tmp_path / part).parent.mkdir(exist_ok=True)
         (tmp_path / part).write_bytes(content)
