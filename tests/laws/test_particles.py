@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from sprays import emitting, positions, velocities
 
+from carom.ecs import Force
 from carom.ecs.errors import NonFiniteError
+from carom.systems.energy import total_energy
 from carom.systems.simulation import Simulation
 
 G = 9.81
@@ -121,3 +123,16 @@ def test_a_law_that_gives_no_number_is_stopped() -> None:
     with pytest.raises(NonFiniteError) as told:
         simulation.step()
     assert str(told.value) == "frame 1: Particle.x of entity 'source' is nan, after 'move_particles'"
+
+
+def test_a_law_that_names_an_emitter_leaves_bodies_alone() -> None:
+    """Neither has the emitter forces on itself, nor is it counted in the energy of who attracts."""
+    simulation = emitting(dt=1 / 60, burst=5, life=100.0)
+    source = int(simulation.world.find("source"))
+    simulation.force("attraction", strength=0.01, power=0.0, position=(99.0, 0.0, 0.0), entities=[source])
+    simulation.force("wind", velocity=(1.0, 0.0, 0.0), entities=[source])
+    simulation.add(body={"mass": 1.0, "gravity_scale": 0.0}, transform={"position": (3.0, 0.0, 0.0)})
+    simulation.step(10)
+    assert (velocities(simulation)[:, 0] > 1.0).all()
+    assert not simulation.world[Force].medium.any()
+    assert total_energy(simulation.world) == 0.0

@@ -57,6 +57,7 @@ class Reach:
         if self.entities is not None:
             handles = np.array(self.entities, np.int64)
             rows = world.slots.rows(handles[world.slots.live(handles)])  # of who is despawned, forces went as well
+            rows = rows[world.table(RigidBody).present[rows]]  # of an emitter it means the particles
         if self.layers is not None:
             colliders = world.row_numbers(Collider)
             on = colliders[np.isin(world[Collider].layer[colliders], self.layers)]
