@@ -37,6 +37,7 @@ from carom.worlds.run import RunPlan, plan
 from carom.worlds.sections import RecordingWords, Render
 from carom.worlds.source import Source
 from carom.worlds.state import take_state
+from carom.worlds.uncollected import uncollected
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -84,6 +85,7 @@ def load_world(world: str | Path, *, checked: bool | None = None, **options: Any
     return load_text(library.read_text(path, name), name, path.parent, checked=checked, **options)
 
 
+@uncollected()
 def load_text(
     text: str,
     name: str = "world.yaml",

@@ -1,4 +1,4 @@
-"""Crowds: entities that differ only in where they are and how they move are added together."""
+"""Crowds: entities of one make-up are added together, each with values of its own."""
 
 from __future__ import annotations
 
@@ -7,7 +7,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from carom.ecs import Transform, World
 from carom.ecs.column import Floats, Integers
+from carom.ecs.component import Component
+from carom.systems.assembly import bundles_of
+from carom.systems.compound import StatedBodies
 from carom.systems.simulation import Simulation
 from carom.worlds.connections import Pointer
 from carom.worlds.errors import Path
@@ -19,7 +23,7 @@ LONE = ("joint", "keyframes")  # words that say where one entity is
 class Some(NamedTuple):
     """An entity of a file, or the copies that a generator makes of it, where they are.
 
-    Positions (n, 3) in m; rotations (n, 4), and velocities by their words, of all or None where ``words`` say it.
+    Positions (n, 3) in m; rotations (n, 4), and the components of all, or None where ``words`` say them.
     """
 
     path: Path
@@ -28,42 +32,54 @@ class Some(NamedTuple):
     positions: Floats
     names: list[str] | None = None
     rotations: Floats | None = None
-    motion: dict[str, Any] | None = None
+    bundles: Sequence[Component] | None = None
     pointers: Sequence[Pointer] = ()
     joint: dict[str, Any] | None = None
     weight: dict[str, Any] | None = None  # what is stated of a body whose mass depends on what it carries
 
     def joins(self, other: Some) -> bool:
-        """Tell whether both can be added at once: what is said of them is the same."""
+        """Tell whether both can be added at once: the same columns are stated of them."""
         return (
-            self.rotations is not None
-            and other.rotations is not None
+            self.bundles is not None
+            and other.bundles is not None
             and (self.names is None) is (other.names is None)
-            and (self.motion or {}).keys() == (other.motion or {}).keys()
-            and (self.motion is None) is (other.motion is None)
-            and self.words == other.words
+            and [(type(part), *vars(part)) for part in self.bundles]
+            == [(type(part), *vars(part)) for part in other.bundles]
         )
 
 
 def add_together(simulation: Simulation, crowd: Sequence[Some]) -> Integers:
     """Add entities that can be added at once; return their handles. Raises DeclarationError."""
-    positions, names, words = together(crowd)
-    return simulation.add_many(positions, names=names, **words)
+    world = simulation.world
+    if crowd[0].bundles is None:
+        return simulation.add_many(crowd[0].positions, names=crowd[0].names, **crowd[0].words)
+    positions, names, bundles = together(world, crowd)
+    entities = world.spawn_many(len(positions), *bundles, names=names)
+    bodies = [some.words.get("body") for some in crowd for _ in some.positions]
+    stated = zip(entities.tolist(), bodies, strict=True)
+    world[StatedBodies].words.update({entity: body for entity, body in stated if body is not None})
+    return entities
 
 
-def together(crowd: Sequence[Some]) -> tuple[Floats, list[str] | None, dict[str, Any]]:
-    """Return positions (n, 3), m, names and words of entities that can be added at once."""
-    first, words = crowd[0], dict(crowd[0].words)
+def together(world: World, crowd: Sequence[Some]) -> tuple[Floats, list[str] | None, list[Component]]:
+    """Return positions (n, 3), m, names and components of entities that can be added at once."""
+    first = crowd[0]
+    if first.bundles is None:
+        return first.positions, first.names, bundles_of(world, **first.words)
     counts = [len(some.positions) for some in crowd]
-    if first.rotations is not None:
-        words["transform"] = {
-            "rotation": np.concatenate([some.rotations for some in crowd if some.rotations is not None])
-        }
-    if first.motion is not None:
-        words["motion"] = {key: _spread([(some.motion or {})[key] for some in crowd], counts) for key in first.motion}
+    positions = np.concatenate([some.positions for some in crowd])
+    rotations = np.concatenate([some.rotations for some in crowd if some.rotations is not None])
     names = None if first.names is None else [name for some in crowd for name in some.names or ()]
-    return np.concatenate([some.positions for some in crowd]), names, words
+    kinds = range(len(first.bundles))
+    bundles = [_stacked([some.bundles[kind] for some in crowd if some.bundles], counts) for kind in kinds]
+    return positions, names, [*bundles, Transform(position=positions, rotation=rotations)]
 
 
-def _spread(values: Sequence[Any], counts: Sequence[int]) -> Floats:
-    return np.repeat(np.asarray(values, np.float64), counts, axis=0)
+def _stacked(parts: Sequence[Component], counts: Sequence[int]) -> Component:
+    """Return one bundle of all, each value as often as its entity is there."""
+    first = parts[0]
+    if all(part is first for part in parts):
+        return first
+    return type(first)(
+        **{name: np.repeat(np.stack([getattr(part, name) for part in parts]), counts, axis=0) for name in vars(first)}
+    )

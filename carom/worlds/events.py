@@ -6,7 +6,6 @@ from typing import Any
 
 from carom.ecs.errors import DeclarationError
 from carom.systems.actions import Action, Spawn
-from carom.systems.assembly import bundles_of
 from carom.systems.events import Event, Events, read_event
 from carom.systems.parameters import WordFault
 from carom.worlds.crowd import together
@@ -62,9 +61,8 @@ def _spawn(populator: Populator, path: Path, words: Any) -> Spawn | None:
     some = populator.read(Item(path, words.name, words, WORLD), words.model_dump(exclude_unset=True))
     if some is None:
         return None
-    places, names, told = together([some])
     try:
-        bundles = bundles_of(populator.simulation.world, **told)
+        places, names, bundles = together(populator.simulation.world, [some])
     except DeclarationError as fault:
         populator.report(path, str(fault))
         return None

@@ -8,18 +8,21 @@ from typing import Any
 
 import numpy as np
 
+from carom.ecs import Motion
 from carom.ecs.column import Floats, Integers
+from carom.ecs.component import Component
 from carom.ecs.components.joint import Joint
 from carom.ecs.components.name import NAME_LENGTH
 from carom.ecs.components.parent import Parent
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial import quaternion
-from carom.systems.assembly import Materials, shape_of
+from carom.systems.assembly import Materials, bundles_of, shape_of
 from carom.systems.compound import StatedBodies, joining, weigh
 from carom.systems.layers import Layers
 from carom.systems.parameters import WordFault
 from carom.systems.particles.words import read_emitter
 from carom.systems.paths import faults_of_path
+from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.worlds.connections import Connections
 from carom.worlds.crowd import LONE, Some, add_together
@@ -46,6 +49,7 @@ class Populator:
         self.taken: dict[str, Path] = {}
         self.places_in_file: dict[int, Path] = {}
         self.carriers: set[str] = set()
+        self.before: tuple[dict[str, Any], list[Component]] = ({}, [])  # words and components of the last entity
         self.unweighed: list[int] = []  # bodies whose mass depends on what they carry
         self.laying = Laying(self)
         self.connections = Connections(source, simulation)
@@ -125,7 +129,6 @@ class Populator:
         if jitter is not None:
             reach = np.broadcast_to(jitter, 3)
             positions = positions + self.setting.draws.uniform(-reach, reach, positions.shape)
-        motion = words.pop("motion", None) if rotations is not None else None
         body = words.get("body")
         weight = None
         if body is not None and "mass" not in body and item.name in self.carriers:
@@ -133,7 +136,19 @@ class Populator:
         pointers, joint = self.connections.take_pointers(item.path, words, group), words.get("joint")
         if joint is not None:
             words["joint"] = Joint()
-        return Some(item.path, group, words, positions, names, rotations, motion, pointers, joint, weight)
+        bundles = None if rotations is None else self.bundles(words)
+        return Some(item.path, group, words, positions, names, rotations, bundles, pointers, joint, weight)
+
+    def bundles(self, words: dict[str, Any]) -> list[Component]:
+        """Return the components that words stand for, those of the entity before where only the motion is another."""
+        world, still = self.simulation.world, {key: value for key, value in words.items() if key != "motion"}
+        free = world[Settings].dimensions == 3 and "locked" not in words.get("body", ("locked",))
+        if free and still == self.before[0]:
+            motion = words.get("motion", {})
+            return [Motion(**motion) if isinstance(part, Motion) else part for part in self.before[1]]
+        made = bundles_of(world, **words)
+        self.before = (still, made)
+        return made
 
     def setting_of(self, collider: dict[str, Any] | None, rotation: Floats, group: Group) -> Setting:
         """Return what copies are made in, with how large each is along the axes of the group."""
