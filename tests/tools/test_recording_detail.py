@@ -43,7 +43,7 @@ def test_each_level_has_all_of_those_before_it() -> None:
     light, full, solver = (list(tracks_of(level)) for level in DETAILS)
     assert light == [
         "bodies", "ledger", "cameras", "contacts", "dissipation", "error", "difference", "ghosts", "log", "impacts",
-        "plots", "promoted", "triggers",
+        "particles", "plots", "promoted", "triggers",
     ]  # fmt: skip
     own = {
         "bounds", "colliders", "forces", "manifolds", "normals", "shapes", "states", "trails", "velocities"
