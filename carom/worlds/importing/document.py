@@ -30,13 +30,11 @@ class Document:
     ) -> None:
         self.model, self.looks = model, Looks(meshes, touching, model.report, cut)
         self.report = model.report
-        self.links = {link.name: link for link in model.links}
-        self.names: dict[tuple[str, str], str] = {}
+        self.links = {link.name: link for link in model.links if not link.lone}
         self.taken: set[str] = set()
         self.entities: list[dict[str, Any]] = []
         self.origins: list[Element] = []
-        for link in model.links:
-            self.names["link", link.name] = self.name(link.name, link.element)
+        self.names = {name: self.name(name, link.element) for name, link in self.links.items()}
         self.masses = self.weighed()
         for link in model.links:
             self.add_link(link)
@@ -52,12 +50,12 @@ class Document:
         words |= {} if model.timestep is None else {"step": {"dt": model.timestep}}
         words |= {"layers": model.layers} if model.layers else {}
         words["entities"] = self.entities
-        return words | ({"cameras": model.cameras} if model.cameras else {})
+        cameras = {worded(name): camera for name, camera in model.cameras.items()}
+        return words | ({"cameras": cameras} if cameras else {})
 
     def name(self, stated: str, element: Element, ending: str = "") -> str:
         """Return a name that world files take and that nothing else has, with an ending or a number where it must."""
-        name = UNNAMED.sub("_", stated)
-        name = (name if name[:1].isalpha() or name[:1] == "_" else f"_{name}")[: NAME_LENGTH - 10]
+        name = worded(stated)
         name = f"{name}{ending}" if name in self.taken else name
         free, number = name, 1
         while free in self.taken:
@@ -86,7 +84,7 @@ class Document:
 
     def add_link(self, link: Link) -> None:
         """Add a link: as one entity where it has a shape to touch and one to be seen, else with a part for each."""
-        name = self.names["link", link.name]
+        name = self.name(link.name, link.element) if link.lone else self.names[link.name]
         pieces = self.looks.pieces(link.pieces)
         touching = [piece for piece in pieces if piece.touches]
         seen = [piece for piece in pieces if piece.seen and not piece.touches]
@@ -96,7 +94,7 @@ class Document:
             words["transform"] = pose_words(link.pose) or None
         else:
             place = pose_words(inside(self.links[link.carried].pose, link.pose))
-            words["parent"] = {"entity": self.names["link", link.carried], **place}
+            words["parent"] = {"entity": self.names[link.carried], **place}
         if link.carried is None and not link.static:
             words["body"] = self.body(link)
         moves = not link.static
@@ -117,12 +115,10 @@ class Document:
     def name_of_part(self, link: str, piece: Piece) -> str:
         """Return a name for a shape of a link: its own, or the link's with a number."""
         stated, number = piece.element.attributes.get("name", ""), 0
-        free = UNNAMED.sub("_", stated)[: NAME_LENGTH - 4]
-        if not (free[:1].isalpha() or free[:1] == "_"):
-            free = ""
-        while not free or free in self.taken:
+        free = worded(stated)
+        while not stated or free in self.taken:
             number += 1
-            free = f"{link[: NAME_LENGTH - 4]}-{number}"
+            stated = free = f"{link[: NAME_LENGTH - 4]}-{number}"
         self.taken.add(free)
         return free
 
@@ -144,7 +140,7 @@ class Document:
         if words is None:
             self.connect_in_a_row(connection)
             return
-        ends = {key: self.names["link", name] for key, name in (("a", connection.a), ("b", connection.b)) if name}
+        ends = {key: self.names[name] for key, name in (("a", connection.a), ("b", connection.b)) if name}
         ((kind, stated),) = words.items()
         self.add(element, name=self.name(connection.name, element, "-joint"), joint={kind: ends | stated})
 
@@ -157,9 +153,9 @@ class Document:
             self.connect(Connection(element, name, connection.a, connection.b, at=at, apart=True))
         whole = self.masses.get(link.name, NEXT_TO_NOTHING)
         light = Inertia(STEP_OF_CHAIN * whole.mass, np.zeros(3), STEP_OF_CHAIN * whole.tensor)
-        ahead = None if connection.a is None else self.names["link", connection.a]
+        ahead = None if connection.a is None else self.names[connection.a]
         for number, freedom in enumerate(connection.freedoms, 1):
-            behind, name = self.names["link", link.name], connection.name
+            behind, name = self.names[link.name], connection.name
             if number < len(connection.freedoms):
                 behind, name = self.name(f"{behind}-{number}", element), f"{name}-{number}"
                 self.add(element, name=behind, transform=pose_words(link.pose), body=body_words(light)[0])
@@ -168,3 +164,9 @@ class Document:
             ends = {key: end for key, end in (("a", ahead), ("b", behind)) if end is not None}
             self.add(element, name=self.name(name, element, "-joint"), joint={kind: ends | stated})
             ahead = behind
+
+
+def worded(stated: str) -> str:
+    """Return a name in the letters that names have, with room for an ending."""
+    name = UNNAMED.sub("_", stated)
+    return (name if name[:1].isalpha() or name[:1] == "_" else f"_{name}")[: NAME_LENGTH - 10]

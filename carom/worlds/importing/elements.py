@@ -16,6 +16,7 @@ from carom.worlds.errors import Fault, WorldError, shown
 MOST_BYTES = 32_000_000
 MOST_ELEMENTS = 200_000
 DEEPEST = 128
+MOST_WHOLE = 2**31 - 1
 
 
 @dataclass
@@ -75,6 +76,14 @@ class Reading:
         if found < least:
             self.fault(element, f"{key} must be at least {least:g}", received=f"{found:g}")
         return found
+
+    def whole(self, element: Element, key: str, default: int) -> int:
+        """Return an attribute that is a whole number of 31 bits."""
+        stated = element.attributes.get(key, str(default)).strip()
+        if not stated.isdecimal() or int(stated) > MOST_WHOLE:
+            self.fault(element, f"{key} is no whole number", received=shown(stated), accepted=f"0 to {MOST_WHOLE}")
+            return default
+        return int(stated)
 
     def numbers(
         self, element: Element, key: str, count: int, default: Any = None, *, fewer: bool = False

@@ -80,7 +80,7 @@ class _Scene:
             file = self.mesh(node["mesh"], stretch, element)
             if file is not None:
                 piece = Piece(element, "mesh", {}, file=file)
-                self.made.links.append(Link(element, name, pose, pieces=[piece], static=True))
+                self.made.links.append(Link(element, name, pose, pieces=[piece], static=True, lone=True))
                 self.report.keep("node")
 
     def mesh(self, number: int, stretch: Floats, element: Element) -> Path | None:

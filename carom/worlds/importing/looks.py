@@ -44,8 +44,11 @@ class Looks:
         """Return collider, material and visual of a link with at most one shape to touch and one to be seen."""
         words: dict[str, Any] = {}
         for piece in pieces:
-            if any(np.min(value) <= 0.0 for key, value in piece.words.items() if key != "normal"):
+            if not piece.has_size():
                 self.report.drop(piece.element, "a shape without size", piece.element.attributes.get("name", ""))
+                continue
+            if piece.kind == "plane" and moves:
+                self.report.drop(piece.element, "a plane of what moves", piece.element.attributes.get("name", ""))
                 continue
             place = pose_words(piece.pose) if piece.kind != "plane" else {}
             if piece.touches and (shape := self.touched(piece, moves)):

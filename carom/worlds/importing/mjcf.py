@@ -82,11 +82,20 @@ class _Mujoco:
                     self.report.drop(stated, f"contact <{stated.tag}>", stated.attributes.get("name", ""))
 
     def hold(self, connection: Connection | None) -> None:
-        """Add a connection of bodies of which one at least moves."""
-        if connection is not None:
-            ends = [self.links[name] for name in (connection.a, connection.b) if name is not None]
-            if any(not link.static for link in ends):
-                self.made.connections.append(connection)
+        """Add a connection of two that are not fixed to each other, nor both to the world."""
+        if connection is None:
+            return
+        ends = [self.links[name] for name in (connection.a, connection.b) if name is not None]
+        if len({self.bearer(link).name for link in ends}) < len(ends) or all(link.static for link in ends):
+            self.report.drop(connection.element, "what holds a body to itself, or what stands", connection.name)
+        else:
+            self.made.connections.append(connection)
+
+    def bearer(self, link: Link) -> Link:
+        """Return the link that carries a link, which may be itself."""
+        while link.carried is not None:
+            link = self.links[link.carried]
+        return link
 
     def option(self, element: Element) -> None:
         """Read gravity and time step; how MuJoCo solves is its own."""
@@ -146,7 +155,7 @@ class _Mujoco:
             return
         if link is None:
             name = element.attributes.get("name") or f"{piece.kind}-{len(self.made.links) + 1}"
-            alone = Link(element, name, pose.then(piece.pose), pieces=[piece], static=True)
+            alone = Link(element, name, pose.then(piece.pose), pieces=[piece], static=True, lone=True)
             piece.pose = HERE
             self.made.links.append(alone)
         else:

@@ -77,7 +77,7 @@ class Geoms:
             pose, piece.words = self.size(element, kind, pose)
             piece.pose = pose
         self.touching(piece, whose)
-        group = int(read.number(element, "group", 0.0))
+        group = read.whole(element, "group", 0)
         piece.seen = group < SHOWN_GROUPS
         if "rgba" in words or words.get("material") in self.colors:
             color = read.numbers(element, "rgba", 4, self.colors.get(words.get("material", ""), (0.5, 0.5, 0.5, 1.0)))
@@ -116,7 +116,7 @@ class Geoms:
     def touching(self, piece: Piece, whose: str) -> None:
         """Let a piece touch by contype and conaffinity, with its friction, the greater of which counts."""
         element, read = piece.element, self.reading
-        pair = (int(read.number(element, "contype", 1.0)), int(read.number(element, "conaffinity", 1.0)))
+        pair = (read.whole(element, "contype", 1), read.whole(element, "conaffinity", 1))
         piece.touches = any(pair)
         if not piece.touches:
             return
@@ -124,7 +124,7 @@ class Geoms:
         piece.layer = layer_of(pair)
         slides, *_ = read.numbers(element, "friction", 3, (1.0, 0.005, 0.0001), fewer=True)
         piece.material = {"friction": {"value": slides, "combine": "max"}}
-        dimensions = int(read.number(element, "condim", 3.0))
+        dimensions = read.whole(element, "condim", 3)
         if dimensions == 1:
             self.smooth.append((piece, whose))
         if dimensions > 3:
@@ -146,6 +146,8 @@ class Geoms:
     def inertia(self, piece: Piece) -> Inertia | None:
         """Return what a piece weighs in the frame of its body, by its own mass or density."""
         element = piece.element
+        if not piece.has_size():
+            return None
         try:
             solid = self.solid(piece)
         except DeclarationError:

@@ -14,6 +14,10 @@ from carom.worlds.importing.elements import Element
 from carom.worlds.importing.report import Report
 
 TURN, SLIDE = "turn", "slide"
+SMALLEST, GREATEST = (
+    1e-9,
+    1e9,
+)  # lengths of shapes, in the file's unit: beyond these volumes are nothing, or without end
 
 
 class Pose(NamedTuple):
@@ -56,6 +60,11 @@ class Piece:
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
     hull: bool = False
 
+    def has_size(self) -> bool:
+        """Tell whether all its lengths are such as shapes have."""
+        lengths = np.concatenate([[1.0], *(np.ravel(value) for key, value in self.words.items() if key != "normal")])
+        return bool(((lengths >= SMALLEST) & (lengths <= GREATEST)).all())
+
 
 class Inertia(NamedTuple):
     """A mass, where its centre is in the frame of its link, and its tensor (3, 3) about that in the link's axes."""
@@ -67,7 +76,10 @@ class Inertia(NamedTuple):
 
 @dataclass
 class Link:
-    """What moves as one; ``pose`` is that in the world. One that is ``carried`` is fixed to another link, by name."""
+    """What moves as one; ``pose`` is that in the world. One that is ``carried`` is fixed to another link, by name.
+
+    A ``lone`` shape is no link that others could name.
+    """
 
     element: Element
     name: str
@@ -76,6 +88,7 @@ class Link:
     pieces: list[Piece] = field(default_factory=list)
     carried: str | None = None
     static: bool = False
+    lone: bool = False
     gravity_scale: float = 1.0
 
 
