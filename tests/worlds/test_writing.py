@@ -121,6 +121,23 @@ def test_meshes_hulls_and_land_are_written_triangle_by_triangle() -> None:
         np.testing.assert_array_equal(one.faces, other.faces)
 
 
+def test_hulls_of_those_who_are_gone_keep_their_numbers() -> None:
+    """States hold numbers of geometries, and who comes later may have one that was there before."""
+    points = [np.random.default_rng(seed).normal(size=(8, 3)) for seed in range(3)]
+    simulation = Simulation()
+    hulls = [
+        simulation.add(name=f"h{n}", collider={"convex": {"points": one}}, body={}) for n, one in enumerate(points)
+    ]
+    simulation.world.despawn(hulls[0])
+    simulation.add(name="again", collider={"convex": {"points": points[1]}}, transform={"position": (9, 0, 0)})
+    again = loaded_as(simulation, world_text(simulation))
+    for one in (simulation, again):
+        one.add(name="late", collider={"convex": {"points": points[0]}}, body={}, transform={"position": (5, 0, 0)})
+        one.step(2)
+    assert again["late"].collider.geometry == 0
+    assert state_hash(again.world) == state_hash(simulation.world)
+
+
 @pytest.mark.parametrize("key", sorted(set(SHAPES) - {"mesh", "convex", "height_field"}))
 def test_every_shape_says_the_words_that_state_it(key: str) -> None:
     """The registry is all it takes: a new shape has its words by declaring parameters."""

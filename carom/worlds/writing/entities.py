@@ -25,7 +25,7 @@ from carom.systems.particles.words import EmitterWords
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import BY_NUMBER
 from carom.worlds.writing.bodies import body_words
-from carom.worlds.writing.columns import Words, as_made, color_words, held, own_words, plain, sayable, stated
+from carom.worlds.writing.columns import Columns, Words, color_words, plain, sayable
 from carom.worlds.writing.joints import joint_words
 from carom.worlds.writing.names import Callings
 from carom.worlds.writing.sections import layer_names
@@ -39,7 +39,7 @@ class EntityWriter:
     """Words of the entities of a world, in order of rows."""
 
     def __init__(self, world: World, callings: Callings) -> None:
-        self.world, self.callings = world, callings
+        self.world, self.callings, self.columns = world, callings, Columns(world)
         self.own = {key: kind for key, kind in components_of_files().items() if kind is not Joint}
 
     def all(self) -> list[Words]:
@@ -81,12 +81,12 @@ class EntityWriter:
             words["tags"] = sorted(tags)
         for key, kind in self.own.items():
             if self.has(kind, row) and not (kind is Parent and self.has(RigidBody, row)):
-                words[key] = own_words(self.world, kind, row, self.callings)
+                words[key] = self.columns.own_words(kind, row, self.callings)
         return words
 
     def joint(self, row: int) -> Words | None:
         """Return what it holds together, and how."""
-        return joint_words(self.world, row, self.callings)
+        return joint_words(self.columns, row, self.callings)
 
     def of_a_place(self, row: int) -> dict[str, Callable[[int], Any]]:
         """Return what makes the words of an entity that is somewhere."""
@@ -106,15 +106,15 @@ class EntityWriter:
 
     def transform(self, row: int) -> Words:
         """Return where it is."""
-        return stated(self.world, Transform, row, POSE)
+        return self.columns.stated(Transform, row, POSE)
 
     def motion(self, row: int) -> Words:
         """Return how it moves."""
-        return stated(self.world, Motion, row, ("linear", "angular"))
+        return self.columns.stated(Motion, row, ("linear", "angular"))
 
     def body(self, row: int) -> Words:
         """Return what it weighs."""
-        return body_words(self.world, row, self.parts[row])
+        return body_words(self.columns, row, self.parts[row])
 
     def keyframes(self, row: int) -> Any:
         """Return the poses it goes along."""
@@ -129,18 +129,18 @@ class EntityWriter:
 
     def shape(self, kind: type[Component], row: int) -> Words:
         """Return the words of the shape of a collider or visual, as its own declaration has them."""
-        number = held(self.world, kind, "geometry", row)
+        number = self.columns.held(kind, "geometry", row)
         geometry = self.world[Geometries].items[number] if number >= 0 else None
-        shape = BY_NUMBER[held(self.world, kind, "shape", row)].from_size(
+        shape = BY_NUMBER[self.columns.held(kind, "shape", row)].from_size(
             self.world.table(kind).arrays["size"][row], geometry
         )
         return {shape.key: plain(shape.words())}
 
     def collider(self, row: int) -> Words:
         """Return the shape by which it touches others, and whom."""
-        world, layers = self.world, self.world[Layers]
-        words = self.shape(Collider, row) | stated(world, Collider, row, COLLIDER_COLUMNS)
-        bit, mask, enters = (held(world, Collider, name, row) for name in ("layer", "mask", "enter_layer"))
+        layers = self.world[Layers]
+        words = self.shape(Collider, row) | self.columns.stated(Collider, row, COLLIDER_COLUMNS)
+        bit, mask, enters = (self.columns.held(Collider, name, row) for name in ("layer", "mask", "enter_layer"))
         bits = {number: name for name, number in layers.bits.items()}
         layer = bits.get(bit, "default")
         if layer != "default":
@@ -153,15 +153,15 @@ class EntityWriter:
 
     def material(self, row: int) -> str | Words:
         """Return the name of its material, or else what it is made of."""
-        number = held(self.world, Material, "number", row)
+        number = self.columns.held(Material, "number", row)
         name = self.world[Materials].name(number)
-        if name and as_made(self.world, row, material_of(self.world, name)):
+        if name and self.columns.as_made(row, material_of(self.world, name)):
             return name
-        words = stated(self.world, Material, row, MATERIAL_COLUMNS)
+        words = self.columns.stated(Material, row, MATERIAL_COLUMNS)
         for quantity in COMBINE_QUANTITIES:
-            if rule := held(self.world, Material, f"{quantity}_combine", row):
+            if rule := self.columns.held(Material, f"{quantity}_combine", row):
                 words[quantity] = {
-                    "value": held(self.world, Material, quantity, row),
+                    "value": self.columns.held(Material, quantity, row),
                     "combine": Combine(rule).name.lower(),
                 }
         if "color" in words:
@@ -176,18 +176,18 @@ class EntityWriter:
 
     def visual(self, row: int) -> Words | bool | None:
         """Return what is seen, None where that follows from the rest."""
-        world, touches = self.world, self.has(Collider, row)
-        plain_look = touches and not held(world, Collider, "sensor", row)
+        touches = self.has(Collider, row)
+        plain_look = touches and not self.columns.held(Collider, "sensor", row)
         if not self.has(Visual, row):
             return False if plain_look else None
         own = not touches or any(
-            not same(held(world, Visual, name, row), held(world, Collider, name, row))
+            not same(self.columns.held(Visual, name, row), self.columns.held(Collider, name, row))
             for name in (*SHAPE_COLUMNS, *POSE)
         )
-        words = self.shape(Visual, row) | stated(world, Visual, row, POSE) if own else {}
-        color = held(world, Visual, "color", row)
-        if not (self.has(Material, row) and same(color, held(world, Material, "color", row))):
+        words = self.shape(Visual, row) | self.columns.stated(Visual, row, POSE) if own else {}
+        color = self.columns.held(Visual, "color", row)
+        if not (self.has(Material, row) and same(color, self.columns.held(Material, "color", row))):
             words["color"] = color_words(color)
-        if not held(world, Visual, "visible", row):
+        if not self.columns.held(Visual, "visible", row):
             words["visible"] = False
         return words or (None if plain_look else {"visible": True})

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from carom.ecs import World
 from carom.ecs.components.joint import Joint
 from carom.ecs.errors import DeclarationError
 from carom.systems.joints.framed import Framed
 from carom.systems.joints.kind import JOINTS
 from carom.systems.joints.stating import joint_of
 from carom.systems.parameters import words_of
-from carom.worlds.writing.columns import Words, as_made, plain, sayable
+from carom.worlds.writing.columns import Columns, Words, plain, sayable
 from carom.worlds.writing.names import Callings
 
 ENDS = ("a", "b")
 
 
-def joint_words(world: World, row: int, callings: Callings) -> Words | None:
+def joint_words(columns: Columns, row: int, callings: Callings) -> Words | None:
     """Return the words of the joint of a row, None where no kind can hold what it does."""
-    columns = {name: column for name, column in Joint.columns.items() if column.role == "state"}
-    joint = Joint(**{name: world[Joint].__dict__[name][row] for name in columns})
+    world = columns.world
+    held = {name: values for name, values in vars(world[Joint]).items() if name in Joint.columns}
+    joint = Joint(**{name: held[name][row] for name, column in Joint.columns.items() if column.role == "state"})
     ends = {side: int(getattr(joint, side)) for side in ENDS}
     ends = {side: entity for side, entity in ends.items() if entity >= 0}
     if not all(world.slots.lives(entity) for entity in ends.values()):
@@ -37,6 +37,6 @@ def joint_words(world: World, row: int, callings: Callings) -> Words | None:
         if made is None:
             continue
         closest = {key: names | words}
-        if as_made(world, row, made):
+        if columns.as_made(row, made):
             return closest
     return closest

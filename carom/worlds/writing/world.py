@@ -48,7 +48,7 @@ def world_text(world: Simulation | LoadedWorld) -> str:
     document = _document(world, simulation)
     text = emit(document)
     loaded = _loaded(text)
-    if first_difference(simulation.world, loaded.world) is None:
+    if first_difference(simulation.world, loaded.world) is None and _alike(simulation.world, loaded.world):
         _confirm(simulation, loaded)
         return text
     text += "\n" + emit({"state": state_words(simulation.world, loaded.world)})
@@ -96,16 +96,13 @@ def _confirm(simulation: Simulation, loaded: Simulation) -> None:
     if simulation.settings != loaded.settings:
         raise CaromError("the world cannot be written to a file: its settings would be others")
     if not _alike(simulation.world, loaded.world):
-        raise CaromError(
-            "the world cannot be written to a file: meshes or hulls of entities that are gone count among its "
-            "geometries; write it before they go"
-        )
+        raise CaromError("the world cannot be written to a file: its meshes and hulls would be others")
 
 
 def _alike(world: World, loaded: World) -> bool:
     """Tell whether geometries of the same number are the same triangles."""
     here, there = world[Geometries].items, loaded[Geometries].items
-    return len(there) <= len(here) and all(
+    return len(there) == len(here) and all(
         np.array_equal(one.vertices, other.vertices) and np.array_equal(one.faces, other.faces)
-        for one, other in zip(here, there, strict=False)
+        for one, other in zip(here, there, strict=True)
     )
