@@ -136,3 +136,18 @@ def test_a_law_that_names_an_emitter_leaves_bodies_alone() -> None:
     assert (velocities(simulation)[:, 0] > 1.0).all()
     assert not simulation.world[Force].medium.any()
     assert total_energy(simulation.world) == 0.0
+
+
+def test_gusts_are_the_same_for_particles_and_bodies() -> None:
+    """Of the same wind, also where others are listed before it: a particle goes where a body of its mass goes."""
+    simulation = Simulation(dt=1 / 240, substeps=1, gravity=(0.0, 0.0, 0.0), seed=5)
+    ball = simulation.add(body={"mass": 0.2})
+    other = simulation.add(body={"mass": 0.2}, transform={"position": (9.0, 0.0, 0.0)})
+    simulation.add(name="source", emitter={"burst": 1, "life": 100.0, "mass": 0.2})
+    simulation.force("wind", velocity=(9.0, 0.0, 0.0), gust=3.0, entities=[int(other)])
+    simulation.force("wind", velocity=(0.0, 0.0, 1.0), gust=2.0, gust_time=0.2)
+    simulation.force("linear_drag", coefficient=1.0)
+    simulation.step(240)
+    still = np.array((0.0, 0.0, 1.0 - 0.2))  # m / c behind the wind
+    assert np.linalg.norm(simulation[ball].transform.position - still) > 0.05
+    assert positions(simulation)[0] == pytest.approx(simulation[ball].transform.position, abs=1e-5)

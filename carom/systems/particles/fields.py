@@ -89,8 +89,10 @@ class Fields(Resource):
 
     def even(self, world: World, emitter: int, row: int, time: float) -> Even | None:
         """Return what acts at a time (s) on the particles of an emitter, None where that depends on where they are."""
-        laws = list(_laws(world, emitter, time))
-        if self.functions or not all(isinstance(law, EVEN) and law.steady and region is None for law, region in laws):
+        laws = [(law, there) for law, there in _laws(world, emitter, time) if there is not NOWHERE]
+        if self.functions or not all(
+            isinstance(law, EVEN) and law.steady and there.region is None for law, there in laws
+        ):
             return None
         table, gravity = world[Emitter], np.array(world[Settings].gravity)
         mass, flow, drag, pace = float(table.mass[row]), np.zeros(3), 0.0, 0.0
@@ -109,8 +111,8 @@ class Fields(Resource):
         count, clock = len(times), (world.frame - 1) * dt
         self._place(world, stand, row, first, times)
         laws = Forces()
-        for law, region in _laws(world, emitter, clock + 0.5 * dt):
-            laws.add(law, Reach(region=region))
+        for law, there in _laws(world, emitter, clock + 0.5 * dt):
+            laws.add(law, there)
         stand.add(laws)
         stand.add(world[Settings])
         stand[Progress].clock = clock
@@ -138,15 +140,17 @@ class Fields(Resource):
 
 
 EVEN = (Wind, LinearDrag, QuadraticDrag)
+NOWHERE = Reach(entities=())
 
 
-def _laws(world: World, emitter: int, time: float) -> Iterator[tuple[Law, Any]]:
-    """Yield the laws that act on the particles of an emitter at a time (s), each with its region.
+def _laws(world: World, emitter: int, time: float) -> Iterator[tuple[Law, Reach]]:
+    """Yield every law with where it acts on the particles of an emitter at a time (s).
 
-    Those of no entities in particular do, and those of the emitter; particles are on no layer.
+    Those of no entities in particular do, and those of the emitter; particles are on no layer. Also those that act
+    nowhere are told, so that each is the same in number as for bodies, which gusts depend on.
     """
     for entries in world[Forces].entries.values():
         for law, reach in entries:
             named = reach.entities is None or emitter in reach.entities
-            if named and reach.layers is None and reach.acts_at(time):
-                yield law, reach.region
+            acts = named and reach.layers is None and reach.acts_at(time)
+            yield law, Reach(region=reach.region) if acts else NOWHERE
