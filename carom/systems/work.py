@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Floats
+from carom.ecs.column import Floats, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.bodies import dynamic_rows
@@ -24,6 +24,8 @@ from carom.systems.kernels.turning import find_angular_momentum, find_turning
 from carom.systems.ledger import Dissipation
 from carom.systems.linkage import Linkage
 from carom.systems.resting import Resting
+
+BY_JOINTS = ("joints", "drives", "joint friction")
 
 
 class Velocities(NamedTuple):
@@ -120,17 +122,22 @@ class Moving:
 
     def by_joints(self, earlier: Floats, momenta: Floats) -> Iterator[tuple[str, float]]:
         """Yield what joints did since their impulses were ``earlier``, by what they did it."""
+        _, work = self.of_joints(earlier, momenta)
+        yield from zip(BY_JOINTS, work.sum(axis=1).tolist(), strict=True)
+
+    def of_joints(self, earlier: Floats, momenta: Floats) -> tuple[Integers, Floats]:
+        """Return the rows of joints (n,), and what each did (3, n) since then, by what it did it."""
         linkage = self._world[Linkage]
         if not linkage.groups:
-            return
+            return np.zeros(0, np.int64), np.zeros((ENTRIES, 0))
         work = aligned(ENTRIES * linkage.groups, WIDTH)
         find_joint_work(
             linkage.groups, linkage.kinds, linkage.row, linkage.index_a, linkage.index_b,
             linkage.lanes, self._world[Resting].bodies, earlier, momenta, work,
         )  # fmt: skip
-        there = linkage.first[: linkage.groups] >= 0
-        for entry, name in ((HELD, "joints"), (DROVE, "drives"), (RUBBED, "joint friction")):
-            yield name, float(work[entry::ENTRIES][there].sum())
+        first = linkage.first[: linkage.groups]
+        there = first >= 0
+        return first[there], np.stack([work[entry::ENTRIES][there] for entry in (HELD, DROVE, RUBBED)])
 
     def by_contacts(self, earlier: Floats, momenta: Floats) -> Dissipation:
         """Return what resting contacts did since their impulses were ``earlier``."""

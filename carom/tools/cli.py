@@ -16,6 +16,7 @@ COMMANDS = (
     "replay",
     "diff",
     "bisect",
+    "why",
     "query",
     "salvage",
     "render",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from carom.ecs import Snapshot, restore_snapshot, state_hash, take_snapshot
+from carom.ecs.errors import CaromError
 from carom.systems.observer import unobserved
 from carom.systems.simulation import Simulation
 from carom.tools.replay import Replay
@@ -24,12 +25,18 @@ class Side:
         self.loaded: LoadedWorld = self.replay.loaded() if self.replay else load_world(name)
         self.notes = self.replay.notes if self.replay else []
         self.frames = sorted(self.replay.states) if self.replay else None
+        self._edits = self.replay.recording.edits() if self.replay else {}
         self._kept: dict[int, Snapshot] = {}
 
     @property
     def simulation(self) -> Simulation:
         """The simulation that goes from frame to frame."""
         return self.loaded.simulation
+
+    @property
+    def first(self) -> int:
+        """The first frame."""
+        return self.replay.first if self.replay else 0
 
     @property
     def last(self) -> int:
@@ -58,11 +65,30 @@ class Side:
         else:
             restore_snapshot(self.simulation.world, self._kept[frame])
 
-    def redo(self) -> bool:
+    def start(self) -> Simulation:
+        """Make the simulation what it was in the first frame, and return it."""
+        if self.replay:
+            self.go_to(self.replay.first)
+        else:
+            self.loaded = load_world(self.name)
+        return self.simulation
+
+    def simulation_at(self, frame: int) -> Simulation:
+        """Return a simulation of its own in any frame; raise CaromError for one the run does not have."""
+        if self.replay:
+            return self.replay.simulation_at(frame)
+        if frame > self.last:
+            raise CaromError(f"{self.name} does not have frame {frame}, but frames 0 to {self.last}")
+        simulation = load_world(self.name).simulation
+        simulation.step(frame)
+        return simulation
+
+    def redo(self, simulation: Simulation | None = None) -> bool:
         """Do what code outside did before the next step; tell whether that was anything."""
-        if self.replay is None or self.simulation.frame + 1 not in self.replay.recording.edits():
+        simulation = simulation or self.simulation
+        if self.replay is None or simulation.frame + 1 not in self._edits:
             return False
-        self.replay.redo(self.simulation.world)
+        self.replay.redo(simulation.world)
         return True
 
     def step(self) -> None:
