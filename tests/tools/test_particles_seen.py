@@ -12,13 +12,14 @@ import polars
 import pytest
 from sprays import emitting, positions
 
-from carom.ecs.column import Integers
+from carom.ecs.column import Floats, Integers
 from carom.ecs.relations.particle import Particle
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.look import Look
 from carom.tools.painter import Painter
 from carom.tools.particles import POINT_WIDTH, clouds, particle_batches, particle_marks
+from carom.tools.reading import read
 from carom.tools.recorder import Recorder
 from carom.tools.recording import Recording
 from carom.tools.renderer import Renderer
@@ -65,15 +66,26 @@ def test_a_recording_holds_every_particle_of_every_frame(tmp_path: Path) -> None
         held[frame] = [positions(simulation).astype(np.float32), *clouds(simulation.world)]
         held[frame].append(simulation.world[Particle].number[: len(held[frame][0])].copy())
     recorder.end(simulation)
-    table = Recording(tmp_path / "spray.rrd").table("particles").polars()
+    table, series = Recording(tmp_path / "spray.rrd").table("particles").polars(), read(tmp_path / "spray.rrd").series
+    looks = {name: series["/world/particles", f"Points3D:{name}"] for name in ("radii", "colors")}
     seen = 0
     for frame, (places, *cloud, numbers) in held.items():
         rows = table.filter(polars.col("frame") == frame)
         assert rows["number"].to_list() == numbers.tolist()
+        assert set(rows["emitter.name"].to_list()) <= {"source"}
         assert (rows.select("position.x", "position.y", "position.z").to_numpy() == places).all()
         seen += len(places)
         assert len(cloud) == (1 if len(places) else 0)
+        for look in cloud:
+            radii, colors = (column.values[column.frames.index(frame)] for column in looks.values())
+            assert (radii == (0.5 * look.diameters).astype(np.float32)).all()
+            assert (np.stack([colors >> shift & 255 for shift in (24, 16, 8, 0)], axis=1) == shades(look.colors)).all()
     assert seen > 400
+
+
+def shades(colors: Floats) -> Integers:
+    """Return colours in 0..255."""
+    return np.asarray(np.rint(255.0 * colors).astype(np.int64))
 
 
 def test_a_world_without_emitters_records_no_particles(tmp_path: Path) -> None:
