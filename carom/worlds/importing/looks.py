@@ -27,7 +27,7 @@ class Looks:
         """Return the shapes of a link, meshes that touch and are seen as two, and as parts where they are to be."""
         found: list[Piece] = []
         for piece in stated:
-            if piece.file is None or not piece.touches:
+            if piece.file is None or piece.kind != "mesh" or not piece.touches:
                 found.append(piece)
                 continue
             if piece.seen:
@@ -47,8 +47,10 @@ class Looks:
             if not piece.has_size():
                 self.report.drop(piece.element, "a shape without size", piece.element.attributes.get("name", ""))
                 continue
-            if piece.kind == "plane" and moves:
-                self.report.drop(piece.element, "a plane of what moves", piece.element.attributes.get("name", ""))
+            if piece.kind in ("plane", "height_field") and moves:
+                self.report.drop(
+                    piece.element, f"a {piece.kind} of what moves", piece.element.attributes.get("name", "")
+                )
                 continue
             place = pose_words(piece.pose) if piece.kind != "plane" else {}
             if piece.touches and (shape := self.touched(piece, moves)):
@@ -65,6 +67,8 @@ class Looks:
 
     def touched(self, piece: Piece, moves: bool) -> dict[str, Any] | None:
         """Return the shape of a collider: of meshes itself where it stands still and is closed, else its hull."""
+        if piece.kind == "height_field":
+            return self.land(piece)
         if piece.kind != "mesh":
             return {piece.kind: piece.words}
         whose = piece.file.name if piece.file else ""
@@ -77,8 +81,18 @@ class Looks:
             self.report.approximate(piece.element, "a mesh to touch as its hull", whose)
         return {AS_HULL: self.meshes.words(piece)}
 
+    def land(self, piece: Piece) -> dict[str, Any] | None:
+        """Return a height field, of which an image says how high it is: it lies one way only."""
+        image = self.meshes.image(piece)
+        if image is None:
+            self.report.drop(piece.element, "a height field whose axes are not those of its format")
+            return None
+        return {piece.kind: {"image": image} | piece.words}
+
     def shown(self, piece: Piece) -> dict[str, Any] | None:
         """Return the shape of a visual."""
+        if piece.kind == "height_field":
+            return self.land(piece)
         if piece.kind != "mesh":
             return {piece.kind: piece.words}
         if self.meshes.fault(piece, AS_SEEN):

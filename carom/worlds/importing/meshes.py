@@ -40,7 +40,7 @@ class Meshes:
         stays = not piece.file.is_relative_to(self.scratch)
         if stays and alike and first > 0.0 and self.convention.hand == "right" and self.convention.up != "x":
             scale = first * self.convention.unit
-            words: dict[str, Any] = {"file": Path(os.path.relpath(piece.file, self.folder)).as_posix()}
+            words: dict[str, Any] = {"file": self.named(piece.file)}
             words |= {"scale": scale} if scale != 1.0 else {}
             return words | ({"up": "z"} if self.convention.up == "z" else {})
         key = (piece.file, piece.scale)
@@ -51,6 +51,15 @@ class Meshes:
                 piece.file.stem, [part.copy().apply_transform(turn) for part in parts_of(piece.file)]
             )
         return {"file": self.known[key]}
+
+    def named(self, path: Path) -> str:
+        """Return the word of the world for a file."""
+        return Path(os.path.relpath(path, self.folder)).as_posix()
+
+    def image(self, piece: Piece) -> str | None:
+        """Return the word for an image of heights over x and y; None where z does not become up so that they fit."""
+        fits = self.convention.up == "z" and self.convention.hand == "right"
+        return self.named(piece.file) if fits and piece.file is not None else None
 
     def write(self, name: str, parts: list[Any]) -> str:
         """Return the word of the world for a file that will hold these trimeshes."""

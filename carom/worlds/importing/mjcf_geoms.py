@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,11 +20,13 @@ from carom.worlds.importing.elements import Element, Reading
 from carom.worlds.importing.files import ModelFiles
 from carom.worlds.importing.masses import placed
 from carom.worlds.importing.mjcf_file import Compiler
+from carom.worlds.importing.mjcf_land import land_words
 from carom.worlds.importing.model import HERE, Inertia, Piece, Pose
 from carom.worlds.importing.report import Report
 
 KINDS = ("plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "hfield", "sdf")
 LONG = ("capsule", "cylinder", "box", "ellipsoid")  # those that fromto places
+LAND = "height_field"
 SHOWN_GROUPS = 3  # geoms of higher groups are not drawn unless asked for
 SOFTNESS = ("solref", "solimp", "solmix", "margin", "gap", "priority")
 Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -37,6 +40,7 @@ class Geoms:
         self.compiler, self.files, self.reading, self.report = compiler, files, reading, report
         self.colors: dict[str, Any] = {}
         self.meshes: dict[str, tuple[Element, Any]] = {}
+        self.fields: dict[str, Element] = {}
         self.met: Counter[tuple[int, int]] = Counter()
         self.smooth: list[tuple[Piece, str]] = []  # of condim 1, and whose they are
 
@@ -57,7 +61,9 @@ class Geoms:
                     self.report.drop(element, f"{key} of meshes", name)
             path = self.files.find(element, words["file"], name, folder=self.compiler.meshes)
             self.meshes[name] = (element, path)
-        elif element.tag not in ("texture", "hfield"):
+        elif element.tag == "hfield":
+            self.fields[words.get("name", Path(words.get("file", "")).stem)] = element
+        elif element.tag != "texture":
             self.report.drop(element, f"assets <{element.tag}>", words.get("name", ""))
 
     def piece(self, element: Element, body: str) -> Piece | None:
@@ -65,13 +71,16 @@ class Geoms:
         read, words = self.reading, element.attributes
         whose = words.get("name", body)
         kind = read.choice(element, "type", KINDS, "mesh" if "mesh" in words and "type" not in words else "sphere")
-        if kind in ("hfield", "sdf"):
+        if kind == "sdf":
             self.report.drop(element, f"geoms of type {kind}", whose)
             return None
         pose = self.compiler.pose(element)
         piece = Piece(element, kind, {}, pose)
         if kind == "mesh":
-            if not self.mesh(piece, whose):
+            if not self.mesh(piece):
+                return None
+        elif kind == "hfield":
+            if not self.land(piece, whose):
                 return None
         else:
             pose, piece.words = self.size(element, kind, pose)
@@ -85,7 +94,7 @@ class Geoms:
             piece.seen = piece.seen and color[3] > 0.0
         return piece
 
-    def mesh(self, piece: Piece, whose: str) -> bool:
+    def mesh(self, piece: Piece) -> bool:
         """Let a piece be a mesh, which MuJoCo collides as its hull; tell whether there is one."""
         name = piece.element.attributes.get("mesh", "")
         if name not in self.meshes:
@@ -95,6 +104,25 @@ class Geoms:
         x, y, z = self.reading.numbers(asset, "scale", 3, (1.0, 1.0, 1.0))
         piece.scale, piece.hull = (x, y, z), True
         return piece.file is not None
+
+    def land(self, piece: Piece, whose: str) -> bool:
+        """Let a piece be a height field of an image; tell whether there is one."""
+        name = piece.element.attributes.get("hfield", "")
+        if name not in self.fields:
+            accepted = ", ".join(self.fields)
+            self.reading.fault(piece.element, "unknown hfield", received=repr(name), accepted=accepted)
+            return False
+        field = self.fields[name]
+        if "file" not in field.attributes:
+            self.report.drop(field, "height fields of numbers", name)
+            return False
+        piece.file = self.files.find(field, field.attributes["file"], name, folder=self.compiler.meshes)
+        words = None if piece.file is None else land_words(field, piece.file, self.reading)
+        if words is None:
+            return False
+        piece.kind, piece.words = LAND, words
+        self.report.approximate(field, "the base of a height field, now solid without end", whose)
+        return True
 
     def size(self, element: Element, kind: str, pose: Pose) -> tuple[Pose, dict[str, Any]]:
         """Return the pose and the words of a shape by its half sizes, or by where it leads from and to."""
@@ -164,7 +192,7 @@ class Geoms:
 
     def solid(self, piece: Piece) -> MassProperties:
         """Return volume, centre and moments of a piece in its own frame, cylinders and capsules along y."""
-        if piece.kind == "plane":
+        if piece.kind in ("plane", LAND):
             return MassProperties(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
         if piece.file is None:
             return SHAPES[piece.kind].stated(**piece.words).mass_properties()

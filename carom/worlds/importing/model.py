@@ -14,6 +14,7 @@ from carom.worlds.importing.elements import Element
 from carom.worlds.importing.report import Report
 
 TURN, SLIDE = "turn", "slide"
+SIZES = ("radius", "length", "size", "radii", "spacing")
 SMALLEST, GREATEST = (
     1e-9,
     1e9,
@@ -62,7 +63,7 @@ class Piece:
 
     def has_size(self) -> bool:
         """Tell whether all its lengths are such as shapes have."""
-        lengths = np.concatenate([[1.0], *(np.ravel(value) for key, value in self.words.items() if key != "normal")])
+        lengths = np.concatenate([[1.0], *(np.ravel(self.words[key]) for key in SIZES if key in self.words)])
         return bool(((lengths >= SMALLEST) & (lengths <= GREATEST)).all())
 
 

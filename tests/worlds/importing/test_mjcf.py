@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from imports import imported, world_of
+from PIL import Image
 
 from carom.worlds import LoadedWorld, WorldError
 
@@ -184,3 +185,14 @@ def test_what_is_neither_seen_nor_touched_weighs_all_the_same(tmp_path: Path) ->
     simulation = world_of(tmp_path, mujoco(f'<body name="b"><freejoint/>{hidden}</body>')).simulation
     assert simulation["b"].rigid_body.mass == 2.0
     assert simulation["b"].rigid_body.inertia == pytest.approx([0.4 * 2.0 * 0.01] * 3, rel=1e-11)
+
+
+def test_land_is_as_high_as_in_mujoco(tmp_path: Path) -> None:
+    """Black is 0 and the brightest point as high as stated; the first row of the image is the farthest along y."""
+    Image.fromarray(np.array([[10, 10, 10], [10, 60, 10], [10, 10, 110]], np.uint8)).save(tmp_path / "land.png")
+    land = '<asset><hfield name="land" file="land.png" size="2 3 5 1"/></asset>'
+    body = '<geom name="hills" type="hfield" hfield="land" pos="10 0 1"/>'
+    space = world_of(tmp_path, mujoco(body, land)).simulation.space
+    for x, y, height in ((0.0, 0.0, 2.5), (1.999, -2.999, 5.0), (-1.999, 2.999, 0.0)):
+        hit = space.cast_ray((10.0 + x, 50.0, -y), (0.0, -1.0, 0.0))
+        assert hit is not None and 50.0 - hit.distance == pytest.approx(1.0 + height, abs=1e-2)
