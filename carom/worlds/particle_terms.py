@@ -15,18 +15,17 @@ from carom.systems.particles.pieces import piece_of
 from carom.worlds.errors import WordError
 
 WORD = "particles"
+AXES = ("x", "y", "z")
 NOWHERE: Floats = np.full(3, np.nan)  # which is no value that anything expects
-MEASURES: dict[
-    str, tuple[str, Callable[[Floats, Floats], Floats]]
-] = {  # unit, and what places and velocities (n, 3) make
-    "count": ("1", lambda place, velocity: np.array([float(len(place))])),
-    "center": ("m", lambda place, velocity: place.mean(axis=0)),
-    "lower": ("m", lambda place, velocity: place.min(axis=0)),
-    "upper": ("m", lambda place, velocity: place.max(axis=0)),
-    "velocity": ("m/s", lambda place, velocity: velocity.mean(axis=0)),
-    "speed": ("m/s", lambda place, velocity: np.sqrt((velocity**2).sum(axis=1)).mean(keepdims=True)),
+Measure = Callable[[Floats, Floats], Floats]  # of places and velocities (n, 3)
+MEASURES: dict[str, tuple[str, int, Measure]] = {  # unit, size, and how it is found
+    "count": ("1", 1, lambda place, velocity: np.array([float(len(place))])),
+    "center": ("m", 3, lambda place, velocity: place.mean(axis=0)),
+    "lower": ("m", 3, lambda place, velocity: place.min(axis=0)),
+    "upper": ("m", 3, lambda place, velocity: place.max(axis=0)),
+    "velocity": ("m/s", 3, lambda place, velocity: velocity.mean(axis=0)),
+    "speed": ("m/s", 1, lambda place, velocity: np.sqrt((velocity**2).sum(axis=1)).mean(keepdims=True)),
 }
-SIZES = {"count": 1, "speed": 1}
 
 
 def emits(world: World, entity: int) -> bool:
@@ -40,15 +39,15 @@ def particle_measure(text: str, steps: list[str]) -> tuple[str, int, Callable[[W
     if name not in MEASURES:
         accepted, hint = ", ".join(MEASURES), did_you_mean(name, MEASURES)
         raise WordError(f"particles have no {name}", received=repr(text), accepted=accepted, hint=hint)
-    unit, measure = MEASURES[name]
-    size = SIZES.get(name, 3)
-    if len(axis) > 1 or (axis and (size == 1 or axis[0] not in "xyz")):
-        raise WordError(f"{name} has no {'.'.join(axis)}", received=repr(text), accepted="x, y, z"[: 7 * (size > 1)])
+    unit, size, measure = MEASURES[name]
+    if len(axis) > 1 or (axis and (size == 1 or axis[0] not in AXES)):
+        accepted = "" if size == 1 else ", ".join(AXES)
+        raise WordError(f"{name} has no {'.'.join(axis)}", received=repr(text), accepted=accepted)
 
     def read(world: World, entity: int) -> Floats:
         rows, particle = piece_of(world, entity).rows, world[Particle]
         place, velocity = particle.position(rows), particle.velocity(rows)
         found = measure(place, velocity) if len(place) or name == "count" else NOWHERE[:size]
-        return found["xyz".index(axis[0])][None] if axis else found
+        return found[AXES.index(axis[0])][None] if axis else found
 
     return unit, 1 if axis else size, read

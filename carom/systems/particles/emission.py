@@ -13,7 +13,7 @@ from carom.ecs.relations.particle import Particle
 from carom.ecs.spatial import quaternion, vector
 from carom.ecs.spatial.trigonometry import sine_cosine
 from carom.systems.compound import bodies_of
-from carom.systems.kernels.particle_births import bear
+from carom.systems.kernels.particle_births import WORD, bear
 from carom.systems.particles.newborn import Newborn
 from carom.systems.particles.pieces import make_room
 from carom.systems.settings import Settings, time_of
@@ -47,12 +47,12 @@ def emit_particles(world: World, dt: float) -> None:
     if not births:
         return
     newborn.counts = {handle: len(times) for handle, (_, times) in births.items()}
-    rooms = make_room(world, newborn.counts)
+    rooms, seed = make_room(world, newborn.counts), world[Settings].seed & WORD
     linear, angular = velocities(world, rows)
     particle, place = world[Particle], {row: number for number, row in enumerate(rows.tolist())}
     for handle, (row, times) in births.items():
         bear(
-            rooms[handle], times, begin, dt, world[Settings].seed, handle, int(emitter.born[row]), row,
+            rooms[handle], times, begin, dt, seed, handle, int(emitter.born[row]), row,
             emitter.source, emitter.extent, emitter.direction, sine_cosine(float(emitter.cone[row]))[1],
             emitter.speed, emitter.life, emitter.inherit,
             emitter.start_position, emitter.start_rotation, emitter.start_linear, emitter.start_angular,
