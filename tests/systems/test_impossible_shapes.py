@@ -58,6 +58,7 @@ from carom.systems.shapes.sphere import Sphere
         ),
         (lambda: Sphere(1e-110), "sphere: its volume must be from 2.2e-308 m3 on, received 0 m3"),
         (lambda: Box((1.0, 1e-200, 1e-200)), "box: its volume must be from 2.2e-308 m3 on, received 0 m3"),
+        (lambda: Capsule(1e-320, 1.0), "capsule: its volume must be from 2.2e-308 m3 on, received 0 m3"),
         (lambda: Sphere(1e150), "sphere: its volume must be finite, received inf m3"),
         (lambda: Cylinder(1.0, 0.0), "cylinder.length: must be finite and above 0 m, received 0"),
         (lambda: Plane((0.0, 0.0, 0.0)), "plane.normal: must have a direction, received a zero vector"),

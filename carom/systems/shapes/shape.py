@@ -101,6 +101,8 @@ class Shape(ABC):
             volume = self.mass_properties().volume
         except OverflowError:
             volume = math.inf
+        except ZeroDivisionError:  # moments are shares of it
+            volume = 0.0
         if not sys.float_info.min <= volume < math.inf:
             wanted = f"from {sys.float_info.min:.2g} m3 on" if volume < 1.0 else "finite"
             raise DeclarationError(f"{self.key}: its volume must be {wanted}, received {volume:g} m3")
