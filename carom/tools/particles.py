@@ -11,7 +11,7 @@ from carom.ecs import World
 from carom.ecs.column import Floats
 from carom.ecs.components.emitter import Drawn, Emitter
 from carom.ecs.relations.particle import Particle
-from carom.systems.particles.pieces import pieces
+from carom.systems.particles.pieces import Piece, emitter_row, pieces
 from carom.systems.settings import time_of
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.shape import Shape
@@ -27,10 +27,13 @@ COARSER = {kind: shape.coarser_surfaces() for kind, shape in SOLIDS.items()}
 
 
 class Cloud(NamedTuple):
-    """The particles of one emitter as they look: places (n, 3) and diameters (n,) in m, colours (n, 4)."""
+    """The particles of one emitter as they look: places (n, 3) and diameters (n,) in m, colours (n, 4).
 
-    entity: int
-    row: int
+    They are in a ``piece`` of their table, and their emitter is in the row ``source``.
+    """
+
+    piece: Piece
+    source: int
     drawn: Drawn
     places: Floats
     diameters: Floats
@@ -43,13 +46,13 @@ def clouds(world: World) -> Iterator[Cloud]:
         return
     emitter, particle, time = world[Emitter], world[Particle], time_of(world)
     for piece in pieces(world):
-        if piece.emitter not in world:
+        row = emitter_row(world, piece)
+        if row is None:
             continue
-        row = world.row(piece.emitter)
         spent = particle.spent(piece.rows, time)
         sizes = emitter.size[row] + spent * (emitter.end_size[row] - emitter.size[row])
         colors = emitter.color[row] + spent[:, None] * (emitter.end_color[row] - emitter.color[row])
-        yield Cloud(piece.emitter, row, Drawn(emitter.drawn[row]), particle.position(piece.rows), sizes, colors)
+        yield Cloud(piece, row, Drawn(emitter.drawn[row]), particle.position(piece.rows), sizes, colors)
 
 
 def particle_batches(world: World) -> list[Batch]:
@@ -61,7 +64,7 @@ def particle_batches(world: World) -> list[Batch]:
             poses = np.zeros((count, 4, 4))
             poses[:, :3, :3] = cloud.diameters[:, None, None] * np.eye(3)
             poses[:, :3, 3], poses[:, 3, 3] = cloud.places, 1.0
-            ids = np.full(count, cloud.row)
+            ids = np.full(count, cloud.source)
             place = (surface.vertices, surface.faces, poses, cloud.colors, ids, surface.smooth)
             batches.append(Batch(*place, coarser=COARSER[cloud.drawn]))
     return batches

@@ -10,6 +10,7 @@ import pytest
 from sprays import emitting, positions, velocities
 
 from carom.ecs import restore_snapshot, state_hash, take_snapshot
+from carom.ecs.components.emitter import Emitter
 from carom.ecs.relations.particle import Particle
 from carom.systems.simulation import Simulation
 
@@ -165,11 +166,13 @@ def test_rows_of_an_emitter_stay_together() -> None:
 
 
 def test_particles_go_with_their_emitter() -> None:
-    """Of an emitter that is despawned none are left after the next step, and others stay."""
+    """Of who is despawned, or emits no more, none are left after the next step, and others stay."""
     simulation = emitting(dt=1 / 60, burst=30, life=100.0)
+    former = simulation.add(emitter={"burst": 10, "life": 100.0})
     other = simulation.add(emitter={"burst": 20, "life": 100.0})
     simulation.step(2)
     simulation.world.despawn(simulation.world.find("source"))
+    simulation.world.detach(former, Emitter)
     simulation.step()
     assert simulation.world.count(Particle) == 20
     assert (simulation.world[Particle].emitter[:20] == int(other)).all()

@@ -10,7 +10,7 @@ from carom.ecs.components.emitter import Emitter, Within
 from carom.ecs.relations.particle import Particle
 from carom.systems.forces.region import BoxRegion, SphereRegion
 from carom.systems.kernels.particle_deaths import any_due
-from carom.systems.particles.pieces import Piece, pieces, remove
+from carom.systems.particles.pieces import Piece, emitter_row, pieces, remove
 from carom.systems.settings import Settings, time_of
 
 
@@ -32,9 +32,9 @@ def end_particles(world: World, dt: float) -> None:
 
 def leaving(world: World, piece: Piece) -> Booleans | None:
     """Return which of a piece must go, None where it is nobody."""
-    if piece.emitter not in world:
+    row, emitter, particle, time = emitter_row(world, piece), world[Emitter], world[Particle], time_of(world)
+    if row is None:
         return np.ones(piece.size, np.bool_)
-    row, emitter, particle, time = world.row(piece.emitter), world[Emitter], world[Particle], time_of(world)
     bounded, most = emitter.within[row] != Within.ANYWHERE, int(emitter.most[row])
     if not (bounded or 0 < most < piece.size or any_due(particle.dies, piece.first, piece.size, time)):
         return None  # as in most steps

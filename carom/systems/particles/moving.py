@@ -16,7 +16,7 @@ from carom.systems.kernels.particle_flight import fly
 from carom.systems.particles.fields import Even, Fields
 from carom.systems.particles.newborn import Newborn
 from carom.systems.particles.obstacles import NO_PLANES, READ_BY_OBSTACLES, bounce_off_colliders, planes
-from carom.systems.particles.pieces import pieces
+from carom.systems.particles.pieces import emitter_row, pieces
 from carom.systems.queries.space import ASKED
 from carom.systems.settings import Settings, time_of
 
@@ -27,9 +27,9 @@ READS = tuple(dict.fromkeys((Emitter, Forces, Settings, Newborn, *READ_BY_OBSTAC
 def move_particles(world: World, dt: float) -> None:
     """Fly particles through the step, newborn ones through what is left of it."""
     for piece in pieces(world):
-        if piece.emitter not in world:
+        row = emitter_row(world, piece)
+        if row is None:
             continue
-        row = world.row(piece.emitter)
         old = piece.size - world[Newborn].counts.get(piece.emitter, 0)
         even = world[Fields].even(world, piece.emitter, row, time_of(world) - 0.5 * dt)
         collide = int(world[Emitter].collide[row])

@@ -9,6 +9,7 @@ import numpy as np
 
 from carom.ecs import World
 from carom.ecs.column import Booleans, Integers
+from carom.ecs.components.emitter import Emitter
 from carom.ecs.relations.particle import Particle
 
 
@@ -35,6 +36,12 @@ def pieces(world: World) -> list[Piece]:
         found.append(Piece(handle, first, last - first))
         first = last
     return found
+
+
+def emitter_row(world: World, piece: Piece) -> int | None:
+    """Return the row of the emitter of a piece, None where it is no more."""
+    row = world.row(piece.emitter) if piece.emitter in world else None
+    return row if row is not None and world.table(Emitter).present[row] else None
 
 
 def piece_of(world: World, emitter: int) -> Piece:

@@ -47,7 +47,7 @@ class Particles(RowTrack):
     def rows(self, simulation: Simulation) -> Columns | None:
         """Return a row for each particle; none at all where nothing emits."""
         world = simulation.world
-        seen, count = list(clouds(world)), world.count(Particle)
+        seen, particle = list(clouds(world)), world[Particle]
         if not seen:
             return _nothing() if world.count(Emitter) else None
         radii = [
@@ -57,8 +57,8 @@ class Particles(RowTrack):
             for cloud in seen
         ]
         return {
-            "emitter": np.array(world[Particle].emitter[:count]),
-            "number": np.array(world[Particle].number[:count]),
+            "emitter": np.concatenate([particle.emitter[cloud.piece.rows] for cloud in seen]),
+            "number": np.concatenate([particle.number[cloud.piece.rows] for cloud in seen]),
             "position": np.concatenate([cloud.places for cloud in seen]).astype(np.float32),
             "radius": np.concatenate(radii).astype(np.float32),
             "color": np.rint(255.0 * np.concatenate([cloud.colors for cloud in seen])).astype(np.uint8),
