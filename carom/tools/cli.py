@@ -17,6 +17,7 @@ COMMANDS = (
     "diff",
     "bisect",
     "why",
+    "shrink",
     "query",
     "salvage",
     "render",

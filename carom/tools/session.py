@@ -143,8 +143,8 @@ def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None,
     return summary
 
 
-def progress_bar(frames: int) -> Any:
-    """Return a bar for as many steps, a context, which is drawn when stderr is a terminal."""
+def progress_bar(total: int, unit: str = "frame") -> Any:
+    """Return a bar for as many steps, or others of a kind, a context, which is drawn when stderr is a terminal."""
     from tqdm import tqdm
 
-    return tqdm(total=frames, unit="frame", leave=False, disable=not sys.stderr.isatty())
+    return tqdm(total=total, unit=unit, leave=False, disable=not sys.stderr.isatty())

@@ -82,6 +82,11 @@ class AtMoment(Expectation, ABC):
     def compare(self, simulation: Simulation, row: int | None) -> None:
         """Look now, note what is seen in `worst`, and fail if that is wrong; a row is that of the event."""
 
+    @property
+    def settled(self) -> bool:
+        """Whether it has looked, or has failed without."""
+        return bool(self.worst) or self.failure is not None
+
     def begin(self, simulation: Simulation) -> None:
         """Compare at time 0 where that is the time."""
         if self.frame == 0:

@@ -59,6 +59,11 @@ class Expectation:
         """Whether it held so far."""
         return self.failure is None
 
+    @property
+    def settled(self) -> bool:
+        """Whether nothing that is still to come can change what becomes of it."""
+        return self.failure is not None
+
     def outcome(self) -> Outcome:
         """Return what became of it."""
         if self.failure is None:
