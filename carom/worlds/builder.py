@@ -14,6 +14,7 @@ from carom.systems.forces.reach import read_reach
 from carom.systems.layers import Layers
 from carom.systems.parameters import WordFault
 from carom.systems.settings import Random, Settings
+from carom.systems.shapes import Shape
 from carom.systems.simulation import Simulation
 from carom.worlds import library
 from carom.worlds.camera import Camera, check_entities
@@ -49,7 +50,7 @@ class LoadedWorld:
 
     ``warnings`` are lines for the user on what the file can be used without, such as triangles without area; ``files``
     are those that it names or includes, by its words for them; ``source`` knows where each of its words stands,
-    and ``places`` which of them an entity is of.
+    ``places`` which of them an entity is of, and ``models`` what was made of its model files.
     """
 
     simulation: Simulation
@@ -68,6 +69,7 @@ class LoadedWorld:
     files: dict[str, Path] = field(default_factory=dict)
     source: Source = field(default_factory=lambda: Source("", ""))
     places: dict[int, tuple[str | int, ...]] = field(default_factory=dict)
+    models: dict[tuple[Any, ...], Shape] = field(default_factory=dict)
 
     def contents(self) -> dict[str, bytes]:
         """Return what is in its files, by the words of the world for them; none needs another file beside it."""
@@ -150,7 +152,7 @@ def _loaded(
     return LoadedWorld(
         simulation, data, name, text, plan(values["run"], simulation.settings.dt), expectations,
         values["name"], values["description"], UP[values["up"]], values["cameras"], render, recording, source.warnings,
-        files_of_world.used, source, populator.places_in_file,
+        files_of_world.used, source, populator.places_in_file, populator.geometries.known,
     )  # fmt: skip
 
 

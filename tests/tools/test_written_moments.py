@@ -29,3 +29,12 @@ def test_a_world_is_written_to_yaml_and_nothing_else(tmp_path: Path, capsys: pyt
     assert ended.value.code == 2
     told = f"argument --write: must end in .yaml or .yml, received {str(tmp_path / 'w.json')!r}\n"
     assert capsys.readouterr().err.endswith(told)
+
+
+def test_a_world_does_not_write_itself(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """What somebody wrote by hand would be lost, and --watch would see it saved."""
+    world = tmp_path / "w.yaml"
+    world.write_text("carom: 1\n")
+    assert main(["run", str(world), "--write", str(world)]) == 2
+    assert capsys.readouterr().err == f"{world} is the world itself; write another file\n"
+    assert world.read_text() == "carom: 1\n"

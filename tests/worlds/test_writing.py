@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 
 from carom.ecs import CaromError, Component, first_difference, state_hash, system
 from carom.ecs.column import Floats, column
@@ -119,6 +120,30 @@ def test_meshes_hulls_and_land_are_written_triangle_by_triangle() -> None:
     for one, other in pairs:
         np.testing.assert_array_equal(one.vertices, other.vertices)
         np.testing.assert_array_equal(one.faces, other.faces)
+
+
+def test_model_files_are_named_and_laid_beside(tmp_path: Path) -> None:
+    """So a large mesh stays short and keeps its looks; where the file is gone its triangles are written."""
+    (tmp_path / "here" / "parts").mkdir(parents=True)
+    model = tmp_path / "here" / "parts" / "box.obj"
+    model.write_text(trimesh.creation.box().export(file_type="obj"))
+    (tmp_path / "here" / "w.yaml").write_text(
+        "carom: 1\nentities: [{name: box, collider: {mesh: {file: parts/box.obj, unit: cm}}}]\n"
+    )
+    loaded = load_world(tmp_path / "here" / "w.yaml")
+    (tmp_path / "there").mkdir()
+    write_world(loaded, tmp_path / "there" / "w.yaml")
+    assert "collider: {mesh: {file: parts/box.obj, unit: cm}}" in (tmp_path / "there" / "w.yaml").read_text()
+    assert (tmp_path / "there" / "parts" / "box.obj").read_bytes() == model.read_bytes()
+    assert first_difference(load_world(tmp_path / "there" / "w.yaml").simulation.world, loaded.simulation.world) is None
+    (tmp_path / "there" / "parts" / "box.obj").write_text("another")
+    with pytest.raises(CaromError) as caught:
+        write_world(loaded, tmp_path / "there" / "w.yaml")
+    told = "is another file than the one that the world names so; write elsewhere"
+    assert str(caught.value) == f"{tmp_path / 'there' / 'parts' / 'box.obj'} {told}"
+    model.unlink()
+    assert "vertices" in world_text(loaded)
+    loaded_as(loaded.simulation, world_text(loaded))
 
 
 def test_hulls_of_those_who_are_gone_keep_their_numbers() -> None:

@@ -1,11 +1,16 @@
-"""Bench of world files: how long it takes from a text to a world that is ready to step."""
+"""Bench of world files: from a text to a world that is ready to step, from a world to a text, and anew when saved."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from itertools import count
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from carom.tools.bench.measure import Figure, figure, timed
-from carom.worlds import load_text
+from carom.tools.watching import Watching
+from carom.worlds import library, load_text, load_world, world_text
 
 ENTITIES = 10_000
 HEAD = """carom: 1
@@ -58,3 +63,21 @@ def figures() -> Iterator[Figure]:
     for name, (text, bound) in CASES.items():
         words = text()
         yield figure(name, "s", timed(lambda words=words: load_text(words), 5), bound)  # type: ignore[misc]
+    world = load_text(generated("grid: {count: [100, 10, 10], spacing: 0.3}"))
+    yield figure("10,000 entities written and read again", "s", timed(lambda: world_text(world), 3), float("inf"))
+    with TemporaryDirectory() as folder:
+        yield replace(figure("saved and loaded anew by --watch", "s", timed(saving(Path(folder)), 5), 0.5), by="wall")
+
+
+def saving(folder: Path) -> Callable[[], object]:
+    """Return what saves a world of the library and waits until it is loaded anew."""
+    path, text, saves = folder / "w.yaml", library.find("billiards").read_text(encoding="utf-8"), count(1)
+    path.write_text(text, encoding="utf-8")
+    watching = Watching(path, lambda: load_world(path))
+    watching.wait()
+
+    def save() -> object:
+        path.write_text(text + "#" * next(saves), encoding="utf-8")
+        return watching.wait()
+
+    return save

@@ -65,6 +65,8 @@ def execute(arguments: argparse.Namespace) -> int:
     from carom.worlds import library, load_world
 
     stated = {"checked": arguments.check or None, **overrides(arguments)}
+    if arguments.write and arguments.write.resolve() == library.find(arguments.world).resolve():
+        raise CaromError(f"{arguments.write} is the world itself; write another file")
     if arguments.watch:
         if arguments.compare:
             raise CaromError("--compare: shows futures of a world that stays as it is; leave out --watch")

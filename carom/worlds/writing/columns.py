@@ -51,6 +51,10 @@ class Columns:
         self.world = world
         self._others: dict[tuple[type[Component], str], list[bool]] = {}
 
+    def has(self, kind: type[Component], row: int) -> bool:
+        """Tell whether a row has a component."""
+        return kind in self.world.tables and bool(self.world.tables[kind].present[row])
+
     def held(self, kind: type[Component], name: str, row: int) -> Any:
         """Return what one row of a column holds."""
         return self.world.table(kind).arrays[name][row].tolist()

@@ -18,6 +18,7 @@ from carom.worlds.header import VERSION
 from carom.worlds.state import state_words
 from carom.worlds.writing.entities import EntityWriter
 from carom.worlds.writing.events import event_words
+from carom.worlds.writing.models import Models
 from carom.worlds.writing.names import Callings
 from carom.worlds.writing.refusals import refusals
 from carom.worlds.writing.sections import force_words, layer_words, material_words, settings_words
@@ -29,8 +30,13 @@ WRITTEN = "the written world"
 
 
 def write_world(world: Simulation | LoadedWorld, path: str | Path) -> None:
-    """Write a world as it is now into a file that loads to the same state, to the bit; see `world_text`."""
-    text = world_text(world)
+    """Write a world as it is now into a file that loads to the same state, to the bit; see `world_text`.
+
+    Model files that a loaded world names are laid beside it.
+    """
+    models = Models(world if isinstance(world, LoadedWorld) else None)
+    text = _text(world, models)
+    models.lay_beside(Path(path))
     Path(path).write_text(text, encoding="utf-8")
 
 
@@ -39,24 +45,27 @@ def world_text(world: Simulation | LoadedWorld) -> str:
 
     Each entity stands for itself, in SI units, with the words that differ from the defaults. What words cannot say, as
     of a world in mid-run, stands in ``state`` at the end. Of a loaded world cameras, run and pictures are kept, and
-    what it expects as long as no step is taken. Raises CaromError for what no file can hold: systems and force
-    functions of Python code, components of scripts.
+    what it expects as long as no step is taken; it names the same model files. Raises CaromError for what no file can
+    hold: systems and force functions of Python code, components of scripts.
     """
+    return _text(world, Models(world if isinstance(world, LoadedWorld) else None))
+
+
+def _text(world: Simulation | LoadedWorld, models: Models) -> str:
     simulation = world.simulation if isinstance(world, LoadedWorld) else world
     if faults := refusals(simulation):
         raise CaromError("\n  ".join(["the world cannot be written to a file:", *faults]))
-    document = _document(world, simulation)
-    text = emit(document)
-    loaded = _loaded(text)
+    text = emit(_document(world, simulation, models))
+    loaded = _loaded(text, models)
     if first_difference(simulation.world, loaded.world) is None and _alike(simulation.world, loaded.world):
         _confirm(simulation, loaded)
         return text
     text += "\n" + emit({"state": state_words(simulation.world, loaded.world)})
-    _confirm(simulation, _loaded(text))
+    _confirm(simulation, _loaded(text, models))
     return text
 
 
-def _document(world: Simulation | LoadedWorld, simulation: Simulation) -> dict[str, Any]:
+def _document(world: Simulation | LoadedWorld, simulation: Simulation, models: Models) -> dict[str, Any]:
     """Return the sections of a file but its state."""
     stated = world.document if isinstance(world, LoadedWorld) else {}
     after = [*SEEN, *FORETOLD] if simulation.frame == 0 else [*SEEN]
@@ -68,9 +77,9 @@ def _document(world: Simulation | LoadedWorld, simulation: Simulation) -> dict[s
     sections = {
         "materials": material_words(simulation.world),
         "layers": layer_words(simulation.world),
-        "entities": EntityWriter(simulation.world, callings).all(),
+        "entities": EntityWriter(simulation.world, callings, models).all(),
         "forces": forces,
-        "events": event_words(simulation.world),
+        "events": event_words(simulation.world, models),
     }
     return {
         "carom": VERSION,
@@ -81,9 +90,9 @@ def _document(world: Simulation | LoadedWorld, simulation: Simulation) -> dict[s
     }
 
 
-def _loaded(text: str) -> Simulation:
+def _loaded(text: str, models: Models) -> Simulation:
     try:
-        return load_text(text, WRITTEN).simulation
+        return load_text(text, WRITTEN, files=models.files).simulation
     except WorldError as fault:
         raise CaromError(f"the world cannot be written to a file: it would be refused:\n{fault}") from None
 
