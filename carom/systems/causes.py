@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from carom.ecs import ExternalForce, Force, Motion, RigidBody, System
+from carom.ecs import EntityError, ExternalForce, Force, Motion, RigidBody, System
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.impact import Impact
@@ -57,11 +57,14 @@ def take_step(simulation: Simulation, entity: int | str) -> Causes:
     """Take a step, unobserved, and return what changed the velocity of a body (handle or name) in it.
 
     Each cause is computed from its own force or impulse, none as the rest of the sum. Raises EntityError for who is not
-    there.
+    there or has no body.
     """
     world = simulation.world
     handle = world.find(entity) if isinstance(entity, str) else int(entity)
-    account = _Account(simulation, int(bodies_of(world)[world.row(handle)]))
+    row = int(bodies_of(world)[world.row(handle)])
+    if row < 0:
+        raise EntityError(f"'{world.name(handle)}' has no body; it stands")
+    account = _Account(simulation, row)
     before = account.velocity()
     with unobserved(simulation):
         simulation.step(after=account.note)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.ecs import Motion, World
+from carom.ecs import Motion, RigidBody, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
@@ -65,10 +65,10 @@ class Frame(NamedTuple):
         return float(np.linalg.norm(self.velocity(entity))) > SLEEP_SPEED
 
 
-def trace_back(side: Side, entity: str, last: int) -> list[Link]:
-    """Return who set a body going that moves in a frame, and who set that going, back to where it began.
+def trace_back(side: Side, entity: int, last: int) -> list[Link]:
+    """Return who set a body (handle) going that moves in a frame, and who set that going, back to where it began.
 
-    All from the first frame on is simulated again. Raises EntityError for who is not there.
+    All from the first frame on is simulated again.
     """
     simulation = side.start()
     first, frames = simulation.frame, [_look(simulation.world)]
@@ -77,7 +77,7 @@ def trace_back(side: Side, entity: str, last: int) -> list[Link]:
         frames.append(_look(simulation.world))
     world = simulation.world
     chain: list[Link] = []
-    who, at, until, seen = int(world.find(entity)), last, inf, set[int]()
+    who, at, until, seen = entity, last, inf, set[int]()
     while who not in seen:
         seen.add(who)
         name = world.name(who)
@@ -87,9 +87,10 @@ def trace_back(side: Side, entity: str, last: int) -> list[Link]:
             speed = float(np.linalg.norm(frames[0].velocity(who)))
             moved = f"moves since then, at {speed:.3g} m/s" if speed else "has not moved since then"
             return [*chain, Link(at, name, "", f"frame {at}: '{name}' {moved}")]
-        pusher = _pusher(frames[at - first - 1], frames[at - first], who, until)
+        pushed = world[RigidBody].inverse_mass[world.row(who)] > 0.0  # else it goes its own way
+        pusher = _pusher(frames[at - first - 1], frames[at - first], who, until) if pushed else None
         if pusher is None:
-            by = _beginning(side, name, at)
+            by = _beginning(side, who, at)
             return [*chain, Link(at, name, by, f"frame {at}: '{name}' was at rest until {by} set it going")]
         until, who, impulse = pusher
         by, size = world.name(who), float(np.linalg.norm(impulse))
@@ -98,14 +99,14 @@ def trace_back(side: Side, entity: str, last: int) -> list[Link]:
     return chain
 
 
-def _beginning(side: Side, name: str, frame: int) -> str:
+def _beginning(side: Side, entity: int, frame: int) -> str:
     """Return what set somebody going whom nobody pushed."""
     simulation = side.simulation_at(frame - 1)
-    rest = simulation[name].motion.linear.copy()
+    rest = simulation[entity].motion.linear.copy()
     side.redo(simulation)
-    if (simulation[name].motion.linear != rest).any():
+    if (simulation[entity].motion.linear != rest).any():
         return "code outside the step"
-    cause = take_step(simulation, name).causes[0]
+    cause = take_step(simulation, entity).causes[0]
     return f"{cause.source} of '{simulation.world.name(cause.other)}'" if cause.other >= 0 else cause.source
 
 

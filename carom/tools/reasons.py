@@ -66,7 +66,8 @@ def motion(side: Side, name: str, frame: int) -> Reasons:
         raise CaromError(f"--frame: nothing led to frame {frame}; accepted: {side.first + 1} to {side.last}")
     simulation = side.simulation_at(frame - 1)
     side.redo(simulation)
-    return Reasons(name, simulation.world, take_step(simulation, name), trace_back(side, name, frame))
+    found = take_step(simulation, name)
+    return Reasons(name, simulation.world, found, trace_back(side, found.entity, frame))
 
 
 def _vector(values: Iterable[float]) -> str:

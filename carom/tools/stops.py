@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.ecs import Motion, Transform, World
+from carom.ecs import Motion, NonFiniteError, Transform, World
 from carom.ecs.relations.contact import Contact
 from carom.systems.breakpoints import StoppedError, tried
 from carom.systems.compound import bodies_of
@@ -67,9 +67,9 @@ def text(stopped: StoppedError, loaded: LoadedWorld, command: str) -> str:
 
 
 class Prompt:
-    """A Python prompt on the world that a breakpoint stopped; ``ring`` goes back in time."""
+    """A Python prompt on the world that a breakpoint or a NaN stopped; ``ring`` goes back in time."""
 
-    def __init__(self, simulation: Simulation, stopped: StoppedError, ring: Ring) -> None:
+    def __init__(self, simulation: Simulation, stopped: StoppedError | NonFiniteError, ring: Ring) -> None:
         self._simulation, self._ring, self._broken = simulation, ring, stopped
         simulation.observers = [ring]
 
@@ -81,7 +81,7 @@ class Prompt:
         """Take steps, up to one that meets a breakpoint."""
         try:
             self._simulation.step(count)
-        except StoppedError as stopped:
+        except (StoppedError, NonFiniteError) as stopped:
             print(stopped)
 
     def go_on(self, count: int = 1) -> None:
@@ -98,7 +98,8 @@ class Prompt:
         names: dict[str, Any] = {name: getattr(self, name) for name in ("rewind", "step", "go_on")}
         names |= {"simulation": self._simulation, "world": self._simulation.world, "tried": tried}
         names |= {"stopped": self._broken, "ring": self._ring}
-        InteractiveConsole(names).interact(BANNER.format(told=told), exitmsg="")
+        with np.errstate(all="ignore"):  # as in the run: the step itself finds what is not finite
+            InteractiveConsole(names).interact(BANNER.format(told=told), exitmsg="")
 
 
 def _vector(values: Iterable[float]) -> str:

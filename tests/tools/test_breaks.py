@@ -96,6 +96,20 @@ def test_a_prompt_goes_back_and_on(
     assert err.startswith(f"{STOPPED}\n  {world}:8:5: {WHO}\n")
 
 
+def test_a_prompt_opens_before_the_step_that_makes_a_nan(
+    world: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where the world is still sound; the step again tells the same."""
+    world.write_text(WORLD + "forces: [{constant_push: {force: [1e308, 0, 0]}}]")
+    monkeypatch.setattr("sys.stdin", io.StringIO("print(simulation.frame + 1 == stopped.frame); step()\n"))
+    assert main(["run", str(world), "--break", "not finite", "--pdb"]) == 1
+    out, err = capsys.readouterr()
+    told = err.splitlines()[0]
+    assert told.startswith("frame ")
+    assert ", written by system '" in told
+    assert out.replace(">>> ", "") == f"True\n{told}\n"
+
+
 def broken_by(simulation: Simulation, *texts: str) -> StoppedError:
     """Return what a simulation is stopped by."""
     break_when(simulation, *texts)

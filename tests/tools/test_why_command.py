@@ -88,6 +88,13 @@ def test_a_fall_began_with_gravity(row: str, capsys: pytest.CaptureFixture[str])
     assert capsys.readouterr().out.splitlines()[-1] == "  frame 1: 'third' was at rest until gravity set it going"
 
 
+def test_what_moves_by_itself_was_moved_by_nobody(row: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """A ball that strikes a paddle at the very beginning of its way does not set it going."""
+    assert main(["why", "pong", "--moved", "right", "--frame", "60"]) == 0
+    last = capsys.readouterr().out.splitlines()[-1]
+    assert last == "  frame 23: 'right' was at rest until follow_keyframes set it going"
+
+
 def test_who_is_awake_and_who_does_not_touch(row: str, capsys: pytest.CaptureFixture[str]) -> None:
     """The words are those of `why_awake` and `why_no_contact`, in the frame asked for."""
     assert main(["why", row, "--awake", "first", "--frame", "10"]) == 0
@@ -102,6 +109,7 @@ def test_who_is_awake_and_who_does_not_touch(row: str, capsys: pytest.CaptureFix
 WRONG = {
     "--moved third --frame 0": "--frame: nothing led to frame 0; accepted: 1 to 120",
     "--moved third --frame 200": "row.yaml does not have frame 199, but frames 0 to 120",
+    "--moved floor --frame 10": "'floor' has no body; it stands\n",
     "--awake thrid": "no entity is named 'thrid'; did you mean 'third'?",
 }
 

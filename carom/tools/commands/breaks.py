@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 import shlex
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from carom.tools.commands.options import print_json
 
 if TYPE_CHECKING:
+    from carom.ecs.errors import NonFiniteError
     from carom.systems.breakpoints import StoppedError
     from carom.systems.observer import Observer
     from carom.worlds.builder import LoadedWorld
@@ -28,7 +30,9 @@ def declare_breaks(parser: argparse.ArgumentParser) -> None:
         help="stop before a step after which it holds: 'speed(crate) > 20', 'overlap > 1 cm', 'energy rises 5 %%', "
         "'not finite'; may be stated several times",
     )
-    parser.add_argument("--pdb", action="store_true", help="open a prompt on the world where a --break stops it")
+    parser.add_argument(
+        "--pdb", action="store_true", help="open a prompt on the world where a --break or a NaN stops it"
+    )
 
 
 class Breaks:
@@ -67,6 +71,15 @@ class Breaks:
             Prompt(self._loaded.simulation, stopped, self._ring).open(told)
         else:
             print(told)
+
+    def tell_not_finite(self, fault: NonFiniteError, recorded: str) -> None:
+        """Print what was no number, in a prompt if it was asked for."""
+        from carom.tools.stops import Prompt
+
+        if self._ring:
+            Prompt(self._loaded.simulation, fault, self._ring).open(f"{fault}{recorded}")
+        else:
+            print(f"{fault}{recorded}", file=sys.stderr)
 
     def _command(self, stopped: StoppedError, recording: Path | None) -> str:
         """Return what opens the recording at the step that broke, or else a prompt on the world there."""

@@ -120,7 +120,7 @@ def once(
         print(f"interrupted in frame {simulation.frame}{records.after_a_stop(simulation)}", file=sys.stderr)
         return 130
     except NonFiniteError as fault:
-        print(f"{fault}{records.after_a_stop(simulation)}", file=sys.stderr)
+        breaks.tell_not_finite(fault, records.after_a_stop(simulation))
         return 1
     except StoppedError as stopped:
         records.after_a_stop(simulation)
