@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from importlib.resources import files
+from itertools import dropwhile, takewhile
 from pathlib import Path
 
 from carom.ecs.errors import did_you_mean
@@ -13,8 +14,30 @@ SUFFIXES = (".yaml", ".yml", ".json")
 
 def names() -> list[str]:
     """Return the names of the library's worlds, sorted."""
-    folder = files("carom.worlds").joinpath("library")
-    return sorted(item.name.removesuffix(".yaml") for item in folder.iterdir() if item.name.endswith(".yaml"))
+    return sorted(_paths())
+
+
+def groups() -> dict[str, list[str]]:
+    """Return the names of the library's worlds by group, which is the folder that a world lies in, all sorted."""
+    found: dict[str, list[str]] = {}
+    for name, path in sorted(_paths().items()):
+        found.setdefault(path.parent.name, []).append(name)
+    return dict(sorted(found.items()))
+
+
+def lesson(text: str) -> str:
+    """Return the comment that a world file begins with, line by line, without its marks.
+
+    That is the first run of lines that are comments from their first column on.
+    """
+    lines = dropwhile(lambda line: not line.startswith("#"), text.splitlines())
+    comment = takewhile(lambda line: line.startswith("#"), lines)
+    return "\n".join(line.removeprefix("#").removeprefix(" ").rstrip() for line in comment)
+
+
+def _paths() -> dict[str, Path]:
+    folder = Path(str(files("carom.worlds").joinpath("library")))
+    return {path.stem: path for path in folder.rglob("*.yaml")}
 
 
 def find(world: str | Path) -> Path:
@@ -22,8 +45,8 @@ def find(world: str | Path) -> Path:
     path, text = Path(world), str(world)
     if path.is_file():
         return path
-    if text in names():
-        return Path(str(files("carom.worlds").joinpath("library", f"{text}.yaml")))
+    if text in (known := _paths()):
+        return known[text]
     accepted, hint = "a world file, or the name of a library world", ""
     what = "is a folder" if path.is_dir() else "does not exist"
     if not path.is_dir() and path.suffix not in SUFFIXES and len(path.parts) == 1:

@@ -16,6 +16,7 @@ from PIL import Image
 
 from carom.tools.cli import COMMANDS, main
 from carom.tools.recording import Recording
+from carom.worlds import library
 
 CAROM = [sys.executable, "-m", "carom.tools.cli"]
 
@@ -337,7 +338,13 @@ def test_explain_schema_and_worlds_print(capsys: pytest.CaptureFixture[str]) -> 
     assert main(["schema"]) == 0
     assert "properties" in json.loads(capsys.readouterr().out)
     assert main(["worlds"]) == 0
-    assert any(line.startswith("billiards ") for line in capsys.readouterr().out.splitlines())
+    lines = capsys.readouterr().out.splitlines()
+    assert lines.index("impacts") < lines.index("joints")
+    assert "  pong               Two dimensions, two paddles, no loss." in "\n".join(lines)
+    assert main(["worlds", "--json"]) == 0
+    listed = {world["name"]: world for world in json.loads(capsys.readouterr().out)}
+    assert sorted(listed) == library.names()
+    assert listed["pong"]["group"] == "impacts" and listed["pong"]["title"] == "Pong"
 
 
 def test_help_names_every_command_and_imports_nothing_of_weight() -> None:

@@ -46,6 +46,15 @@ def run(world: LoadedWorld, *, to_first_failure: bool = False) -> list[Outcome]:
     return [item.outcome() for item in world.expectations]
 
 
+@pytest.mark.parametrize("name", library.names())
+def test_a_world_of_the_library_is_a_lesson(name: str) -> None:
+    """It lies in the folder of its group, says in a line what is seen, and in its first comment by what law."""
+    loaded = load_world(name)
+    assert [group for group, names in library.groups().items() if name in names] != ["library"]
+    assert loaded.name and loaded.description and loaded.expectations
+    assert len(library.lesson(loaded.source_text).splitlines()) >= 3
+
+
 @pytest.mark.parametrize("collision", ["auto", pytest.param("fcl", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", library.names())
 def test_expectations_hold(name: str, collision: str) -> None:

@@ -1,8 +1,9 @@
-"""Worlds: list the worlds that come with carom."""
+"""Worlds: list the worlds that come with carom, group by group."""
 
 from __future__ import annotations
 
 import argparse
+from itertools import groupby
 
 from carom.tools.commands.options import print_json
 
@@ -12,16 +13,20 @@ def declare(parser: argparse.ArgumentParser) -> None:
 
 
 def execute(arguments: argparse.Namespace) -> int:
-    """Print a line for each world of the library."""
+    """Print a line for each world of the library, group by group."""
     from carom.worlds import library
     from carom.worlds.builder import load_world
 
     listed = []
-    for name in library.names():
-        loaded = load_world(name)
-        listed.append({"name": name, "title": loaded.name, "description": loaded.description})
+    for group, names in library.groups().items():
+        for name in names:
+            loaded = load_world(name)
+            listed.append({"name": name, "group": group, "title": loaded.name, "description": loaded.description})
     if arguments.json:
         print_json(listed)
-    for world in listed if not arguments.json else ():
-        print(f"{world['name']:<16} {world['title']}")
+        return 0
+    for group, worlds in groupby(listed, key=lambda world: world["group"]):
+        print(group)
+        for world in worlds:
+            print(f"  {world['name']:<18} {world['description'] or world['title']}")
     return 0
