@@ -128,6 +128,7 @@ class _Mujoco:
         if name in self.links:
             received = f"{name}, also at line {self.links[name].element.line}"
             self.reading.fault(element, "two bodies of one name", received=received)
+            return
         link = Link(element, name, pose.then(self.compiler.pose(element)))
         link.gravity_scale = 1.0 - self.reading.number(element, "gravcomp", 0.0)
         self.links[name] = link

@@ -151,6 +151,8 @@ class Geoms:
         self.met[pair] += 1
         piece.layer = layer_of(pair)
         slides, *_ = read.numbers(element, "friction", 3, (1.0, 0.005, 0.0001), fewer=True)
+        if slides < 0.0:
+            read.fault(element, "friction must be at least 0", received=f"{slides:g}")
         piece.material = {"friction": {"value": slides, "combine": "max"}}
         dimensions = read.whole(element, "condim", 3)
         if dimensions == 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -41,7 +42,11 @@ class Joints:
         at = link.pose.point(self.reading.numbers(element, "pos", 3, (0.0, 0.0, 0.0)))
         connection = Connection(element, name, carrier, link.name, at=at, ball=True)
         if self.limited(element):
-            connection.swing = self.compiler.angle(self.reading.numbers(element, "range", 2)[1])
+            greatest = self.compiler.angle(self.reading.numbers(element, "range", 2)[1])
+            connection.swing = min(greatest, math.pi)
+            if greatest <= 0.0:
+                received = element.attributes.get("range", "")
+                self.reading.fault(element, "a ball has no range to move in", received=received)
             self.report.approximate(element, "the range of a ball, as its swing without its twist", name)
         for key in ("damping", "stiffness"):
             if self.reading.numbers(element, key, 1, (0.0,))[0]:

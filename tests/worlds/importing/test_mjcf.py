@@ -196,3 +196,16 @@ def test_land_is_as_high_as_in_mujoco(tmp_path: Path) -> None:
     for x, y, height in ((0.0, 0.0, 2.5), (1.999, -2.999, 5.0), (-1.999, 2.999, 0.0)):
         hit = space.cast_ray((10.0 + x, 50.0, -y), (0.0, -1.0, 0.0))
         assert hit is not None and 50.0 - hit.distance == pytest.approx(1.0 + height, abs=1e-2)
+
+
+def test_faults_of_bodies_are_told_together(tmp_path: Path) -> None:
+    """Two of one name in each other, which must not be walked round for ever, and values that nothing can have."""
+    text = mujoco("""<body name="b"><body name="b"><geom size="1"/></body></body>
+<body name="c"><joint name="j" type="ball" range="0 0"/><geom size="1" friction="-1"/></body>""")
+    with pytest.raises(WorldError) as fault:
+        imported(tmp_path, text)
+    assert [str(one).partition(": ")[2] for one in fault.value.faults] == [
+        "<body>: two bodies of one name; received b, also at line 1",
+        "<joint>: a ball has no range to move in; received 0 0",
+        "<geom>: friction must be at least 0; received -1",
+    ]
