@@ -60,10 +60,11 @@ def bounced(h, ax, ay, az, px, py, pz, vx, vy, vz, nx, ny, nz, offset, restituti
     px, py, pz = px + since * vx + square * ax, py + since * vy + square * ay, pz + since * vz + square * az
     vx, vy, vz = vx + since * ax, vy + since * ay, vz + since * az
     depth = nx * px + ny * py + nz * pz - offset
-    sunk = smaller(none, depth)
-    px, py, pz = px - sunk * nx, py - sunk * ny, pz - sunk * nz
-    push = choose(-depth, larger(none, -(nx * vx + ny * vy + nz * vz)), none)
-    vx, vy, vz = pushed(push, friction, vx, vy, vz, nx, ny, nz)
+    if some(-depth):
+        sunk = smaller(none, depth)
+        px, py, pz = px - sunk * nx, py - sunk * ny, pz - sunk * nz
+        push = choose(-depth, larger(none, -(nx * vx + ny * vy + nz * vz)), none)
+        vx, vy, vz = pushed(push, friction, vx, vy, vz, nx, ny, nz)
     return px, py, pz, vx, vy, vz
 
 
