@@ -44,6 +44,7 @@ class Watching:
         self._known: dict[Path, Stamp] = {path: None}
         self._seen: dict[Path, Stamp] = {}
         self._looked = clock() - INTERVAL
+        self._loaded = False
 
     def begin(self, simulation: Simulation) -> None:
         """Have seen everything before the run."""
@@ -72,10 +73,12 @@ class Watching:
         try:
             loaded = self._load()
         except CaromError as fault:
-            print(f"{fault}\nwhat was loaded before is kept", file=sys.stderr, flush=True)
+            kept = "what was loaded before is kept" if self._loaded else "it is tried again when it is saved"
+            print(f"{fault}\n{kept}", file=sys.stderr, flush=True)
             self._follow(fault.files if isinstance(fault, WorldError) else (), began)
             return None
         self._follow(loaded.files.values(), began)
+        self._loaded = True
         return loaded
 
     def told(self) -> str:

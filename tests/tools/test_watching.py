@@ -157,6 +157,18 @@ def test_runs_follow_each_other_until_ctrl_c(folder: Path, capsys: pytest.Captur
     assert capsys.readouterr().err == 2 * f"watching {path} and 1 file that it names; Ctrl-C ends\n"
 
 
+def test_a_world_that_is_broken_at_first_is_waited_for(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Nothing is kept then, and nothing ends."""
+    path = folder / "w.yaml"
+    path.write_text("carom: 1\nspeed: 3\n")
+    hands = Hands(lambda: None, lambda: None, lambda: path.write_text(WORLD.replace("HEIGHT", "4")))
+    watching = Watching(path, lambda: load_world(path), clock=lambda: hands.now, sleep=hands.sleep)
+    assert height(watching.wait()) == 4.0
+    told = capsys.readouterr().err.split("\n")
+    assert told[0].startswith(f"{path}:2:1: speed: unknown key; received 'speed'; accepted: carom, name, ")
+    assert told[1:] == ["it is tried again when it is saved", ""]
+
+
 def test_watching_and_comparing_do_not_go_together(capsys: pytest.CaptureFixture[str]) -> None:
     """Said in one line."""
     assert main(["run", "bounce", "--watch", "--compare", "integrator=euler,verlet"]) == 2
