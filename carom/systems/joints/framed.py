@@ -88,10 +88,12 @@ def _way(joint: Joint, slot: int) -> Any:
     mode, kind = int(joint.mode[slot]), LinearWay if slot < 3 else AngularWay
     lower, upper, friction = (float(getattr(joint, name)[slot]) for name in ("lower", "upper", "friction"))
     motor = motor_of(joint, slot) if joint.driven[slot] else None
-    limits = None if mode == FREE else (lower, upper)
+    bound: dict[str, Any] = {} if mode == FREE else {"limits": (lower, upper)}
+    if mode != FREE and math.isinf(lower) != math.isinf(upper):
+        bound = {"upper": upper} if math.isinf(lower) else {"lower": lower}
     if mode != LIMITED and motor is None and not friction and not (lower or upper):
         return generic.FREE if mode == FREE else generic.LOCKED
-    return kind(limits=limits, motor=motor, friction=friction)
+    return kind(**bound, motor=motor, friction=friction)
 
 
 def motor_of(joint: Joint, slot: int) -> Any:

@@ -69,8 +69,24 @@ class Way(Stated):
     """What bounds b in one way."""
 
     limits: Limits | None
+    lower: float | None
+    upper: float | None
     motor: Any
     friction: float
+
+    def faults(self) -> Iterator[tuple[Steps, str]]:
+        """Yield which bound is stated twice."""
+        alone = [name for name in ("lower", "upper") if getattr(self, name) is not None]
+        if len(alone) == 2:
+            yield (), "states lower and upper; state limits: [lower, upper]"
+        elif alone and self.limits is not None:
+            yield (alone[0],), "is stated beside limits; state one of them"
+
+    def interval(self) -> Limits | None:
+        """Return the least and the greatest place, one of which may be infinite; None where nothing bounds it."""
+        if self.lower is self.upper is None:
+            return self.limits
+        return -math.inf if self.lower is None else self.lower, math.inf if self.upper is None else self.upper
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,6 +94,8 @@ class LinearWay(Way):
     """How b may move along one axis; what is not stated bounds nothing."""
 
     limits: Limits | None = bounds(unit="m", doc="least and greatest place")
+    lower: float | None = parameter(unit="m", doc="least place where there is no greatest", default=None)
+    upper: float | None = parameter(unit="m", doc="greatest place where there is no least", default=None)
     motor: LinearMotor | None = part(LinearMotor, doc="drives along it")
     friction: float = parameter(unit="N", doc="greatest force of friction", default=0.0, least=0.0)
 
@@ -87,6 +105,8 @@ class AngularWay(Way):
     """How b may turn about one axis; what is not stated bounds nothing."""
 
     limits: Limits | None = bounds(unit="rad", doc="least and greatest angle")
+    lower: float | None = parameter(unit="rad", doc="least angle where there is no greatest", default=None)
+    upper: float | None = parameter(unit="rad", doc="greatest angle where there is no least", default=None)
     motor: AngularMotor | None = part(AngularMotor, doc="turns about it")
     friction: float = parameter(unit="N m", doc="greatest torque of friction", default=0.0, least=0.0)
 
@@ -130,7 +150,7 @@ class Ways:
     def follow(self, slot: int, way: Way) -> None:
         """Let a way be all that is stated of it."""
         self._set(slot, mode=FREE)
-        self.limit(slot, way.limits)
+        self.limit(slot, way.interval())
         self.drive(slot, way.motor)
         self.rub(way.friction, slot)
 
