@@ -10,7 +10,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.bodies import centers_of_mass, dynamic_rows
 from carom.systems.forces.law import Forces
 from carom.systems.forces.springs import spring_energy
-from carom.systems.kernels.observing import find_kinetic_energies, find_weights
+from carom.systems.kernels.observing import find_kinetic_energies, find_weights, sum_energies
 from carom.systems.settings import Settings
 
 
@@ -43,13 +43,33 @@ def potential_energies(world: World) -> dict[str, float]:
         find_weights(
             rows, body.mass, body.gravity_scale, body.center_of_mass, pose.position, pose.rotation, gravity, weights
         )
-    energies = {"gravity": float(weights.sum()), "springs": spring_energy(world)}
+    return {"gravity": float(weights.sum())} | _held(world)
+
+
+def _held(world: World) -> dict[str, float]:
+    """Return what springs and force laws hold of bodies, in J, by their forces."""
+    energies = {"springs": spring_energy(world)}
     for kind, entries in world[Forces].entries.items():
         if kind.conservative:
             held = [(law, reach.rows(world)) for law, reach in entries if reach.conserves]
             with world.faces(None):
                 energies[kind.key] = sum(law.energy_of(world, rows) for law, rows in held)
     return energies
+
+
+def kinetic_and_potential(world: World) -> tuple[float, float]:
+    """Return both energies in J, but for rounding as one by one and in half the time."""
+    sums = np.empty(2)
+    with world.faces(None):
+        rows = world.row_numbers(Transform, Motion, RigidBody)
+        body, motion, pose = world[RigidBody], world[Motion], world[Transform]
+        sum_energies(
+            rows, body.inverse_mass, body.mass, body.inertia, body.principal_axes, body.gravity_scale,
+            body.center_of_mass, pose.position, pose.rotation, motion.linear, motion.angular,
+            np.array(world[Settings].gravity, np.float64), sums,
+        )  # fmt: skip
+        held = _held(world)
+    return float(sums[0]), float(sums[1]) + sum(held.values())
 
 
 def potential_energy(world: World) -> float:

@@ -11,7 +11,7 @@ from carom.ecs import World
 from carom.ecs.errors import CaromError
 from carom.ecs.relations.contact import Contact
 from carom.systems.breakpoints import Breakpoint, Met
-from carom.systems.energy import kinetic_energy, potential_energy
+from carom.systems.energy import kinetic_and_potential
 from carom.systems.simulation import Simulation
 from carom.systems.tracing import refuse_contacts
 from carom.worlds.condition import Condition, read_condition
@@ -84,7 +84,7 @@ class Rises:
 
     def met(self, world: World) -> Met | None:
         """Measure the energy of all bodies."""
-        kinetic, potential = kinetic_energy(world), potential_energy(world)
+        kinetic, potential = kinetic_and_potential(world)
         total, largest = kinetic + potential, max(self._largest, abs(kinetic), abs(potential))
         if total - self._lowest > self.amount + self.share * largest:
             return Met(f"{total:.6g} J, {total - self._lowest:.3g} J above the lowest so far, {self._lowest:.6g} J")

@@ -153,7 +153,8 @@ def _column(text: str, end: int, names: list[str], world: World) -> Term:
     unit = units[-1] if axis is not None and axis >= TURNS else units[0]
 
     def read(world: World) -> Floats:
-        values = np.asarray(getattr(world[kind], steps[-1])[rows(world)], np.float64).reshape(len(entities), size)
+        values = np.asarray(getattr(world[kind], steps[-1]).take(rows(world), axis=0), np.float64)
+        values = values.reshape(len(entities), size)
         return values if axis is None else values[:, axis : axis + 1]
 
     whole = tuple(name + text[end:] for name in names)

@@ -6,8 +6,16 @@ import numpy as np
 import pytest
 
 from carom.ecs.spatial import quaternion
-from carom.systems.energy import angular_momentum, kinetic_energy, momentum, potential_energy, total_energy
+from carom.systems.energy import (
+    angular_momentum,
+    kinetic_and_potential,
+    kinetic_energy,
+    momentum,
+    potential_energy,
+    total_energy,
+)
 from carom.systems.simulation import Simulation
+from carom.worlds import load_world
 
 SIZE, MASS = np.array([0.3, 0.5, 0.7]), 2.0
 INERTIA = MASS / 12.0 * np.array([0.25 + 0.49, 0.09 + 0.49, 0.09 + 0.25])
@@ -69,3 +77,13 @@ def test_kinematic_and_static_things_have_none() -> None:
     simulation.add(collider=box, body={"type": "kinematic"}, motion={"linear": (1.0, 0.0, 0.0)})
     assert total_energy(simulation.world) == 0.0
     assert not momentum(simulation.world).any()
+
+
+def test_both_energies_in_one_are_those_one_by_one() -> None:
+    """Turning boxes, balls off their origins, springs and what does not move, to rounding."""
+    simulation = load_world("bowling").simulation
+    simulation.step(200)
+    for world in (simulation.world, load_world("gravity_well").simulation.world):
+        kinetic, potential = kinetic_and_potential(world)
+        assert kinetic == pytest.approx(kinetic_energy(world), rel=1e-12)
+        assert potential == pytest.approx(potential_energy(world), rel=1e-12)

@@ -14,15 +14,35 @@ from carom.systems.kernels.spatial import cross, product, turn
 def find_kinetic_energies(rows, mass, inertia, principal, rotation, linear, angular, energies):
     """Write the energy of motion and rotation (n,) of bodies ``rows`` (n,)."""
     for m in range(len(rows)):
-        i = rows[m]
-        qx, qy, qz, qw = product(
-            rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-            principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
-        )  # fmt: skip
-        x, y, z = turn(-qx, -qy, -qz, qw, angular[i, 0], angular[i, 1], angular[i, 2])
-        moving = linear[i, 0] * linear[i, 0] + linear[i, 1] * linear[i, 1] + linear[i, 2] * linear[i, 2]
-        turning = inertia[i, 0] * x * x + inertia[i, 1] * y * y + inertia[i, 2] * z * z
-        energies[m] = 0.5 * (mass[i] * moving + turning)
+        energies[m] = kinetic_energy(rows[m], mass, inertia, principal, rotation, linear, angular)
+
+
+@inlined
+def kinetic_energy(i, mass, inertia, principal, rotation, linear, angular):
+    """Return the energy of motion and rotation of body i."""
+    qx, qy, qz, qw = product(
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
+        principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
+    )  # fmt: skip
+    x, y, z = turn(-qx, -qy, -qz, qw, angular[i, 0], angular[i, 1], angular[i, 2])
+    moving = linear[i, 0] * linear[i, 0] + linear[i, 1] * linear[i, 1] + linear[i, 2] * linear[i, 2]
+    turning = inertia[i, 0] * x * x + inertia[i, 1] * y * y + inertia[i, 2] * z * z
+    return 0.5 * (mass[i] * moving + turning)
+
+
+@kernel("sums")
+def sum_energies(
+    rows, inverse_mass, mass, inertia, principal, scale, center_of_mass, position, rotation, linear, angular, gravity,
+    sums,
+):  # fmt: skip
+    """Write the kinetic energy and the weights of all bodies ``rows`` (n,) that can be pushed, as two sums."""
+    moving, held, gx, gy, gz = 0.0, 0.0, gravity[0], gravity[1], gravity[2]
+    for i in rows.view(np.uint64):  # without sign: none counts from the end
+        if inverse_mass[i] > 0.0:
+            moving += kinetic_energy(i, mass, inertia, principal, rotation, linear, angular)
+            x, y, z = centre(i, position, rotation, center_of_mass)
+            held -= mass[i] * scale[i] * (x * gx + y * gy + z * gz)
+    sums[0], sums[1] = moving, held
 
 
 @kernel("energies")
@@ -97,4 +117,6 @@ def compile_observing() -> None:
     bodies, told = (vectors, turns, vectors, vectors, vectors), (places, places, np.zeros(0, np.float32))
     contacts = numbers, numbers, numbers, vectors, vectors
     find_closing_speeds(*contacts, np.zeros(0, np.bool_), ids, ids, numbers, *bodies, *told)
+    one, sums = np.zeros(0), np.zeros(2)
+    sum_energies(numbers, one, one, vectors, turns, one, vectors, vectors, turns, vectors, vectors, np.zeros(3), sums)
     note_poses(numbers, vectors, turns, numbers, places, orientations, places, orientations, np.zeros(0, np.bool_))
