@@ -13,6 +13,7 @@ import trimesh
 from carom.ecs import CaromError, Component, first_difference, state_hash, system
 from carom.ecs.column import Floats, column
 from carom.systems.compound import StatedBodies
+from carom.systems.settings import Random
 from carom.systems.shapes import SHAPES
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.simulation import Simulation
@@ -120,6 +121,21 @@ def test_meshes_hulls_and_land_are_written_triangle_by_triangle() -> None:
     for one, other in pairs:
         np.testing.assert_array_equal(one.vertices, other.vertices)
         np.testing.assert_array_equal(one.faces, other.faces)
+
+
+def test_the_generator_is_told_by_how_far_it_has_gone() -> None:
+    """Draws are counted from the seed; half of a draw that is left over is state."""
+    simulation = Simulation(seed=3)
+    simulation.world[Random].generator.uniform(size=1_000_007)
+    assert world_text(simulation) == "carom: 1\nseed: 3\ndrawn: 1000007\n"
+    simulation.world[Random].generator.integers(10, dtype=np.int32)
+    text = world_text(simulation)
+    assert STATE in text
+    again = loaded_as(simulation, text)
+    drawn = [
+        one.world[Random].generator.integers(1 << 30, size=5, dtype=np.int32).tolist() for one in (simulation, again)
+    ]
+    assert drawn[0] == drawn[1]
 
 
 def test_model_files_are_named_and_laid_beside(tmp_path: Path) -> None:
