@@ -22,6 +22,7 @@ COMMANDS = (
     "salvage",
     "render",
     "check",
+    "fmt",
     "test",
     "accept",
     "worlds",
