@@ -17,6 +17,7 @@ COMMANDS = (
     "diff",
     "bisect",
     "why",
+    "fork",
     "shrink",
     "query",
     "salvage",

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any
-
-from pydantic import TypeAdapter
+from typing import Any
 
 from carom.ecs.errors import CaromError
 from carom.worlds.builder import LoadedWorld, load_world
 from carom.worlds.check import check
 from carom.worlds.errors import WordError, WorldError
-from carom.worlds.generated import setting_fields
+from carom.worlds.generated import setting_types
 from carom.worlds.names import known
 from carom.worlds.reader import read
 from carom.worlds.source import Source
@@ -23,7 +21,7 @@ FORM = "a setting and two or more values, such as integrator=euler,semi_implicit
 def read_comparison(text: str) -> tuple[str, list[tuple[str, Any]]]:
     """Return a setting and its values, each behind the word for it; raise CaromError for all that is wrong."""
     name, sign, values = text.partition("=")
-    settings = setting_fields(in_step=True) | setting_fields(in_step=False)
+    settings = setting_types()
     try:
         if not sign:
             raise WordError("is no comparison", received=repr(text), accepted=FORM)
@@ -33,11 +31,8 @@ def read_comparison(text: str) -> tuple[str, list[tuple[str, Any]]]:
             raise WordError("compares fewer than two different values", received=repr(text), accepted=FORM)
     except WordError as fault:
         raise CaromError(fault.line(OPTION)) from None
-    kind, field = settings[name]
     source = Source(OPTION, "")
-    declared: Any = Annotated[kind, field]
-    adapter: TypeAdapter[Any] = TypeAdapter(declared)
-    taken = [(f"{name}={value}", check(source, adapter, value, (f"{name}={value}",))) for value in stated]
+    taken = [(f"{name}={value}", check(source, settings[name], value, (f"{name}={value}",))) for value in stated]
     if source.faults:
         raise WorldError([replace(fault, line=0, column=0) for fault in source.faults])
     return name, taken

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,6 +24,18 @@ MOST_PATHS = 100  # bodies: of more nobody could tell the paths apart, and only 
 ROUNDING = 1e-12  # of an energy: a smaller change is none
 
 
+class Parting(NamedTuple):
+    """Where a future is first elsewhere than the one that is shown: who is farthest then, by how much (m)."""
+
+    frame: int
+    time: float
+    entity: str
+    metres: float
+
+    def __str__(self) -> str:
+        return f"frame {self.frame} at {self.time:.6g} s: '{self.entity}' by {self.metres:.3g} m"
+
+
 class Future(Ghost):
     """One of several runs; the first of them is the one that is shown, and casts no ghost but its path."""
 
@@ -32,21 +45,37 @@ class Future(Ghost):
         self.color = red, green, blue
         self.energy_before = total_energy(simulation.world)
         self.ended: NonFiniteError | None = None
+        self.parting: Parting | None = None
         self._earlier = EarlierPoses()
         self._path: list[Floats] = []
 
-    def follow(self, shown: World, time: float) -> None:
+    def follow(self, shown: World, time: float, before: Callable[[Simulation], None] | None = None) -> None:
         """Take the steps that lead to a time (s), and note where bodies are then; one that explodes stays behind."""
         simulation = self.simulation
         while not self.first and self.ended is None and simulation.time < time - SAME_TIME:
             self._earlier.keep(simulation.world)
+            if before is not None:
+                before(simulation)
             try:
                 simulation.step()
             except NonFiniteError as fault:
                 self.ended = fault
-        bodies = dynamic_rows(shown)
+        bodies, poses = dynamic_rows(shown), self.poses(shown, shown[Transform], time)
         self._path = self._path if len(bodies) <= MOST_PATHS else []
-        self._path.append(self.places(shown, time)[bodies])
+        self._path.append(poses.position[bodies])
+        if self.parting is None and self.ended is None:
+            self._look(shown, bodies, poses, time)
+
+    def _look(self, shown: World, bodies: Integers, poses: Transform, time: float) -> None:
+        """Note where any body is elsewhere, or turned otherwise, for the first time."""
+        here = shown[Transform]
+        moved, turned = poses.position[bodies] != here.position[bodies], poses.rotation[bodies] != here.rotation[bodies]
+        apart = moved.any(axis=1) | turned.any(axis=1)
+        if apart.any():
+            away = np.linalg.norm(poses.position[bodies] - here.position[bodies], axis=1)
+            worst = int(np.where(apart, away, -1.0).argmax())
+            name = shown.name(shown.entity(int(bodies[worst])))
+            self.parting = Parting(shown.frame, time, name, float(away[worst]))
 
     def rows(self, world: World) -> Integers:
         """Return the bodies that obey forces, and what belongs to them."""
@@ -94,9 +123,15 @@ class Outcome:
 
 
 class Futures:
-    """The observer that lets further futures follow the first; it comes before all who look at them."""
+    """The observer that lets further futures follow the first; it comes before all who look at them.
 
-    def __init__(self, named: Sequence[tuple[str, Simulation]]) -> None:
+    ``before`` is done to each of these before each of its steps.
+    """
+
+    def __init__(
+        self, named: Sequence[tuple[str, Simulation]], before: Callable[[Simulation], None] | None = None
+    ) -> None:
+        self._before = before
         self.futures = [Future(name, number, simulation) for number, (name, simulation) in enumerate(named)]
         self.futures[0].simulation.world.add(Ghosts(self.futures))
 
@@ -107,7 +142,7 @@ class Futures:
     def observe(self, simulation: Simulation) -> None:
         """Let the others come as far."""
         for future in self.futures:
-            future.follow(simulation.world, simulation.time)
+            future.follow(simulation.world, simulation.time, self._before)
 
     def end(self, simulation: Simulation) -> None:
         """Have nothing to finish."""

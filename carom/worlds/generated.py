@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
-from pydantic import Field, create_model
+from pydantic import Field, TypeAdapter, create_model
 
 from carom.ecs import Combine, Material
 from carom.ecs.column import Column
@@ -218,6 +218,13 @@ def setting_fields(*, in_step: bool) -> Fields:
             kind = _hinted(hints[field.name], unit, width=width, whole=whole, **bounds)
             fields[field.name] = (kind, Field(field.default, description=f"default {field.default}"))
     return fields
+
+
+def setting_types() -> dict[str, TypeAdapter[Any]]:
+    """Return what reads the value of each setting by its name, wherever it stands in a file."""
+    fields = setting_fields(in_step=True) | setting_fields(in_step=False)
+    declared: dict[str, Any] = {name: Annotated[kind, field] for name, (kind, field) in fields.items()}
+    return {name: TypeAdapter(kind) for name, kind in declared.items()}
 
 
 def material_model() -> type[Words]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,11 +38,20 @@ FIRST_KINDS = (
 Read = Callable[[World], Floats]
 
 
+class Place(NamedTuple):
+    """A column, or one component of it."""
+
+    kind: type[Component]
+    name: str
+    axis: int | None
+
+
 @dataclass(frozen=True)
 class Term:
     """A value of one or several entities; ``read`` returns it for each, shape (entities, size), in ``unit``.
 
-    ``entities`` are whom its values are of, where each is of one; ``looks`` is whether it is asked of a picture.
+    ``entities`` are whom its values are of, where each is of one; ``looks`` is whether it is asked of a picture;
+    ``place`` is the column that it reads, where it reads one.
     """
 
     text: str
@@ -51,6 +61,7 @@ class Term:
     read: Read
     entities: tuple[Entity, ...] = ()
     looks: bool = False
+    place: Place | None = None
 
 
 class _Rows:
@@ -158,7 +169,8 @@ def _column(text: str, end: int, names: list[str], world: World) -> Term:
         return values if axis is None else values[:, axis : axis + 1]
 
     whole = tuple(name + text[end:] for name in names)
-    return Term(text, unit, 1 if axis is not None else size, whole, read, tuple(entities))
+    place = Place(kind, steps[-1], axis)
+    return Term(text, unit, 1 if axis is not None else size, whole, read, tuple(entities), place=place)
 
 
 def _kinds(world: World, entity: Entity, *steps: str) -> type[Component]:
