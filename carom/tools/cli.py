@@ -27,6 +27,7 @@ COMMANDS = (
     "test",
     "accept",
     "worlds",
+    "gallery",
     "explain",
     "doctor",
     "bench",

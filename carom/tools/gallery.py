@@ -1,68 +1,93 @@
-"""Gallery: worlds of the library as one page, each with its film, its lesson and what it expects."""
+"""Gallery: worlds of the library on one page that needs nothing but itself, each with film, law and expectations."""
 
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from html import escape
 from importlib.resources import files
+from itertools import groupby
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from carom.systems.simulation import Simulation
-from carom.tools.film import Film, Picture
-from carom.tools.filming import Photographing, Shot, shot_of
-from carom.tools.session import Summary, run
-from carom.worlds.builder import LoadedWorld
+from carom.tools.filming import shot_of
+from carom.tools.glimpse import Glimpse
+from carom.tools.session import run
+from carom.worlds.builder import load_world
 from carom.worlds.expectation import Outcome
 from carom.worlds.library import lesson
 
-WIDTH = 320  # of the films, px
-RATE, MOST = 12.0, 64  # pictures a second, and how many a film has at most
+WIDTH = 360  # of films, px
 
 
 @dataclass(frozen=True)
 class Card:
-    """What the page shows of a world: the moments of its film as WebP, its text, and what became of its run."""
+    """What the page tells of a world: its file, a film (WebP) with its speed, and what became of its expectations."""
 
-    name: str
     group: str
+    name: str
+    title: str
+    description: str
+    source: str
     film: bytes
-    loaded: LoadedWorld
-    summary: Summary
+    speed: float
+    outcomes: list[Outcome]
 
     @property
-    def outcomes(self) -> list[Outcome]:
-        """Return what became of each expectation."""
-        return [item.outcome() for item in self.loaded.expectations]
+    def held(self) -> bool:
+        """Whether all that the world expects has held."""
+        return all(outcome.held for outcome in self.outcomes)
 
 
-class Glimpse(Photographing):
-    """Films a run of unknown length in few pictures: once they are too many every other one goes.
+def card(group: str, name: str) -> Card:
+    """Run a world of the library and return its card."""
+    loaded = load_world(name)
+    shot = shot_of(loaded)
+    shot = replace(shot, width=WIDTH, height=round(WIDTH * shot.height / shot.width))
+    with TemporaryDirectory() as folder:
+        path = Path(folder, "film.webp")
+        glimpse = Glimpse(shot, path, loaded.run.frames)
+        run(loaded, [glimpse])
+        film = path.read_bytes()
+    outcomes = [item.outcome() for item in loaded.expectations]
+    return Card(group, name, loaded.name, loaded.description, loaded.source_text, film, glimpse.speed, outcomes)
 
-    From then on the interval is twice as long, so that the film shows the whole run, the faster the longer that takes.
-    """
 
-    def __init__(self, shot: Shot, path: Path) -> None:
-        super().__init__(shot, self._moments())
-        self._path, self._pictures, self._interval = path, list[Picture](), 1.0 / RATE
+def page(cards: Sequence[Card]) -> str:
+    """Return the page (HTML) of cards, which come group by group."""
+    template = files("carom.tools").joinpath("gallery.html").read_text(encoding="utf-8")
+    sections = [(group, list(members)) for group, members in groupby(cards, key=lambda one: one.group)]
+    links = "".join(f'<a href="#{escape(group)}">{escape(group)}</a>' for group, _ in sections)
+    body = "\n".join(
+        f'<h2 id="{escape(group)}">{escape(group)}</h2>\n' + "\n".join(_article(one) for one in members)
+        for group, members in sections
+    )
+    return template.replace("{{links}}", links).replace("{{worlds}}", body)
 
-    def _moments(self) -> Iterator[float]:
-        number = 0
-        while True:
-            yield number * self._interval
-            number = len(self._pictures)
 
-    def take(self, picture: Picture) -> None:
-        """Keep the picture."""
-        self._pictures.append(picture)
-        if len(self._pictures) == MOST:
-            self._pictures, self._interval = self._pictures[::2], 2.0 * self._interval
+def _article(card: Card) -> str:
+    rows = "".join(_row(outcome) for outcome in card.outcomes)
+    count = f"{sum(outcome.held for outcome in card.outcomes)} of {len(card.outcomes)} expectations held"
+    return (
+        f'<article id="{escape(card.name)}"><h3>{escape(card.title)} <i>{escape(card.name)}</i></h3>'
+        f"<p>{escape(card.description)}</p>"
+        f'<div class="seen"><figure><img alt="{escape(card.title)}" src="data:image/webp;base64,'
+        f'{b64encode(card.film).decode()}"><figcaption>{_times(card.speed)}</figcaption></figure>'
+        f"<pre>{escape(lesson(card.source))}</pre></div>"
+        f'<details{"" if card.held else " open"}><summary class="{"held" if card.held else "failed"}">{count}</summary>'
+        f"<table><tr><th></th><th>expectation</th><th>expected</th><th>received</th></tr>{rows}</table></details>"
+        f"<details><summary>the world file</summary><pre>{escape(card.source)}</pre></details>"
+        f"<code>carom run {escape(card.name)}</code></article>"
+    )
 
-    def end(self, simulation: Simulation) -> None:
-        """Write the film."""
-        super().end(simulation)
-        with Film(self._path, self._shot.width, self._shot.height, RATE) as film:
-            for picture in self._pictures:
-                film.add(picture)
+
+def _row(outcome: Outcome) -> str:
+    verdict = "held" if outcome.held else "failed"
+    cells = "".join(f"<td>{escape(text)}</td>" for text in (outcome.text, outcome.expected, outcome.received))
+    return f'<tr><td class="{verdict}">{verdict}</td>{cells}</tr>'
+
+
+def _times(speed: float) -> str:
+    rounded = float(f"{speed:.2g}")
+    return "as fast as it is" if rounded == 1.0 else f"{rounded:,.10g} times as fast as it is"
