@@ -63,6 +63,7 @@ class Values(AtMoment):
         self, key: str, words: Any, world: World, *, frame: int | None = None, when: Event | None = None
     ) -> None:
         self.column = key
+        self.found: Floats | None = None  # what failed
         self.term: Term | None = None
         columns = when.kind.columns if when is not None else {}
         told = {name: column for name, column in columns.items() if column.dtype.kind == "f"}
@@ -90,7 +91,16 @@ class Values(AtMoment):
         index = int(np.argmax(errors))
         self.worst = f"{names[index]} = {numbers(values[index])} {self.target.unit}, off by {errors[index]:.3g}"
         if not errors[index] <= self.target.within:
+            self.found = np.atleast_1d(values[index])
             self.fail(simulation, self.worst)
+
+    def fails_like(self, other: Expectation) -> bool:
+        """Tell whether both have failed of the same, by values that are the same as far as this can tell."""
+        if not super().fails_like(other) or not isinstance(other, Values):
+            return False
+        if self.found is None or other.found is None:
+            return self.found is other.found
+        return bool(np.linalg.norm(self.found - other.found) <= self.target.within)
 
 
 def read_values(words: dict[str, Any], world: World, **moment: Any) -> Iterable[tuple[str, Expectation | WordError]]:

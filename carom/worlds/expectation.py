@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from carom.systems.simulation import Simulation
+
+NUMBERS = re.compile(r"\[[\d,]+\]|(?<![\w.-])(?:[-+]?\d[\d.]*(?:e[-+]?\d+)?|nan|-?inf)")
 
 
 @dataclass(frozen=True)
@@ -63,6 +66,17 @@ class Expectation:
     def settled(self) -> bool:
         """Whether nothing that is still to come can change what becomes of it."""
         return self.failure is not None
+
+    def fails_like(self, other: Expectation) -> bool:
+        """Tell whether this and another, perhaps of another world, have failed of the same: in words and in manner.
+
+        The manner is what was received, but for numbers and those of copies: another two that overlap, or a strike that
+        never comes where one came at a wrong time, are another failure.
+        """
+        if self.failure is None or other.failure is None:
+            return False
+        same = (self.text, self.expected) == (other.text, other.expected)
+        return same and NUMBERS.sub("", self.failure[0]) == NUMBERS.sub("", other.failure[0])
 
     def outcome(self) -> Outcome:
         """Return what became of it."""

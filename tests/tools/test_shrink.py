@@ -12,7 +12,7 @@ import pytest
 from carom.tools.cli import main
 from carom.tools.shrinking.shrink import shrink
 from carom.tools.shrinking.tree import Edit, edited, nodes, owner, shorter_numbers
-from carom.worlds import load_world
+from carom.worlds import load_text, load_world
 from carom.worlds.reader import read
 
 FORTY = """carom: 1
@@ -111,6 +111,26 @@ expect:
     shrunk = shrink(str(path), tmp_path / "small.yaml")
     assert (shrunk.after.entities, shrunk.after.frames) == (2, 31), "it is noted in the step that begins with it"
     assert "time = 0.5 s" in shrunk.outcome
+
+
+def test_a_wrong_value_stays_the_value_it_was(tmp_path: Path) -> None:
+    """The ball falls 9.0 t^2 / 2, not 9.81: that gravity is what is left, although any other height is wrong as well."""
+    path = tmp_path / "fall.yaml"
+    path.write_text("""carom: 1
+gravity: [0, -9.0, 0]
+materials: {rubber: {restitution: 0.9}}
+entities:
+  - {name: ball, collider: {sphere: {radius: 0.05}}, body: {mass: 0.3}, material: rubber, transform: {position: [0, 5, 0]}}
+  - {name: floor, collider: {plane: {}}, transform: {position: [0, -3, 0]}}
+expect:
+  - {at: 1 s, ball.position.y: {is: 0.095, within: 1 mm}}
+""")
+    shrunk = shrink(str(path), tmp_path / "small.yaml")
+    small = load_text(shrunk.text)
+    assert small.simulation.settings.gravity == (0, -9, 0) and small.simulation.world.names() == ["ball"]
+    (ball,) = small.document["entities"]
+    assert ball == {"name": "ball", "body": {"mass": 0.3}, "transform": {"position": [0, 5, 0]}}
+    assert shrunk.after.frames == 60 and "ball.position.y = 0.5 m" in shrunk.outcome
 
 
 def test_a_tree_is_cut_by_its_paths() -> None:

@@ -16,7 +16,7 @@ from carom.ecs.errors import CaromError, NonFiniteError
 from carom.tools.interrupt import deferred_interrupt
 from carom.tools.session import progress_bar
 from carom.tools.shrinking.tree import Edit, edited, leaves, lower_counts, nodes, shorter_numbers
-from carom.tools.shrinking.trials import Failure, Trials, watch
+from carom.tools.shrinking.trials import Trials, watch
 from carom.worlds import library
 from carom.worlds.builder import LoadedWorld, load_world
 from carom.worlds.emit import emit
@@ -87,16 +87,16 @@ def shrink(world: str, out: Path, *, expect: int | None = None, trials: int = 10
                 raise
         number = _number(loaded, world, expect)
         chosen = loaded.expectations[number - 1]
-        made = Trials(Failure.of(chosen), str(out), library.find(world).parent, trials, check)
+        made = Trials(chosen, str(out), library.find(world).parent, trials, check)
         whole = {key: value for key, value in loaded.source.data.items() if key != "include"}
         shrinking = _Shrinking(made, [whole, read(loaded.source_text, world).data], bar)
         complete = shrinking.all()
     before = _size(whole, loaded, loaded.simulation.frame)
-    [final] = made.failure.expectations(shrinking.loaded)[:1]
-    after = _size(shrinking.tree, shrinking.loaded, shrinking.loaded.simulation.frame)
+    small = shrinking.found
+    after = _size(small.tree, small.loaded, small.loaded.simulation.frame)
     others = sum(not one.held for one in loaded.expectations) - 1
-    text = emit(shrinking.tree)
-    outcome = str(final.outcome())
+    text = emit(small.tree)
+    outcome = str(small.failed.outcome())
     return Shrunk(world, str(out), number, outcome, before, after, made.made, complete, text, others)
 
 
@@ -140,7 +140,7 @@ class _Shrinking:
         found = next((found for tree in trees if (found := trials.attempt(tree)) is not None), None)
         if found is None:
             raise CaromError("written anew the world does not fail in the same manner, so that it cannot be shrunk")
-        self.tree, self.loaded = found
+        self.found = found
 
     def all(self) -> bool:
         """Do everything until nothing changes; tell whether that came before the last trial."""
@@ -157,18 +157,18 @@ class _Shrinking:
 
     def _reduce(self, propose: Propose) -> bool:
         """Make as many of the proposed edits as can be made, in chunks that become smaller; tell whether any could."""
-        edits, changed = propose(self.tree), False
+        edits, changed = propose(self.found.tree), False
         size = len(edits)
         while size:
             start = 0
             while start < len(edits):
-                found = self.trials.attempt(edited(self.tree, edits[start : start + size]))
+                found = self.trials.attempt(edited(self.found.tree, edits[start : start + size]))
                 if found is None:
                     start += size
                 else:
-                    self.tree, self.loaded = found
-                    edits, changed = propose(self.tree), True
-                    self.bar.set_postfix(entities=len(self.loaded.places))
+                    self.found = found
+                    edits, changed = propose(self.found.tree), True
+                    self.bar.set_postfix(entities=len(found.loaded.places))
                 self.bar.update(self.trials.made - self.bar.n)
             size = min(size, len(edits)) // 2
         return changed

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from pathlib import Path
@@ -20,28 +19,6 @@ from carom.worlds.errors import WorldError
 from carom.worlds.expect import Expectation
 
 MOST_MENDS = 8  # rounds in which those go who name who is gone
-NUMBERS = re.compile(r"\[[\d,]+\]|(?<![\w.-])(?:[-+]?\d[\d.]*(?:e[-+]?\d+)?|nan|-?inf)")
-
-
-class Failure(NamedTuple):
-    """What fails: the words of an expectation, and the manner: what it received, but for numbers and those of copies.
-
-    Another two that overlap, or a strike that never comes where one came at a wrong time, are another manner.
-    """
-
-    text: str
-    expected: str
-    manner: str
-
-    @classmethod
-    def of(cls, expectation: Expectation) -> Failure:
-        """Return that of an expectation, which has failed."""
-        assert expectation.failure is not None
-        return cls(expectation.text, expectation.expected, NUMBERS.sub("", expectation.failure[0]))
-
-    def expectations(self, loaded: LoadedWorld) -> list[Expectation]:
-        """Return the expectations of a world that say the same."""
-        return [one for one in loaded.expectations if (one.text, one.expected) == (self.text, self.expected)]
 
 
 def watch(loaded: LoadedWorld, expectations: list[Expectation], check: Callable[[], None]) -> None:
@@ -65,15 +42,23 @@ def watch(loaded: LoadedWorld, expectations: list[Expectation], check: Callable[
             raise
 
 
+class Found(NamedTuple):
+    """A world in which the same fails, as data and as it was then."""
+
+    tree: dict[str, Any]
+    loaded: LoadedWorld
+    failed: Expectation
+
+
 class Trials:
     """Tries worlds as data, at most ``most``, each once; ``left`` is how many may still be tried."""
 
-    def __init__(self, failure: Failure, name: str, folder: Path, most: int, check: Callable[[], None]) -> None:
-        self.failure, self.left, self.made = failure, most, 0
+    def __init__(self, failed: Expectation, name: str, folder: Path, most: int, check: Callable[[], None]) -> None:
+        self.failed, self.left, self.made = failed, most, 0
         self._name, self._folder, self._check = name, folder, check
         self._known: set[str] = set()
 
-    def attempt(self, tree: dict[str, Any]) -> tuple[dict[str, Any], LoadedWorld] | None:
+    def attempt(self, tree: dict[str, Any]) -> Found | None:
         """Return a world in which the same fails, with the shortest run in which it does; None where it does not.
 
         It is what was asked for without those who name who is not there.
@@ -86,15 +71,17 @@ class Trials:
         if mended is None:
             return None
         tree, loaded = mended
-        judged = self.failure.expectations(loaded)
+        judged = [
+            one for one in loaded.expectations if (one.text, one.expected) == (self.failed.text, self.failed.expected)
+        ]
         with suppress(NonFiniteError):  # what failed before has failed
             watch(loaded, judged, self._check)
-        failed = [one.failure for one in judged if one.failure is not None and Failure.of(one) == self.failure]
-        if not failed:
+        failed = next((one for one in judged if one.fails_like(self.failed)), None)
+        if failed is None or failed.failure is None:
             return None
-        frame = min(frame for _, frame, _ in failed)
-        at_the_end = not all(one.worst for one in judged)
-        return (tree if at_the_end else tree | {"run": {"frames": max(frame, 1)}}), loaded
+        if failed.worst:  # of what never came, any shorter run would tell the same
+            tree = tree | {"run": {"frames": max(failed.failure[1], 1)}}
+        return Found(tree, loaded, failed)
 
     def _mended(self, tree: dict[str, Any]) -> tuple[dict[str, Any], LoadedWorld] | None:
         for _ in range(MOST_MENDS):
