@@ -113,6 +113,27 @@ expect:
     assert "time = 0.5 s" in shrunk.outcome
 
 
+def test_what_is_included_is_in_the_smaller_world(tmp_path: Path) -> None:
+    """Of a group and a file beside it only who matters is left; the header comes first."""
+    (tmp_path / "part.yaml").write_text("carom: 1\nentities: [{name: floor, collider: {plane: {}}}]\n")
+    path = tmp_path / "whole.yaml"
+    path.write_text("""carom: 1
+include: [part.yaml]
+entities:
+  - name: cart
+    transform: {position: [0, 1, 0]}
+    entities:
+      - {name: body, collider: {box: {size: [1, 1, 1]}}, body: {mass: 1}, motion: {linear: [3, 0, 0]}}
+      - {name: hat, collider: {sphere: {radius: 0.2}}, transform: {position: [0, 3, 0]}}
+expect:
+  - never: cart.body.position.x > 1 m
+""")
+    shrunk = shrink(str(path), tmp_path / "small.yaml")
+    assert (shrunk.before.entities, shrunk.before.frames) == (3, 300)
+    assert (shrunk.after.entities, shrunk.after.frames) == (1, 21)
+    assert shrunk.text.startswith("carom: 1\n") and "include" not in shrunk.text
+
+
 def test_a_wrong_value_stays_the_value_it_was(tmp_path: Path) -> None:
     """The ball falls 9.0 t^2 / 2, not 9.81: that gravity is what is left, although any other height is wrong as well."""
     path = tmp_path / "fall.yaml"

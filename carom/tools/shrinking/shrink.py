@@ -20,6 +20,7 @@ from carom.tools.shrinking.trials import Trials, watch
 from carom.worlds import library
 from carom.worlds.builder import LoadedWorld, load_world
 from carom.worlds.emit import emit
+from carom.worlds.header import VERSION
 from carom.worlds.reader import read
 
 DEEPEST = 12  # levels of a file that are looked at
@@ -29,7 +30,7 @@ Propose = Callable[[dict[str, Any]], list[Edit]]
 
 @dataclass
 class Size:
-    """How large a world is: what exists in it, values in its file, and frames until it fails."""
+    """How large a world is: what exists in it, values in its file, and frames of its run."""
 
     entities: int
     words: int
@@ -88,10 +89,11 @@ def shrink(world: str, out: Path, *, expect: int | None = None, trials: int = 10
         number = _number(loaded, world, expect)
         chosen = loaded.expectations[number - 1]
         made = Trials(chosen, str(out), library.find(world).parent, trials, check)
-        whole = {key: value for key, value in loaded.source.data.items() if key != "include"}
+        stated = loaded.source.data  # of all its files together
+        whole = {"carom": VERSION} | {key: value for key, value in stated.items() if key != "include"}
         shrinking = _Shrinking(made, [whole, read(loaded.source_text, world).data], bar)
         complete = shrinking.all()
-    before = _size(whole, loaded, loaded.simulation.frame)
+    before = _size(whole, loaded, loaded.run.frames)
     small = shrinking.found
     after = _size(small.tree, small.loaded, small.loaded.simulation.frame)
     others = sum(not one.held for one in loaded.expectations) - 1
