@@ -24,6 +24,7 @@ COMMANDS = (
     "render",
     "check",
     "fmt",
+    "upgrade",
     "test",
     "accept",
     "worlds",

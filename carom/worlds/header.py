@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from carom import __version__
 from carom.worlds.errors import Fault, WorldError, shown
 from carom.worlds.source import Source
 
@@ -19,6 +20,8 @@ def with_header(source: Source) -> dict[str, Any]:
         raise WorldError([*source.faults, Fault(source.name, 1, 1, "carom", "is missing", accepted=accepted)])
     if data["carom"] != VERSION or isinstance(data["carom"], bool):
         place, received = source.position(("carom",)), shown(data["carom"])
-        fault = Fault(source.name, *place, "carom", "unknown version", received, str(VERSION))
+        later = isinstance(data["carom"], (int, float)) and data["carom"] > VERSION
+        hint = f"install a later carom to read it, this is {__version__}" if later else ""
+        fault = Fault(source.name, *place, "carom", "unknown version", received, str(VERSION), hint)
         raise WorldError([*source.faults, fault])
     return data

@@ -48,7 +48,13 @@ def lint(loaded: LoadedWorld) -> list[str]:
 
 
 def unused(source: Source) -> None:
-    """Tell the names of prefabs, materials, layers and variables that the file itself defines and nobody uses.
+    """Tell the names that the file itself defines and nobody uses."""
+    for path in unused_names(source):
+        source.warn(path, "is used nowhere")
+
+
+def unused_names(source: Source) -> Iterator[tuple[str, str]]:
+    """Yield section and name of prefabs, materials, layers and variables that the file defines and nobody uses.
 
     Those of included files are there for others as well.
     """
@@ -63,7 +69,7 @@ def unused(source: Source) -> None:
     for section, names in used.items():
         for name in source.data.get(section, ()):
             if name not in names and source.home((section, name))[0] is source:
-                source.warn((section, name), "is used nowhere")
+                yield section, name
 
 
 def _words(key: str, value: Any) -> Iterator[tuple[str, str]]:

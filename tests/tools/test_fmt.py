@@ -43,3 +43,11 @@ def test_check_and_diff_write_nothing(capsys: pytest.CaptureFixture[str]) -> Non
     assert main(["fmt", "--check", "--json", "untidy.yaml"]) == 1
     assert json.loads(capsys.readouterr().out) == {"changed": [], "to_change": ["untidy.yaml"], "unread": []}
     assert Path("untidy.yaml").read_text() == UNTIDY
+
+
+def test_the_header_for_editors(capsys: pytest.CaptureFixture[str]) -> None:
+    """It is written where the schema lies beside the file."""
+    Path("carom.schema.json").write_text("{}")
+    assert main(["fmt", "tidy.yaml"]) == 0
+    assert Path("tidy.yaml").read_text() == "# yaml-language-server: $schema=carom.schema.json\n" + TIDY
+    assert main(["fmt", "--check", "tidy.yaml"]) == 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from carom.tools.cli import main
+from carom.worlds.schema import json_schema
 
 ROOT = Path(__file__).parents[2]
 
@@ -36,6 +38,10 @@ def test_a_new_project_passes_its_tests_and_its_checks(
     assert main(["check", "kite/worlds/first.yaml"]) == 0
     told = capsys.readouterr()
     assert (told.out, told.err) == ("ok     kite/worlds/first.yaml: 3 entities, 2 expectations\n", "")
+    assert main(["fmt", "--check", "kite/worlds/first.yaml"]) == 0
+    first = Path("kite/worlds/first.yaml").read_text().partition("\n")[0]
+    assert first == "# yaml-language-server: $schema=carom.schema.json"
+    assert json.loads(Path("kite/worlds/carom.schema.json").read_text()) == json_schema()
 
 
 def test_a_project_is_written_over_nothing(

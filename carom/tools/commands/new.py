@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import keyword
 import re
 import sys
@@ -34,11 +35,16 @@ def _name(text: str) -> str:
 def execute(arguments: argparse.Namespace) -> int:
     """Write the project into a folder of its name, and print how to go on; 2 when there is one."""
     from carom.ecs.errors import CaromError
+    from carom.worlds.layout.form import SCHEMA_FILE
+    from carom.worlds.schema import json_schema
 
     folder = Path(arguments.name)
     if folder.exists():
         raise CaromError(f"{folder} is there already; state another name, or remove it")
     written = _write(files("carom.tools").joinpath("project"), folder, arguments.name)
+    schema = folder / "worlds" / SCHEMA_FILE  # beside the world, so that editors need no network
+    schema.write_text(json.dumps(json_schema(), indent=2) + "\n", encoding="utf-8")
+    written.append(schema)
     if arguments.json:
         print_json({"folder": str(folder), "files": [str(path) for path in written]})
         return 0
