@@ -119,6 +119,7 @@ def test_the_library_says_the_same_in_form(name: str) -> None:
     [
         ("carom: 1\r\nname: a\r\n", "carom: 1\nname: a\n"),
         ("{carom: 1, name: 'it''s', seed: 5}", "carom: 1\nname: \"it's\"\nseed: 5\n"),
+        ("carom: 1\nstep: {dt: 1\n\n}\n", "carom: 1\nstep: {dt: 1}\n"),
         ("carom: 1\nname: '1'\n", 'carom: 1\nname: "1"\n'),
         ("---\ncarom: 1 # one\nname: ä # two\n...\n", "carom: 1  # one\nname: ä  # two\n"),
         ("carom: 1\nseed: &a 5\ndrawn: *a\nname: b\n", "carom: 1\nseed: &a 5\ndrawn: *a\nname: b\n"),

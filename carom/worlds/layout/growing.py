@@ -89,7 +89,8 @@ class _Grower:
         end: Any = item
         self.reach(end.start_mark.index)
         if event.flow_style:
-            made.tail, self.cursor, self.latest = self.take(), end.end_mark.index, owner
+            made.tail = [comment for comment in self.take() if comment]
+            self.cursor, self.latest = end.end_mark.index, owner
         elif indented:
             made.tail = self.inside(column)
         return made
