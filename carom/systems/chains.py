@@ -19,6 +19,7 @@ from carom.systems.simulation import Simulation
 
 WORLD = -1
 BALL: Mapping[str, Any] = {"ball": {}}
+FARTHEST = 1e100  # m; squares of more are beyond all numbers
 UPRIGHT = 1e-9  # sine of the angle to gravity below which a chain hangs straight down
 
 
@@ -131,6 +132,8 @@ def hung(simulation: Simulation, start: Floats, end: Floats, count: int, sag: fl
         raise DeclarationError(f"count: a chain has 1 link or more; received {count}")
     if not chord > 0.0:
         raise DeclarationError("end: is where the chain starts; accepted: another point")
+    if not max(chord, sag) <= FARTHEST:
+        raise DeclarationError(f"end: a chain is at most {FARTHEST:g} m long, and hangs as low; received {chord:g} m")
     if not sag >= 0.0:
         raise DeclarationError(f"sag: is 0 or more, m; received {sag:g}")
     gravity = np.array(simulation.settings.gravity, np.float64)

@@ -187,6 +187,9 @@ LEAST_FCL_RADIUS = 1e-9
 # more to build its tree: this many load in 20 s. Larger ones look like a program that hangs.
 MOST_TRIANGLES = 1_000_000
 
+# Most particles that an emitter brings forth in a step. Larger: the memory fills before a word is said.
+MOST_BORN = 1_000_000
+
 # m. A manifold keeps to a face, an axis, a corner or a point of its own unless another one is better by more than this.
 # Larger: depths are wrong by as much. Smaller than what rounding and the solver leave: manifolds flicker.
 BIAS = 1e-6

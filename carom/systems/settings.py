@@ -12,6 +12,7 @@ from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
 
 MOST_THREADS = 64
+MOST_SUBSTEPS = 1000  # a step of more would not end before the user does
 Integrator = Literal["euler", "semi_implicit", "verlet"]
 Collision = Literal["auto", "fcl"]
 Response = Literal["full", "reflect"]
@@ -40,8 +41,8 @@ class Settings(Resource):
             faults.append(f"dt must be finite and above 0 s, received {self.dt:g}")
         if not (np.isfinite(self.hit_speed) and self.hit_speed > 0.0):
             faults.append(f"hit_speed must be finite and above 0 m/s, received {self.hit_speed:g}")
-        if self.substeps < 1:
-            faults.append(f"substeps must be at least 1, received {self.substeps}")
+        if not 1 <= self.substeps <= MOST_SUBSTEPS:
+            faults.append(f"substeps must be from 1 to {MOST_SUBSTEPS}, received {self.substeps}")
         if not 1 <= self.threads <= MOST_THREADS:
             faults.append(f"threads must be from 1 to {MOST_THREADS}, received {self.threads}")
         if not np.isfinite(self.gravity).all():

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from carom.ecs.errors import DeclarationError, EntityError
+from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import compose
 from carom.systems.forces import LAWS, Forces
 from carom.systems.forces.reach import read_reach
@@ -17,6 +17,7 @@ from carom.systems.settings import Random, Settings
 from carom.systems.shapes import Shape
 from carom.systems.simulation import Simulation
 from carom.worlds import library
+from carom.worlds.amounts import few_enough
 from carom.worlds.camera import Camera, check_entities
 from carom.worlds.embedding import content_of
 from carom.worlds.errors import WordError, WorldError
@@ -121,25 +122,31 @@ def _loaded(
     setting = Setting(UP[values["up"]].index(1.0), simulation.world[Random].generator)
     items = unfolded(source, prefabs, data.get("entities", []), setting)
     populator = Populator(source, simulation, GeometryReader(files_of_world), setting)
-    populator.add_all(items)
+    if few_enough(source, items):
+        populator.add_all(items)
     there = {whole_of_copy(name) for name in simulation.world.names()}
     source.excused = {item.name for item in items if item.name is not None} - there
     populator.connections.point_all()
-    try:
+    with source.telling(("entities",)):
         if not source.faults:
             compose(simulation.world)
             populator.weigh_all()
-    except EntityError as fault:
-        source.report(("entities",), str(fault))
-    populator.join_all()
+    with source.telling(("entities",)):
+        populator.join_all()
     _forces(source, simulation, values["forces"])
     take_state(source, simulation.world, values["state"])
-    add_events(source, populator, values["events"])
+    with source.telling(("events",)):
+        add_events(source, populator, values["events"])
     simulation.world.add(Pictures(values["cameras"]))
     if values["oracle"]:
         look_up = prefabs.variables.look_up
-        simulation.world.add(read_oracle(source, simulation.world, values["oracle"], look_up))
-    expectations = read_expectations(source, simulation, values["expect"])
+        with source.telling(("oracle",)):
+            simulation.world.add(read_oracle(source, simulation.world, values["oracle"], look_up))
+    expectations: list[Expectation] = []
+    with source.telling(("expect",)):
+        expectations = read_expectations(source, simulation, values["expect"])
+    with source.telling(("run",)):
+        run = plan(values["run"], simulation.settings.dt)
     check_entities(source, values["cameras"], simulation.world.names())
     if values["render"] is not None and values["render"].camera is not None:
         try:
@@ -150,7 +157,7 @@ def _loaded(
     render = values["render"] or Render.model_validate({})
     recording = values["recording"] or RecordingWords.model_validate({})
     return LoadedWorld(
-        simulation, data, name, text, plan(values["run"], simulation.settings.dt), expectations,
+        simulation, data, name, text, run, expectations,
         values["name"], values["description"], UP[values["up"]], values["cameras"], render, recording, source.warnings,
         files_of_world.used, source, populator.places_in_file, populator.geometries.known,
     )  # fmt: skip

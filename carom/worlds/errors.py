@@ -11,6 +11,9 @@ from carom.ecs.errors import CaromError
 
 Path = tuple[str | int, ...]
 
+LONGEST_PART = 300  # characters of each part of a message that a file can fill with its own words
+LONGEST_LIST = 1500  # of what is accepted
+
 
 class WordError(ValueError):
     """A value that cannot be read, before it is known where it stands."""
@@ -45,11 +48,11 @@ class Fault:
     def __str__(self) -> str:
         """Return ``file:line:column: path: what; received; accepted``, without the parts that are not there."""
         place = f"{self.file}:{self.line}:{self.column}" if self.line else self.file
-        parts = [self.what]
-        parts += [f"received {self.received}"] if self.received else []
-        parts += [f"accepted: {self.accepted}"] if self.accepted else []
+        parts = [_short(self.what)]
+        parts += [f"received {_short(self.received)}"] if self.received else []
+        parts += [f"accepted: {_short(self.accepted, LONGEST_LIST)}"] if self.accepted else []
         parts += [self.hint] if self.hint else []
-        return ": ".join(part for part in (place, self.path, "; ".join(parts)) if part)
+        return _visible(": ".join(part for part in (place, _short(self.path), "; ".join(parts)) if part))
 
 
 class WorldError(CaromError):
@@ -62,6 +65,19 @@ class WorldError(CaromError):
         self.faults = sorted(set(faults))
         self.files: list[FilePath] = []
         super().__init__("\n".join(map(str, self.faults)))
+
+
+def _visible(text: str) -> str:
+    """Return a line with escapes for characters that a terminal would obey or not show."""
+    return text if text.isprintable() else "".join(map(_escaped, text))
+
+
+def _escaped(character: str) -> str:
+    return character if character.isprintable() else character.encode("unicode_escape").decode()
+
+
+def _short(text: str, most: int = LONGEST_PART) -> str:
+    return text if len(text) <= most else text[: most - 3] + "..."
 
 
 def shown(value: Any) -> str:

@@ -16,6 +16,7 @@ from carom.systems.simulation import Simulation
 from carom.worlds.errors import WordError
 from carom.worlds.expectation import Expectation
 from carom.worlds.names import matching
+from carom.worlds.run import MOST_FRAMES
 
 PARTIES: dict[type[Relation], tuple[str, ...]] = {
     Impact: ("a", "b"),
@@ -117,6 +118,8 @@ class AtMoment(Expectation, ABC):
 
 def frame_of(time: float, dt: float) -> int:
     """Return the step that ends at ``time``; raise WordError when none does."""
+    if not time / dt <= MOST_FRAMES:
+        raise WordError(f"is more than {MOST_FRAMES:,} steps of {dt:g} s away", received=f"{time:g} s")
     frame = round(time / dt)
     if abs(frame * dt - time) > 1e-9 * max(time, dt):
         accepted = f"a multiple of dt = {dt:.9g} s, such as {frame * dt:.9g} s"

@@ -19,7 +19,7 @@ from carom.systems.extensions import origin
 from carom.systems.forces import LAWS
 from carom.systems.joints import JOINTS
 from carom.systems.own_components import components_of_files, is_own
-from carom.systems.settings import MOST_THREADS, Settings
+from carom.systems.settings import MOST_SUBSTEPS, MOST_THREADS, Settings
 from carom.systems.shapes import SHAPES
 from carom.worlds.color import ColorWord
 from carom.worlds.errors import WordError
@@ -33,7 +33,7 @@ SPECIAL = {"rotation": RotationWord, "principal_axes": RotationWord, "color": Co
 SETTING_UNITS = {"dt": "s", "gravity": "m/s2", "hit_speed": "m/s"}
 SETTING_BOUNDS: dict[str, dict[str, float]] = {"dt": {"above": 0.0}, "hit_speed": {"above": 0.0}}
 SETTING_WHOLE: dict[str, tuple[int, int | None]] = {
-    "substeps": (1, None),
+    "substeps": (1, MOST_SUBSTEPS),
     "dimensions": (2, 3),
     "threads": (1, MOST_THREADS),
 }

@@ -14,7 +14,7 @@ from carom.systems.shapes.model_files import UNITS
 from carom.systems.shapes.shape import Shape
 from carom.worlds.errors import WordError
 from carom.worlds.files import WorldFiles, joined
-from carom.worlds.values import In, Vector3, Whole, Words, either, word_of
+from carom.worlds.values import FileName, In, Vector3, Whole, Words, either, word_of
 
 Scale = Annotated[float, In("1", above=0.0)]
 Length = Annotated[float, In("m")]
@@ -38,7 +38,7 @@ class ModelWords(Words):
 class MeshWords(ModelWords):
     """A closed mesh."""
 
-    file: str | None = Field(None, description=FILE)
+    file: FileName | None = Field(None, description=FILE)
     vertices: Points | None = Field(None, description="vertices (m), of which faces are made")
     faces: Faces = Field([], description="triangles: three numbers of vertices each, from 0, outward")
 
@@ -54,7 +54,7 @@ class ConvexWords(ModelWords):
 
     points: Points | None = Field(None, description="points (m)")
     faces: Faces | None = Field(None, description="triangles of points that are all corners; found by default")
-    file: str | None = Field(None, description=FILE)
+    file: FileName | None = Field(None, description=FILE)
 
     @model_validator(mode="after")
     def check(self) -> ConvexWords:
@@ -67,7 +67,7 @@ class HeightFieldWords(Words):
     """Land, by rows of heights or by a grey image, seen as on a map with -z up: the first row lies at the back."""
 
     heights: list[list[Length]] | None = Field(None, description="rows of heights (m), each from -x to +x")
-    image: str | None = Field(None, description="grey image, PNG of 8 or 16 bits, relative to the world file")
+    image: FileName | None = Field(None, description="grey image, PNG of 8 or 16 bits, relative to the world file")
     spacing: either(Spacing, Spacings, list) = Field(description="distance of neighbours (m), one or along x and z")  # type: ignore[valid-type]
     low: Length = Field(0.0, description="image: height of black (m)")
     high: Length = Field(1.0, description="image: height of white (m)")

@@ -8,7 +8,9 @@ from pathlib import Path
 
 from carom.ecs.errors import did_you_mean
 from carom.worlds.errors import Fault, WorldError
+from carom.worlds.reader import MOST_CHARACTERS
 
+MOST_BYTES = 4 * MOST_CHARACTERS  # UTF-8 takes at most four for each
 SUFFIXES = (".yaml", ".yml", ".json")
 
 
@@ -57,6 +59,8 @@ def find(world: str | Path) -> Path:
 def read_text(path: Path, shown: str) -> str:
     """Return the text of a world file; raise WorldError when it cannot be read or is not UTF-8."""
     try:
+        if path.stat().st_size > MOST_BYTES:
+            raise WorldError([Fault(shown, 0, 0, "", f"is larger than a world file may be, {MOST_BYTES:,} bytes")])
         return path.read_bytes().decode("utf-8-sig")
     except OSError as fault:
         what = f"cannot be read: {(fault.strerror or str(fault)).lower()}"

@@ -42,7 +42,9 @@ def fitting(pattern: str, names: Sequence[str]) -> list[str]:
     """Return the names that a pattern means, which may be none."""
     if pattern in names:
         return [pattern]
-    form = re.escape(pattern).replace(r"\*", ".*") + r"(?:\[[\d,]+\])?"
+    first, *inner = map(re.escape, pattern.split("*"))
+    last = f".*{inner.pop()}" if inner else ""
+    form = first + "".join(f"(?>.*?{part})" for part in inner) + last + r"(?:\[[\d,]+\])?"  # as fnmatch: no way twice
     for fits in (re.compile(form), re.compile(form + r"\..+")):
         if found := [name for name in names if fits.fullmatch(name)]:
             return found

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from carom.ecs import BodyType, Motion, RigidBody
+from carom.ecs.errors import DeclarationError
 from carom.systems.compound import reaches
 from carom.systems.simulation import Simulation
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from carom.worlds.sections import Run
 
 DEFAULT_DURATION = 5.0
+MOST_FRAMES = 1_000_000_000  # above, nobody sees the end
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,15 @@ def plan(run: Run | None, dt: float) -> RunPlan:
 
 
 def frames_of(seconds: float, dt: float) -> int:
-    """Return how many steps reach ``seconds``, whole ones being whole in spite of rounding."""
+    """Return how many steps reach ``seconds``, whole ones being whole in spite of rounding.
+
+    Raises DeclarationError for more than a run may have.
+    """
+    if not seconds / dt <= MOST_FRAMES:
+        raise DeclarationError(
+            f"{seconds:g} s take more steps of {dt:g} s than a run may have, {MOST_FRAMES:,}; "
+            "state a shorter time, or a longer step.dt"
+        )
     return math.ceil(seconds / dt * (1.0 - 1e-12) - 1e-9)
 
 

@@ -47,7 +47,7 @@ from carom.worlds.sections import (
     TimeWindow,
 )
 from carom.worlds.state import StateWords
-from carom.worlds.values import EntityName, Flag, Name, Whole, Words, either, word_of
+from carom.worlds.values import EntityName, FileName, Flag, Name, Whole, Words, either, word_of
 
 Variable = Annotated[
     Any,
@@ -142,7 +142,7 @@ def document() -> type[Words]:
         name=(str, Field("", description="title")),
         description=(str, Field("", description="what it shows")),
         up=(word_of("y", "z"), Field("y", description="which axis is up, for gravity's default, cameras and display")),
-        include=(list[str], Field([], description="files beside this one whose words go under its own")),
+        include=(list[FileName], Field([], description="files beside this one whose words go under its own")),
         **setting_fields(in_step=False),
         drawn=(Drawn, Field(0, description="random numbers drawn before, as a written world has it")),
         step=(step, Field(None, description="how time advances")),

@@ -10,6 +10,7 @@ from carom.systems.forces.reach import END
 from carom.systems.paths import REPEATS
 from carom.worlds.errors import WordError, shown
 from carom.worlds.rotation import RotationWord
+from carom.worlds.run import MOST_FRAMES
 from carom.worlds.units import read_quantity
 from carom.worlds.values import Flag, In, Vector3, Whole, Words, word_of
 
@@ -84,7 +85,7 @@ class Run(Words):
     """How long a run takes: a duration, a number of frames, or until everything rests."""
 
     duration: Annotated[float, In("s", above=0.0)] | None = Field(None, description="simulated time (s)")
-    frames: Count | None = Field(None, description="steps")
+    frames: Annotated[int, Whole(1, MOST_FRAMES)] | None = Field(None, description="steps")
     until: word_of("rest") = Field(None, description="until no body is faster than rest_speed")  # type: ignore[valid-type]
     rest_speed: Annotated[float, In("m/s", above=0.0)] = Field(0.001, description="speed that counts as rest (m/s)")
     at_most: Annotated[float, In("s", above=0.0)] = Field(60.0, description="longest time until rest (s)")

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
+from carom.ecs.errors import CaromError
 from carom.systems.parameters import WordFault
 from carom.worlds.errors import Fault, Path, WordError, WorldError
 
@@ -54,6 +57,15 @@ class Source:
         ends = [match.start() for match in PART.finditer(fault.name)]
         if not any(fault.name[:end] in self.excused for end in (*ends, len(fault.name))):
             self.report(path, fault.what, received=fault.received, accepted=fault.accepted, hint=fault.hint)
+
+    @contextmanager
+    def telling(self, path: Path) -> Iterator[None]:
+        """Report what carom refuses of what stands at ``path``, unless that may follow from what was reported."""
+        try:
+            yield
+        except CaromError as fault:
+            if not self.faults:
+                self.report(path, str(fault))
 
     def written(self, path: Path) -> bool:
         """Tell whether the whole path is in the file, be it by a prefab."""

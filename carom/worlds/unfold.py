@@ -75,7 +75,9 @@ class Unfolding:
             self.source.report(path, "is a group that holds itself")
             frame = None
         if frame is None or self._too_many(path, len(stated), group):
-            self.items.append(Item(path, name, None, group))  # whoever names it or its members has said it already
+            self.items.append(
+                Item(path, name if isinstance(name, str) else None, None, group)
+            )  # whoever names it or its members has said it already
             return
         members = frozenset(str(item["name"]) for item in stated if isinstance(item, dict) and "name" in item)
         for inner in self._copies(path, frame, Group("", members, written, outer=group)):

@@ -27,6 +27,8 @@ EXPRESSION = {"type": "string", "pattern": r"\$\{", "description": "an expressio
 NAME = re.compile(r"[^\W\d][\w-]*")
 ENTITY_NAME = re.compile(rf"{NAME.pattern}(?:\.[\w-]+|\[\d+(?:,\d+)*\])*")
 
+LONGEST_FILE_NAME = 255  # characters, folders included
+
 
 def _or_expression(node: dict[str, Any]) -> dict[str, Any]:
     return {"anyOf": [node, EXPRESSION]}
@@ -97,6 +99,15 @@ def _read_name(value: Any) -> str:
     return value
 
 
+def _read_file_name(value: Any) -> str:
+    if not isinstance(value, str):
+        raise WordError("must be text", received=shown(value), accepted="text")
+    if not 0 < len(value) <= LONGEST_FILE_NAME or not value.isprintable():
+        accepted = f"at most {LONGEST_FILE_NAME} printable characters"
+        raise WordError("is not the name of a file", received=shown(value), accepted=accepted)
+    return value
+
+
 def _read_flag(value: Any) -> bool:
     if not isinstance(value, bool):
         raise WordError("must be true or false", received=shown(value))
@@ -110,6 +121,7 @@ def _read_entity_name(value: Any) -> str:
 
 Name = Annotated[str, BeforeValidator(_read_name)]
 EntityName = Annotated[str, BeforeValidator(_read_entity_name)]  # that of a copy too: rain[3,0,1]
+FileName = Annotated[str, BeforeValidator(_read_file_name)]
 Flag = Annotated[bool, BeforeValidator(_read_flag), WithJsonSchema(_or_expression({"type": "boolean"}))]
 
 

@@ -9,10 +9,12 @@ import numpy as np
 from carom.ecs import Motion, Parent, RigidBody, Transform, World, system
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.emitter import Emitter
+from carom.ecs.errors import DeclarationError
 from carom.ecs.relations.particle import Particle
 from carom.ecs.spatial import quaternion, vector
 from carom.ecs.spatial.trigonometry import sine_cosine
 from carom.systems.compound import bodies_of
+from carom.systems.constants import MOST_BORN
 from carom.systems.kernels.particle_births import WORD, bear
 from carom.systems.particles.newborn import Newborn
 from carom.systems.particles.pieces import make_room
@@ -40,6 +42,7 @@ def emit_particles(world: World, dt: float) -> None:
         return
     emitter, transform, end = world[Emitter], world[Transform], time_of(world)
     begin, births = (world.frame - 1) * dt, dict[int, tuple[int, Floats]]()
+    refuse_crowds(world, rows, dt)
     for row in rows.tolist():
         times = due(emitter, row, begin, end)
         if len(times):
@@ -61,6 +64,20 @@ def emit_particles(world: World, dt: float) -> None:
             particle.velocity_x, particle.velocity_y, particle.velocity_z,
         )  # fmt: skip
         emitter.born[row] += len(times)
+
+
+def refuse_crowds(world: World, rows: Integers, dt: float) -> None:
+    """Raise DeclarationError for an emitter that brings forth more than `MOST_BORN` in a step."""
+    emitter = world[Emitter]
+    rate, burst, every = emitter.rate[rows], emitter.burst[rows], emitter.every[rows]
+    bursts = np.divide(dt, every, out=np.zeros(len(rows)), where=every > 0.0) + 1.0
+    born = rate * dt + burst * bursts
+    if not (born <= MOST_BORN).all():
+        worst = int(np.argmax(born))
+        raise DeclarationError(
+            f"emitter of '{world.name(world.entity(int(rows[worst])))}' brings forth {born[worst]:.3g} particles in a "
+            f"step, more than {MOST_BORN:,}; lower its rate or burst, or step.dt"
+        )
 
 
 def due(emitter: Emitter, row: int, begin: float, end: float) -> Floats:

@@ -11,6 +11,7 @@ import numpy as np
 
 from carom.ecs.components.emitter import Collide, Drawn, Emitter, Source, Within
 from carom.ecs.errors import DeclarationError
+from carom.systems.constants import MOST_BORN
 from carom.systems.declared import Stated, Steps, choice, direction, part, read_words, span, tint
 from carom.systems.forces.region import BoxRegion, Region, SphereRegion
 from carom.systems.parameters import WordFault, parameter, vector
@@ -58,7 +59,7 @@ class EmitterWords(Stated):
     """A source of particles at the origin of an entity; a pair is the least and the greatest of what they differ in."""
 
     rate: float = parameter(unit="1/s", doc="particles born in a second", default=0.0, least=0.0)
-    burst: int = parameter(unit="1", doc="particles born at once, when it begins", default=0, least=0)
+    burst: int = parameter(unit="1", doc="particles born at once, when it begins", default=0, least=0, most=MOST_BORN)
     every: float = parameter(unit="s", doc="time between bursts, 0 for a single one", default=0.0, least=0.0)
     start: float = parameter(
         unit="s", doc="simulated time at which it begins, not before it is added", default=0.0, least=0.0
@@ -80,7 +81,7 @@ class EmitterWords(Stated):
     mass: float = parameter(unit="kg", doc="mass of one", default=0.001, above=0.0)
     gravity_scale: float = parameter(unit="1", doc="factor on the world's gravity", default=1.0)
     most: int = parameter(
-        unit="1", doc="alive at most, the oldest die first; any number by default", default=0, least=0
+        unit="1", doc="alive at most, the oldest die first; any number by default", default=0, least=0, most=2**53
     )
     collide: str = choice(COLLIDE, doc="what they bounce off", default="planes")
     within: Region | None = part(Region, doc="part of space where they may be; elsewhere they die")

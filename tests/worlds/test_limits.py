@@ -1,0 +1,119 @@
+"""What is too much is told with its limit before it is made; no file can fill the memory, or take for ever."""
+
+# ruff: noqa: E501 - messages stand whole, as a user sees them
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from carom.worlds import WorldError, load_text, load_world
+from carom.worlds.library import MOST_BYTES
+from carom.worlds.names import fitting
+
+LONG = "x" * 300
+FILE_NAME = "is not the name of a file; received '"
+NAME_FORM = "accepted: at most 255 printable characters"
+MANY = "{name: %s, collider: {point: {}}, grid: {count: [100, 100, 50], spacing: 1}}"
+
+
+def refusal(text: str) -> str:
+    """Return what a world is refused with; the header is added as line 1."""
+    with pytest.raises(WorldError) as caught:
+        load_text("carom: 1\n" + text, "w.yaml")
+    return str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            f"entities: [{', '.join(MANY % name for name in ('a', 'b', 'c'))}]\n",
+            (
+                "w.yaml:2:199: entities.2.grid: brings the world to 1500000 entities, more than the 1000000 it may have; "
+                "take fewer"
+            ),
+        ),
+        (
+            "entities: [{name: rope, chain: {end: [1, 0, 0], count: 1000001}}]\n",
+            (
+                "w.yaml:2:25: entities.0.chain: brings the world to 1000001 entities, more than the 1000000 it may have; "
+                "take fewer"
+            ),
+        ),
+        (
+            "run: {duration: 1e300}\n",
+            (
+                "w.yaml:2:1: run: 1e+300 s take more steps of 0.0166667 s than a run may have, 1,000,000,000; "
+                "state a shorter time, or a longer step.dt"
+            ),
+        ),
+        (
+            "run: {frames: 1000000001}\n",
+            "w.yaml:2:7: run.frames: must be a whole number; received 1000000001; accepted: 1 to 1000000000",
+        ),
+        (
+            "expect: [{at: 1e300, x.y: {is: 1, within: 1}}]\n",
+            "w.yaml:2:11: expect.0.at: is more than 1,000,000,000 steps of 0.0166667 s away; received 1e+300 s",
+        ),
+        (
+            "step: {substeps: 1000000000}\n",
+            "w.yaml:2:8: step.substeps: must be a whole number; received 1000000000; accepted: 1 to 1000",
+        ),
+        (
+            f"include: [{LONG}.yaml]\n",
+            f"w.yaml:2:11: include.0: {FILE_NAME}{'x' * 56}...; {NAME_FORM}",
+        ),
+        (
+            'include: ["a\\0.yaml"]\n',
+            f"w.yaml:2:11: include.0: {FILE_NAME}a\\x00.yaml'; {NAME_FORM}",
+        ),
+        (
+            f"entities: [{{collider: {{mesh: {{file: {LONG}.obj}}}}}}]\n",
+            f"w.yaml:2:31: entities.0.collider.mesh.file: {FILE_NAME}{'x' * 56}...; {NAME_FORM}",
+        ),
+        (
+            "entities: [{name: a, emitter: {burst: 2000000}}]\n",
+            (
+                "w.yaml:2:32: entities.0.emitter.burst: must be finite and at least 0 1 and at most 1e+06 1, "
+                "received 2e+06"
+            ),
+        ),
+        (
+            'layers: {"\\e[31m": 1}\n',
+            (
+                "w.yaml:2:10: layers.\\x1b[31m: is not a name; received '\\x1b[31m'; accepted: a letter or _, then letters, "
+                "digits, _ or -, at most 48 in all"
+            ),
+        ),
+        (
+            'entities: [{name: ["x"], entities: []}]\n',
+            "w.yaml:2:13: entities.0.name: is not a name; received ['x']; accepted: a letter or _, then letters, digits, _ or -, at most 48 in all",
+        ),
+        (
+            "entities: [{name: c, chain: {end: [1e300, 1, 1], count: 5, sag: 1}}]\n",
+            "w.yaml:2:30: entities.0.chain.end: a chain is at most 1e+100 m long, and hangs as low; received 1e+300 m",
+        ),
+    ],
+)
+def test_what_is_too_much_is_told_with_its_limit(text: str, message: str) -> None:
+    """Each with its place, what was received and what may be."""
+    assert refusal(text) == message
+
+
+def test_a_file_is_measured_before_it_is_read(tmp_path: Path) -> None:
+    """What is larger than the memory may be is not read at all."""
+    large = tmp_path / "large.yaml"
+    with large.open("wb") as file:
+        file.truncate(MOST_BYTES + 1)
+    with pytest.raises(WorldError) as caught:
+        load_world(large)
+    assert str(caught.value) == f"{large}: is larger than a world file may be, 128,000,000 bytes"
+
+
+def test_patterns_of_many_stars_take_no_longer_than_the_names() -> None:
+    """No way of sharing out a name among the stars is tried twice."""
+    assert fitting("*a" * 25 + "b", ["a" * 60]) == []
+    assert fitting("*a*", ["cab", "b", "a"]) == ["cab", "a"]
+    assert fitting("*b*c", ["abcbc", "bca", "bxc[3]"]) == ["abcbc", "bxc[3]"]
