@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
+from functools import lru_cache
+from itertools import islice
+
+MOST_COMPARED, LONGEST_WORD = 1000, 100  # choices, and characters of a word that is compared with them
 
 
 class CaromError(Exception):
@@ -35,6 +39,14 @@ class NonFiniteError(CaromError):
 
 
 def did_you_mean(word: str, choices: Iterable[str], most: int = 1) -> str:
-    """Return a question that names the ``most`` nearest choices, or nothing when none is near."""
-    near = difflib.get_close_matches(word, list(choices), most)
+    """Return a question that names the ``most`` nearest choices, or nothing when none is near.
+
+    Only the first thousand are compared, and no long word: a thousand faults among a million names shall be told soon.
+    """
+    near = _nearest(word, tuple(islice(choices, MOST_COMPARED)), most) if len(word) <= LONGEST_WORD else []
     return f"did you mean {' or '.join(map(repr, near))}?" if near else ""
+
+
+@lru_cache(64)
+def _nearest(word: str, choices: tuple[str, ...], most: int) -> list[str]:
+    return difflib.get_close_matches(word, choices, most)

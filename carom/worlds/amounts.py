@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from carom.worlds.generators import GENERATORS, Generator
+from carom.worlds.generators.generator import MOST_COPIES
 from carom.worlds.sections import ChainWords
 from carom.worlds.source import Source
 from carom.worlds.unfold import Item
@@ -24,5 +25,7 @@ def few_enough(source: Source, items: list[Item]) -> bool:
 
 
 def amount(copies: Generator | ChainWords) -> int:
-    """Return how many entities words ask for."""
-    return copies.count if isinstance(copies, ChainWords) else copies.amount()
+    """Return how many entities words ask for; none where a generator refuses to lay so many."""
+    if isinstance(copies, ChainWords):
+        return copies.count
+    return copies.amount() if copies.amount() <= MOST_COPIES else 0

@@ -79,13 +79,19 @@ class Connections:
                 getattr(table, pointer.column)[world.slots.rows(entities)] = np.reshape(found, column.shape)
 
     def join_all(self) -> None:
-        """Let joints hold whom they name, at the poses where all are now; report everything that is wrong with them."""
-        world = self.simulation.world
+        """Let joints hold whom they name, at the poses where all are now; report everything that is wrong with them.
+
+        Of the copies of one joint the first that is wrong is told, and not the others: they are written once.
+        """
+        world, told = self.simulation.world, set[Path]()
         for entity, path, words in self.joints:
             faults: list[WordFault] = []
+            if path in told:
+                continue
             made = read_joint(world, words, faults)
             for fault in faults:
                 self.source.report_value((*path, *fault.steps), fault)
+                told.add(path)
             if made is not None:
                 with world.edit(Joint) as table:
                     for name, value in vars(made).items():

@@ -64,10 +64,10 @@ def unused_names(source: Source) -> Iterator[tuple[str, str]]:
     for section, keys in NAMING.items():
         used[section] = {text for key, text in words if key in keys}
         if any(EXPRESSION.search(text) for text in used[section]):
-            used[section] |= set(source.data.get(section, ()))  # who is meant is only known when it is computed
+            used[section] |= set(source.data.get(section) or ())  # who is meant is only known when it is computed
     used["layers"] |= {name for names in source.data.get("layers", {}).values() for name in names if names != "all"}
     for section, names in used.items():
-        for name in source.data.get(section, ()):
+        for name in source.data.get(section) or ():
             if name not in names and source.home((section, name))[0] is source:
                 yield section, name
 

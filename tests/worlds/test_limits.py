@@ -8,8 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from carom.ecs.errors import did_you_mean
 from carom.worlds import WorldError, load_text, load_world
 from carom.worlds.library import MOST_BYTES
+from carom.worlds.lint import lint
 from carom.worlds.names import fitting
 
 LONG = "x" * 300
@@ -117,3 +119,17 @@ def test_patterns_of_many_stars_take_no_longer_than_the_names() -> None:
     assert fitting("*a" * 25 + "b", ["a" * 60]) == []
     assert fitting("*a*", ["cab", "b", "a"]) == ["cab", "a"]
     assert fitting("*b*c", ["abcbc", "bca", "bxc[3]"]) == ["abcbc", "bxc[3]"]
+
+
+def test_what_no_word_is_near_is_told_soon() -> None:
+    """Names are compared as far as that is quick, and not with what is no word."""
+    names = [f"post[{number}]" for number in range(2000)]
+    assert did_you_mean("post[999", names) == "did you mean 'post[999]'?"
+    assert did_you_mean("post[1999", names[1500:]) == "did you mean 'post[1999]'?"
+    assert did_you_mean("beyond", [*names, "beyond"]) == ""
+    assert did_you_mean("a" * 101, ["a" * 100]) == ""
+
+
+def test_sections_of_nothing_are_linted() -> None:
+    """What a file leaves empty has no names that could be unused."""
+    assert lint(load_text("carom: 1\nprefabs:\n")) == []
