@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from carom.ecs.errors import did_you_mean
+from carom.ecs.errors import DeclarationError, did_you_mean
 from carom.worlds import WorldError, load_text, load_world
 from carom.worlds.library import MOST_BYTES
 from carom.worlds.lint import lint
@@ -133,3 +133,15 @@ def test_what_no_word_is_near_is_told_soon() -> None:
 def test_sections_of_nothing_are_linted() -> None:
     """What a file leaves empty has no names that could be unused."""
     assert lint(load_text("carom: 1\nprefabs:\n")) == []
+
+
+@pytest.mark.parametrize("words", ["rate: 1e9", "burst: 1, every: 1e-9"])
+def test_a_step_is_refused_that_would_fill_the_memory_with_particles(words: str) -> None:
+    """An emitter is told before it brings forth more than a step may have."""
+    simulation = load_text(f"carom: 1\nentities: [{{name: hose, emitter: {{{words}}}}}]\n").simulation
+    with pytest.raises(DeclarationError) as caught:
+        simulation.step()
+    assert str(caught.value) == (
+        "emitter of 'hose' brings forth 1.67e+07 particles in a step, more than 1,000,000; lower its rate or burst, "
+        "or step.dt"
+    )
