@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import dist
 
 import numpy as np
 
@@ -14,12 +15,16 @@ from carom.systems.queries.space import Space
 from carom.worlds.oracle import errors
 
 
+def _lengths(vectors: Floats) -> Floats:
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", vectors, vectors)))  # np.linalg.norm takes twice as long for a few
+
+
 def _speed(world: World, rows: Integers) -> Floats:
-    return np.asarray(np.linalg.norm(world[Motion].linear[rows], axis=1))
+    return _lengths(world[Motion].linear[rows])
 
 
 def _spin(world: World, rows: Integers) -> Floats:
-    return np.asarray(np.linalg.norm(world[Motion].angular[rows], axis=1))
+    return _lengths(world[Motion].angular[rows])
 
 
 def _energy(world: World, rows: Integers) -> Floats:
@@ -27,12 +32,11 @@ def _energy(world: World, rows: Integers) -> Floats:
 
 
 def _load(world: World, rows: Integers) -> Floats:
-    return np.asarray(np.linalg.norm(world[Joint].force[rows], axis=1))
+    return _lengths(world[Joint].force[rows])
 
 
 def _distance(world: World, rows: Integers) -> float:
-    first, second = world[Transform].position[rows]
-    return float(np.linalg.norm(second - first))
+    return dist(*world[Transform].position[rows].tolist())
 
 
 def _sees(world: World, rows: Integers) -> float:

@@ -57,10 +57,9 @@ def find_weights(rows, mass, scale, center_of_mass, position, rotation, gravity,
 @inlined
 def centre(i, position, rotation, center_of_mass):
     """Return the centre of mass of body i, world frame."""
-    x, y, z = turn(
-        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-        center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2],
-    )  # fmt: skip
+    x, y, z = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
+    if x != 0.0 or y != 0.0 or z != 0.0:
+        x, y, z = turn(rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3], x, y, z)
     return position[i, 0] + x, position[i, 1] + y, position[i, 2] + z
 
 
