@@ -20,7 +20,7 @@ from carom.worlds.schema import group_type
 from carom.worlds.source import Source
 from carom.worlds.variables import Variables
 
-MOST_MEMBERS = 100_000  # of all groups together: groups of groups of groups would fill the memory
+MOST_MEMBERS = 20_000  # of all groups together: groups of groups of groups would fill the memory
 DEEPEST = 16
 
 

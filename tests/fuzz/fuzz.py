@@ -18,8 +18,8 @@ from trial import trial
 
 from carom.worlds import load_world
 
-SECONDS = 20  # of the processor that a case may take
-PATIENCE = 120.0  # s that a case may take by the clock: waiting for what never comes takes no processor
+SECONDS = 60  # of the processor that a case may take: three times what any has taken here
+PATIENCE = 300.0  # s that a case may take by the clock: waiting for what never comes takes no processor
 MEMORY = 3 << 30  # bytes that a case may take
 
 

@@ -211,5 +211,5 @@ def test_groups_of_groups_cannot_fill_the_memory() -> None:
         f"  g{n}: {{entities: [{', '.join(f'{{name: m{k}, prefab: g{n + 1}}}' for k in range(10))}]}}\n"
         for n in range(12)
     )
-    with pytest.raises(WorldError, match="groups of a world may have 100000 entities in all"):
+    with pytest.raises(WorldError, match="groups of a world may have 20000 entities in all"):
         load_text(f"carom: 1\nprefabs:\n{prefabs}  g12: {{}}\nentities: [{{name: all, prefab: g0}}]\n")
