@@ -65,15 +65,18 @@ class Connections:
         self.joints.append((int(entities[0]), some.path, some.joint))
 
     def point_all(self) -> None:
-        """Let columns hold the entities the file names; report unknown names."""
-        world = self.simulation.world
+        """Let columns hold the entities the file names; report unknown names, of copies those of the first."""
+        world, told = self.simulation.world, set[Path]()
         names = dict.fromkeys(world.names())
         for entities, pointer in self.pointers:
+            if pointer.path in told:
+                continue
             column = pointer.kind.columns[pointer.column]
             try:
                 found = [world.find(known("entity", str(name), names)) for name in np.ravel(pointer.names)]
             except WordError as fault:
                 self.source.report_value(pointer.path, fault)
+                told.add(pointer.path)
                 continue
             with world.edit(pointer.kind) as table:
                 getattr(table, pointer.column)[world.slots.rows(entities)] = np.reshape(found, column.shape)

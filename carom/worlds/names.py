@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Sequence
 
 from carom.ecs.errors import did_you_mean
 from carom.worlds.errors import WordError
@@ -12,10 +12,10 @@ COPY = re.compile(r"\[[\d,]*\]$")
 NONE_DEFINED = "none is defined"
 
 
-def known(kind: str, name: str, choices: Iterable[str]) -> str:
+def known(kind: str, name: str, choices: Collection[str]) -> str:
     """Return ``name`` when it is among the choices; raise WordError with the nearest one otherwise."""
-    names = list(choices)
-    if name not in names:
+    if name not in choices:
+        names = list(choices)
         listed = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
         accepted, hint = listed or NONE_DEFINED, did_you_mean(name, names)
         raise WordError(f"unknown {kind}", received=repr(name), accepted=accepted, hint=hint, name=name)
