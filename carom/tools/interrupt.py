@@ -11,7 +11,10 @@ from types import FrameType
 
 @contextmanager
 def deferred_interrupt() -> Iterator[Callable[[], None]]:
-    """Hold back Ctrl-C: calling what this lends raises KeyboardInterrupt if it was pressed. A second press acts."""
+    """Hold back Ctrl-C: calling what this lends raises KeyboardInterrupt if it was pressed, as does the end.
+
+    A second press acts at once.
+    """
     if current_thread() is not main_thread():
         yield lambda: None  # only the main thread receives signals
         return
@@ -32,3 +35,4 @@ def deferred_interrupt() -> Iterator[Callable[[], None]]:
         yield check
     finally:
         signal.signal(signal.SIGINT, before)
+    check()  # else a press after the last step would be forgotten

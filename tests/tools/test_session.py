@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import signal
+
+import pytest
+
+from carom.tools.interrupt import deferred_interrupt
 from carom.tools.session import Summary
 
 
@@ -15,3 +20,10 @@ def test_what_was_cut_is_told() -> None:
         "  warning       2 impacts beyond the limit of a step were put off to the next",
         f"  warning       {passed}",
     ]
+
+
+def test_ctrl_c_after_the_last_step_is_not_forgotten() -> None:
+    """Nobody asks after it any more, so the end of the run raises it."""
+    with pytest.raises(KeyboardInterrupt), deferred_interrupt():
+        signal.raise_signal(signal.SIGINT)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

@@ -111,7 +111,7 @@ MESSAGES = {
     "gravity.w = 1": "--set: gravity.w = 1: gravity has no w; received 'gravity.w'; accepted: x, y, z",
     "integrator = rk4": "--set: integrator = rk4: unknown word; received 'rk4'; accepted: euler, semi_implicit, verlet",
     "integrator *= 2": "--set: integrator *= 2: computes with what is no number; accepted: = and a word",
-    "substeps = 1.5": "--set: substeps = 1.5: must be a whole number; received 1.5; accepted: 1 or more",
+    "substeps = 1.5": "--set: substeps = 1.5: must be a whole number; received 1.5; accepted: 1 to 1000",
     "seed = 3": "--set: seed = 3: seed is settled at the start; received 'seed'",
 }
 

@@ -270,7 +270,7 @@ def test_a_damaged_state_is_told(before: str, after: str, told: str) -> None:
     assert f": state.snapshot: {told}" in str(caught.value)
 
 
-class Charge(Component):
+class Battery(Component):
     """A component of a script."""
 
     amount: Floats = column(unit="A s", doc="charge")
@@ -284,7 +284,7 @@ def watch_birds(world: object, dt: float) -> None:
 def test_what_no_file_can_hold_is_told_at_once() -> None:
     """Each with its name, and with what would help."""
     simulation = Simulation()
-    simulation.world.spawn(Charge(amount=1.0))
+    simulation.world.spawn(Battery(amount=1.0))
     simulation.force_function(lambda world, rows: np.zeros((len(rows), 3)), "hover")
     simulation.schedule = simulation.schedule.insert(watch_birds, after="apply_gravity")
     mend = "a package of your own, as the README tells, would be there for whoever loads the file"
@@ -294,5 +294,5 @@ def test_what_no_file_can_hold_is_told_at_once() -> None:
         "the world cannot be written to a file:",
         f"  system 'hover' was put into the step by Python; {mend}",
         f"  system 'watch_birds' was put into the step by Python; {mend}",
-        f"  component Charge is declared in {__name__}, which no file loads; {mend}",
+        f"  component Battery is declared in {__name__}, which no file loads; {mend}",
     ]
