@@ -236,7 +236,7 @@ def _collider(world: World, words: Words, shape: Shape) -> Collider:
     values |= {"bound_center": center, "bound_half": half, "bound_radius": radius}
     enters = (words.get("on_enter") or {}).get("layer")
     if enters is not None:
-        values |= {"enter_layer": layers.bit(enters), "enter_mask": layers.masks[enters]}
+        values |= {"enter_layer": layers.bit(enters), "enter_mask": layers.masks.get(enters, EVERYTHING)}
     return Collider(**values)
 
 

@@ -126,8 +126,9 @@ def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""
     contact = world[Contact]
     contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
-    at, events, looks = 0.0, 0, 0
+    at, events, looks, stuck = 0.0, 0, 0, 0
     while True:
+        before = at, events
         look = at + world[Fast].next_look(world, dt - at)
         if looks >= MOST_LOOKS and look < inf:
             look, world[Answered].looks_cut = inf, world[Answered].looks_cut + 1
@@ -142,6 +143,9 @@ def drift(world: World, dt: float) -> None:
         world[Fast].let_go(contact)
         rows, flight = world[Awake].now(world), world[Flight]
         flight.start_center[rows], flight.turned[rows] = flight.center[rows], 0.0  # depths are those of now
+        stuck = stuck + 1 if (at, events) == before else 0
+        if stuck > 1:  # whose speed has no square leaves any reach at once; it is told at the end of the step
+            flight.reach[rows] = inf
 
 
 def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[float, int, int]:

@@ -137,6 +137,7 @@ def test_a_group_is_copied_with_all_its_members() -> None:
     [
         ("line: {count: 2, step: [1, 0, 0]}, stack: {count: 2}", "w.yaml:3:109: entities.0.stack: is stated beside line; state one of them"),
         ("random: {count: 2}", "w.yaml:3:74: entities.0.random: must state one region; received neither; accepted: box or sphere"),
+        ("random: {count: 2, box: [1, 1, 1e200]}", "w.yaml:3:105: entities.0.random.box.2: must be at most 1e+100 m; received 1e+200"),
         ("random: {count: 2, box: [1, 1, 0.4]}", "w.yaml:3:93: entities.0.random.box: is too small for a copy, which lies within 0.229 m"),
         ("heap: {count: 2, area: [0.4, 2]}", "w.yaml:3:91: entities.0.heap.area: leaves no room for a copy, which needs 0.458 m each way"),
         ("stack: {count: 2000000}", "w.yaml:3:74: entities.0.stack: asks for 2000000 copies, at most 1000000 are made"),

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from carom.ecs.errors import DeclarationError, did_you_mean
-from carom.worlds import WorldError, load_text, load_world
+from carom.ecs.errors import DeclarationError, NonFiniteError, did_you_mean
+from carom.worlds import WorldError, library, load_text, load_world
 from carom.worlds.library import MOST_BYTES
 from carom.worlds.lint import lint
 from carom.worlds.names import fitting
@@ -145,3 +145,20 @@ def test_a_step_is_refused_that_would_fill_the_memory_with_particles(words: str)
         "emitter of 'hose' brings forth 1.67e+07 particles in a step, more than 1,000,000; lower its rate or burst, "
         "or step.dt"
     )
+
+
+def test_speeds_without_a_square_end_in_a_sentence() -> None:
+    """A spring of 3e299 N/m makes speeds that leave whatever is foreseen at once: the step ends all the same."""
+    text = library.find("spring_mass").read_text()
+    loaded = load_text(text.replace("29.608813203268074", "3e299"), "w.yaml")
+    with pytest.raises(NonFiniteError, match=r"of entity '.*' is .*, found at the end of the step"):
+        loaded.simulation.step(3)
+
+
+def test_layers_with_a_fault_are_no_further_fault_of_who_is_on_them() -> None:
+    """What they collide with is unknown then, which only their own fault tells."""
+    found = refusal(
+        "layers: {lost: [nobody], pocketed: []}\n"
+        "entities: [{name: hole, collider: {sphere: {radius: 1}, sensor: true, on_enter: {layer: pocketed}}}]\n"
+    )
+    assert found == "w.yaml:2:1: layers: unknown layer 'nobody'; the layers are none, default, lost, pocketed"
