@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from carom.ecs import state_hash
 from carom.systems.simulation import Simulation
 
@@ -74,4 +76,32 @@ def jointed_heap(**settings: Any) -> Simulation:
         ends = {"a": "link7" if key == "rope" else "link3", "b": key}
         anchors = {"anchor_a": (0.0, 0.0, 0.0), "anchor_b": (0.0, 0.0, 0.0)}
         simulation.add(name=f"{key} joint", joint={key: words | ends | anchors})
+    return simulation
+
+
+def stirred_heap(**settings: Any) -> Simulation:
+    """Return boxes, balls and capsules that fall into shallow water, where a paddle stirs them."""
+    simulation = Simulation(**settings)
+    simulation.add(collider={"plane": {}}, material={"friction": 0.5})
+    simulation.add(
+        collider={"box": {"size": (4.0, 0.3, 0.3)}},
+        body={"type": "kinematic"},
+        transform={"position": (0.0, 0.3, 0.0)},
+        motion={"angular": (0.0, 2.0, 0.0)},
+    )
+    simulation.force("buoyancy", density=500.0, level=0.5)
+    kinds: tuple[dict[str, Any], ...] = (
+        {"box": {"size": (0.5, 0.4, 0.3)}},
+        {"sphere": {"radius": 0.25}},
+        {"capsule": {"radius": 0.15, "length": 0.4}},
+    )
+    for k in range(27):
+        place = (0.6 * (k % 3 - 1) + 0.01 * k, 0.8 + 0.6 * (k // 9), 0.6 * (k // 3 % 3 - 1))
+        turn = np.array([0.1 * (k % 4), 0.05 * k, 0.2 * (k % 3), 1.0])
+        simulation.add(
+            collider=kinds[k % 3],
+            body={},
+            material={"restitution": 0.2 * (k % 4), "rolling_friction": 0.01},
+            transform={"position": place, "rotation": turn / np.sqrt((turn * turn).sum())},
+        )
     return simulation

@@ -15,12 +15,14 @@ from carom.systems.resting import Resting
 from carom.systems.simulation import Simulation
 from carom.systems.threads import FEWEST
 
+TESTS = Path(__file__).parents[1]
 FRAMES = 240
 WORLDS = ("billiards", "stack", "cannon", "fireworks", "heap")  # heap: solids stirred in shallow water
 HASHES = """
 import itertools
 import sys
 import numpy as np
+from heaps import stirred_heap as heap
 from carom.ecs import state_hash
 from carom.systems.shapes.geometry import hull_of
 from carom.systems.shapes.mesh import Mesh
@@ -52,29 +54,6 @@ def shapes():
             simulation.add(collider=kind, transform={"position": (3.0 * k, height, 0.0)}, **body)
     return simulation
 
-def heap():
-    simulation = Simulation()
-    simulation.add(collider={"plane": {}}, material={"friction": 0.5})
-    paddle = {"box": {"size": (4.0, 0.3, 0.3)}}
-    simulation.add(
-        collider=paddle, body={"type": "kinematic"}, transform={"position": (0.0, 0.3, 0.0)},
-        motion={"angular": (0.0, 2.0, 0.0)},
-    )
-    simulation.force("buoyancy", density=500.0, level=0.5)
-    kinds = (
-        {"box": {"size": (0.5, 0.4, 0.3)}},
-        {"sphere": {"radius": 0.25}},
-        {"capsule": {"radius": 0.15, "length": 0.4}},
-    )
-    for k in range(27):
-        place = (0.6 * (k % 3 - 1) + 0.01 * k, 0.8 + 0.6 * (k // 9), 0.6 * (k // 3 % 3 - 1))
-        turn = np.array([0.1 * (k % 4), 0.05 * k, 0.2 * (k % 3), 1.0])
-        simulation.add(
-            collider=kinds[k % 3], body={}, material={"restitution": 0.2 * (k % 4), "rolling_friction": 0.01},
-            transform={"position": place, "rotation": turn / np.sqrt((turn * turn).sum())},
-        )
-    return simulation
-
 frames, worlds = int(sys.argv[1]), sys.argv[2:]
 for name in worlds:
     simulation = globals()[name]() if name in ("stack", "shapes", "heap") else load_world(name).simulation
@@ -87,6 +66,7 @@ for name in worlds:
 def hashes(frames: int, *worlds: str, **environment: str) -> list[str]:
     """Return a line per frame with the state hash, from a process of its own."""
     command = [sys.executable, "-W", "error::RuntimeWarning", "-c", HASHES, str(frames), *worlds]
+    environment["PYTHONPATH"] = os.pathsep.join(filter(None, (str(TESTS), os.environ.get("PYTHONPATH"))))
     run = subprocess.run(
         command, env=os.environ | environment, capture_output=True, text=True, check=False, timeout=500
     )

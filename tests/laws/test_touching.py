@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from heaps import stirred_heap
 
 from carom.ecs import restore_snapshot, state_hash, take_snapshot
 from carom.ecs.errors import DeclarationError
@@ -101,31 +102,9 @@ def test_who_goes_touches_no_more(which: int) -> None:
     assert touching(simulation) == {}
 
 
-def heap(threads: int = 1) -> Simulation:
-    """Return bodies that fall in a heap and are stirred."""
-    simulation = Simulation(threads=threads)
-    simulation.add(collider={"plane": {}})
-    paddle = {"box": {"size": (4.0, 0.3, 0.3)}}
-    simulation.add(
-        collider=paddle, body={"type": "kinematic"}, transform={"position": (0.0, 0.3, 0.0)},
-        motion={"angular": (0.0, 2.0, 0.0)},
-    )  # fmt: skip
-    kinds = (
-        {"box": {"size": (0.5, 0.4, 0.3)}},
-        {"sphere": {"radius": 0.25}},
-        {"capsule": {"radius": 0.15, "length": 0.4}},
-    )
-    for k in range(27):
-        place = (0.6 * (k % 3 - 1) + 0.01 * k, 0.8 + 0.6 * (k // 9), 0.6 * (k // 3 % 3 - 1))
-        simulation.add(
-            collider=kinds[k % 3], body={}, material={"restitution": 0.2 * (k % 4)}, transform={"position": place}
-        )
-    return simulation
-
-
 def test_who_touches_is_who_began_and_did_not_end() -> None:
     """Begun and ended contacts add up to those that are, in every step; all in order of time and handles."""
-    simulation = heap()
+    simulation = stirred_heap()
     pairs: dict[tuple[int, int], float] = {}
     for _ in range(240):
         simulation.step()
@@ -144,12 +123,12 @@ def test_who_touches_is_who_began_and_did_not_end() -> None:
 
 def test_threads_and_snapshots_change_nothing() -> None:
     """The same events to the last bit with 1, 2 and 4 threads, and from a snapshot taken in the middle."""
-    simulation = heap()
+    simulation = stirred_heap()
     first, kept = events(simulation, 60), take_snapshot(simulation.world)
     rest = events(simulation, 60)
     for threads in (2, 4):
-        assert events(heap(threads), 120) == first + rest
-    again = heap()
+        assert events(stirred_heap(threads=threads), 120) == first + rest
+    again = stirred_heap()
     restore_snapshot(again.world, kept)
     assert events(again, 60) == rest
     assert state_hash(again.world) == state_hash(simulation.world)

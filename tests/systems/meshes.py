@@ -12,10 +12,31 @@ from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.shapes import Shape
+from carom.systems.shapes.box import Box
+from carom.systems.shapes.capsule import Capsule
+from carom.systems.shapes.cone import Cone
+from carom.systems.shapes.cylinder import Cylinder
+from carom.systems.shapes.ellipsoid import Ellipsoid
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.orientation import Z_TO_Y
+from carom.systems.shapes.sphere import Sphere
 from carom.systems.simulation import Simulation
+
+LEVEL = np.array(quaternion.IDENTITY)
+LYING = quaternion.from_axis_angle((1.0, 0.0, 0.0), np.pi / 2)  # along z
+Resting = dict[str, tuple[Shape, Floats, float]]  # shapes with the turn in which they rest, and their height then
+SOLIDS: Resting = {
+    "box": (Box((1.0, 1.0, 1.0)), LEVEL, 0.5),
+    "sphere": (Sphere(0.5), LEVEL, 0.5),
+    "capsule": (Capsule(0.3, 0.8), LYING, 0.3),
+}
+ROUNDS: Resting = {
+    "standing cylinder": (Cylinder(0.3, 0.8), LEVEL, 0.4),
+    "lying cylinder": (Cylinder(0.3, 0.8), LYING, 0.3),
+    "cone": (Cone(0.3, 0.8), LEVEL, 0.4),
+    "ellipsoid": (Ellipsoid((0.3, 0.2, 0.4)), LEVEL, 0.2),
+}
 
 
 def sheet(cells: int, width: float, rough: float, shift: float = 0.0, seed: int = 0) -> Geometry:

@@ -4,29 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from meshes import block, laid, nearest, sheet
+from meshes import LEVEL, ROUNDS, SOLIDS, block, laid, nearest, sheet
 
-from carom.ecs.column import Floats
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.mesh_links import linked
 from carom.systems.detection.meshes import joined, tree_of
-from carom.systems.shapes import Shape
 from carom.systems.shapes.box import Box
-from carom.systems.shapes.capsule import Capsule
 from carom.systems.shapes.convex import Convex
 from carom.systems.shapes.geometry import Geometry, hull_of
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.sphere import Sphere
 from carom.systems.simulation import Simulation
-
-LEVEL = np.array(quaternion.IDENTITY)
-LYING = quaternion.from_axis_angle((1.0, 0.0, 0.0), np.pi / 2)
-BODIES: dict[str, tuple[Shape, Floats, float]] = {  # with the turn in which it rests, and its height then
-    "box": (Box((1.0, 1.0, 1.0)), LEVEL, 0.5),
-    "sphere": (Sphere(0.5), LEVEL, 0.5),
-    "capsule": (Capsule(0.3, 0.8), LYING, 0.3),
-}
 
 
 def test_the_tree_holds_every_triangle_once_within_its_bounds() -> None:
@@ -130,11 +119,11 @@ def test_a_box_is_the_hull_of_its_corners() -> None:
     assert sum(len(found.depth) > 0 for found in boxes) > 1000
 
 
-@pytest.mark.parametrize("key", BODIES)
+@pytest.mark.parametrize("key", SOLIDS)
 @pytest.mark.parametrize("flat", ["box", "sheet"])
 def test_a_mesh_floor_gives_the_contacts_of_a_box(key: str, flat: str) -> None:
     """Lying, tilted or sunk in over the middle of a face: depths, normals and points are those of the closed form."""
-    shape, turn, height = BODIES[key]
+    shape, turn, height = SOLIDS[key]
     floor = block() if flat == "box" else sheet(9, 4.0, 0.0, 0.3)
     spun = [quaternion.multiply(quaternion.from_axis_angle((0.0, 1.0, 0.0), angle), turn) for angle in (0.0, 0.3, 1.2)]
     turns = np.array(spun * 3)
@@ -168,10 +157,10 @@ def test_a_body_keeps_its_features_while_it_slides() -> None:
     assert set(names) == {names[0]}
 
 
-@pytest.mark.parametrize("key", BODIES)
+@pytest.mark.parametrize("key", SOLIDS)
 def test_swapping_sides_flips_normals_and_nothing_else(key: str) -> None:
     """To the bit, whichever of the two has the lower row."""
-    land, shape = sheet(13, 8.0, 1.0, 0.3), BODIES[key][0]
+    land, shape = sheet(13, 8.0, 1.0, 0.3), SOLIDS[key][0]
     generator = np.random.default_rng(6)
     places = generator.uniform([-3.0, 0.0, -3.0], [3.0, 1.5, 3.0], (200, 3))
     turns = quaternion.normalise(generator.normal(size=(200, 4)))
@@ -195,10 +184,10 @@ def test_a_body_beside_a_thin_wall_is_not_pulled_through() -> None:
         assert found.depth == pytest.approx(0.02, abs=1e-12)
 
 
-@pytest.mark.parametrize("key", BODIES)
+@pytest.mark.parametrize("key", SOLIDS | ROUNDS)
 def test_a_body_driven_in_beyond_its_middle_comes_out_in_front(key: str) -> None:
     """20 cm under land, with its middle behind the surface: depth and normal lead up and out."""
-    shape, turn, height = BODIES[key]
+    shape, turn, height = (SOLIDS | ROUNDS)[key]
     (found,) = laid(sheet(9, 4.0, 0.0, 0.3), shape, 1, turn=LEVEL).measure(
         np.array([[0.1, -0.2, 0.2]]), turn[None], 0.01
     )
@@ -206,11 +195,11 @@ def test_a_body_driven_in_beyond_its_middle_comes_out_in_front(key: str) -> None
     assert found.depth.max() == pytest.approx(height + 0.2, abs=1e-12)
 
 
-@pytest.mark.parametrize("key", BODIES)
+@pytest.mark.parametrize("key", SOLIDS | ROUNDS)
 @pytest.mark.parametrize("drop", [0.0, 0.3])
 def test_bodies_rest_on_200_triangles_as_on_a_plane(key: str, drop: float) -> None:
     """After 5 s: the same place within 1e-6 m, at rest."""
-    shape, turn, height = BODIES[key]
+    shape, turn, height = (SOLIDS | ROUNDS)[key]
     ends = []
     for ground in ({"shape": Mesh(sheet(10, 6.0, 0.0, 0.3))}, {"plane": {}}):
         simulation = Simulation(dt=1 / 60)
@@ -230,7 +219,7 @@ def test_no_ghosts_on_3200_flat_triangles(key: str) -> None:
     simulation = Simulation(dt=1 / 60)
     simulation.add(collider={"shape": Mesh(sheet(40, 30.0, 0.0, 0.3))}, material={"friction": 0.0})
     body = simulation.add(
-        collider={"shape": BODIES[key][0]},
+        collider={"shape": SOLIDS[key][0]},
         body={},
         material={"friction": 0.0},
         transform={"position": (-9.987, 0.5, 0.07)},
