@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from carom.ecs import Transform, World
 from carom.ecs.errors import CaromError, did_you_mean
 from carom.systems.simulation import Simulation
-from carom.tools.cameras import Camera
+from carom.tools.cameras import Camera, Vector
 from carom.tools.film import Film, Picture, save_png
 from carom.tools.look import Look, look_of
 from carom.tools.moments import Moments, every
@@ -21,10 +21,21 @@ from carom.worlds.builder import LoadedWorld
 
 
 @dataclass(frozen=True)
+class Overview:
+    """A camera that has everything in view, wherever it has come to; ``up`` is that of the world."""
+
+    up: Vector = (0.0, 1.0, 0.0)
+
+    def camera(self, world: World, time: float | None = None, poses: Transform | None = None) -> Camera:
+        """Return the camera as the world is now, whatever the time."""
+        return default_camera(world, self.up)
+
+
+@dataclass(frozen=True)
 class Shot:
     """From where a world is photographed and how large: pixels across and down, pictures per simulated second."""
 
-    view: Camera | Rig
+    view: Camera | Rig | Overview
     width: int = 640
     height: int = 480
     fps: float = 30.0
@@ -34,11 +45,15 @@ class Shot:
         """Return the camera as the world is now; at another time (s), with the poses of all rows then, where stated."""
         return self.view if isinstance(self.view, Camera) else self.view.camera(world, time, poses)
 
+    def steady(self, world: World) -> Shot:
+        """Return the shot for a film from now on, in which an overview stays where it is."""
+        return replace(self, view=self.view.camera(world)) if isinstance(self.view, Overview) else self
+
 
 def shot_of(loaded: LoadedWorld, name: str | None = None, look: Look | None = None) -> Shot:
     """Return the shot a world file states, by the camera of that name, and with its look unless another is given.
 
-    Without a name it is the file's render.camera, else ``main``, else its first camera, else one that sees everything.
+    Without a name it is the file's render.camera, else ``main``, else its first camera, else an overview.
     Raises CaromError for an unknown name.
     """
     known, render = loaded.cameras, loaded.render
@@ -46,7 +61,7 @@ def shot_of(loaded: LoadedWorld, name: str | None = None, look: Look | None = No
         parts = f"no camera is named {name!r}", f"accepted: {', '.join(known) or 'none'}", did_you_mean(name, known)
         raise CaromError(f"{loaded.path}: {'; '.join(filter(None, parts))}")
     chosen = name or render.camera or ("main" if "main" in known else next(iter(known), None))
-    view = Rig(chosen, known[chosen], loaded.up) if chosen else default_camera(loaded.simulation.world, loaded.up)
+    view = Rig(chosen, known[chosen], loaded.up) if chosen else Overview(loaded.up)
     return Shot(view, render.width, render.height, render.fps, look or look_of(loaded))
 
 
@@ -68,7 +83,7 @@ class Photographer:
     def __init__(self, shot: Shot, simulation: Simulation, times: Iterable[float]) -> None:
         from carom.tools.renderer import Renderer
 
-        self._shot, self._simulation, self.moments = shot, simulation, Moments(times)
+        self._shot, self._simulation, self.moments = shot.steady(simulation.world), simulation, Moments(times)
         self._renderer, self._painter = Renderer(shot.width, shot.height), Painter(simulation, shot.look)
 
     def due(self) -> Iterator[Picture]:

@@ -28,6 +28,7 @@ class Glimpse:
 
     def begin(self, simulation: Simulation) -> None:
         """See the start."""
+        self._shot = self._shot.steady(simulation.world)
         evenly = min(1.0 / (RATE * simulation.settings.dt), self._frames / FEWEST)
         self._stride = max(1, round(evenly))
         self._renderer = Renderer(self._shot.width, self._shot.height)

@@ -36,6 +36,7 @@ class Strobe:
 
     def begin(self, simulation: Simulation) -> None:
         """See the start."""
+        self._shot = self._shot.steady(simulation.world)
         self._painter = Painter(simulation, self._shot.look)
         self.observe(simulation)
 

@@ -106,3 +106,17 @@ def test_a_picture_that_the_driver_has_no_room_for_is_refused(monkeypatch: pytes
     with pytest.raises(CaromError) as caught:
         Renderer(16_384, 16_384)
     assert str(caught.value) == ("renderer: the driver has no room for 16384 x 16384 px; ask for a smaller picture")
+
+
+def test_without_a_camera_a_picture_has_in_view_what_has_gone_far() -> None:
+    """Asked anew it goes with a lift; in a film it stays where it was at the start."""
+    simulation = (loaded := load_text(ROOM)).simulation
+    shot = shot_of(loaded)
+    film, start = shot.steady(simulation.world), shot.camera(simulation.world)
+    simulation.step(100)
+    far = shot.camera(simulation.world)
+    around, of_lift = math.sqrt(8.25), math.sqrt(0.75)  # radii of wall and lift
+    middle = (around - of_lift - 1.0) / 2.0
+    assert start.target == pytest.approx((middle, 2.0, 0.0), abs=1e-12)
+    assert far.target == pytest.approx((middle, (12.6 + of_lift - around) / 2.0, 0.0), abs=1e-12), "10 m up in 10 s"
+    assert film.camera(simulation.world) == start
