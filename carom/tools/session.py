@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from time import perf_counter
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +21,10 @@ from carom.systems.simulation import Simulation
 from carom.tools.interrupt import deferred_interrupt
 from carom.tools.witness import Witness
 from carom.worlds.builder import LoadedWorld
+from carom.worlds.expectation import Outcome
+
+if TYPE_CHECKING:
+    from carom.tools.opening import Opening
 
 
 @dataclass
@@ -62,11 +66,11 @@ class Summary:
     particles: int = 0  # at the end
     expectations: int = 0
     judged: bool = True
-    failures: list[str] = field(default_factory=list)
+    failures: list[Outcome] = field(default_factory=list)
     outputs: dict[str, str] = field(default_factory=dict)
 
-    def text(self) -> str:
-        """Return the summary for people."""
+    def text(self, opening: Opening | None = None) -> str:
+        """Return the summary for people, with the commands that open what failed."""
         speed = f"{self.simulated_seconds / self.real_seconds:.1f} x real time" if self.real_seconds else "no time"
         particles = f", {self.particles} particles" if self.particles else ""
         held = f"{self.expectations - len(self.failures)} of {self.expectations} held"
@@ -77,7 +81,7 @@ class Summary:
             f"  overlap       {1e3 * self.deepest_overlap:.3g} mm at the deepest",
             f"  pairs         {self.pairs_by_fcl} answered by FCL, {self.pairs_by_kernels} by kernels",
             f"  expectations  {held if self.judged else 'not asked of this run'}",
-            *(f"    {failure}" for failure in self.failures),
+            *(f"    {line}" for failed in self.failures for line in (opening.lines(failed) if opening else [failed])),
         ]
         if self.points_refused:
             lines.append(
@@ -139,7 +143,7 @@ def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None,
     summary.impacts_cut, summary.looks_cut = answered.impacts_cut, answered.looks_cut
     summary.particles = simulation.world.count(Particle)
     summary.expectations = len(expectations)
-    summary.failures = [str(outcome) for item in expectations if not (outcome := item.outcome()).held]
+    summary.failures = [outcome for item in expectations if not (outcome := item.outcome()).held]
     return summary
 
 

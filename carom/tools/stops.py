@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from code import InteractiveConsole
 from collections.abc import Iterable
 from typing import Any
@@ -16,23 +15,13 @@ from carom.systems.compound import bodies_of
 from carom.systems.ring import Ring
 from carom.systems.simulation import Simulation
 from carom.systems.touching import touching_rows
+from carom.tools.opening import place_of
 from carom.worlds.builder import LoadedWorld
 
 MOST = 4  # of those who touch one, in a line
 BANNER = """{told}
 simulation, world, stopped and ring are here. rewind(10) goes back by frames, step() forward up to a breakpoint, go_on()
 takes the step that broke and those after it, with tried(simulation): shows what that step does. Ctrl-D ends."""
-
-
-def place_of(loaded: LoadedWorld, name: str) -> str:
-    """Return where in its files an entity is written, ``world.yaml:7:5``, or else the file."""
-    base, items = re.split(r"[.\[]", name)[0], loaded.source.data.get("entities") or []
-    for index, item in enumerate(items):
-        if isinstance(item, dict) and item.get("name") == base:
-            home, _ = loaded.source.home(("entities", index))
-            line, column = loaded.source.position(("entities", index))
-            return f"{home.name}:{line}:{column}"
-    return loaded.path
 
 
 def whereabouts(world: World, entity: int) -> str:

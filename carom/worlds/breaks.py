@@ -21,6 +21,7 @@ from carom.worlds.units import VALUE, read_quantity
 NOT_FINITE = "not finite"
 RISES = re.compile(r"energy\s+rises\s+(?:by\s+)?(.+)")
 OVERLAP = re.compile(r"overlap\s*>\s*(.+)")
+FRAME = re.compile(r"frame\s+(\d{1,18})")
 
 
 @dataclass
@@ -48,10 +49,7 @@ class Holds:
         if not holds.any():
             return None
         index = int(holds.argmax())
-        told = dict.fromkeys(
-            term.entities[index % len(term.entities)] for term in self.condition.terms if term.entities
-        )
-        return Met(self.condition.values(world, index), tuple(told))
+        return Met(self.condition.values(world, index), self.condition.entities(index))
 
 
 @dataclass
@@ -92,6 +90,18 @@ class Rises:
         return None
 
 
+@dataclass
+class AtFrame:
+    """A frame, whatever happens in it."""
+
+    text: str
+    frame: int
+
+    def met(self, world: World) -> Met | None:
+        """Look at the number of the step."""
+        return Met("is reached") if world.frame == self.frame else None
+
+
 def read_break(text: str, world: World) -> Breakpoint:
     """Return the breakpoint a text states.
 
@@ -104,6 +114,10 @@ def read_break(text: str, world: World) -> Breakpoint:
         return _rises(stated, rises[1])
     if overlap := OVERLAP.fullmatch(stated):
         return Overlaps(stated, read_quantity(overlap[1], "m"))
+    if frame := FRAME.fullmatch(stated):
+        if int(frame[1]) < 1:
+            raise WordError("is before the first step", received=repr(stated), accepted="a frame from 1 on")
+        return AtFrame(stated, int(frame[1]))
     condition = read_condition(stated, world)
     if condition.looks:
         raise WordError("asks for a picture in every step", received=repr(text), accepted="conditions on columns")

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.ecs import World
+from carom.ecs import Entity, World
 from carom.ecs.column import Booleans, Floats
 from carom.worlds.errors import WordError
 from carom.worlds.parsing import Parser
@@ -50,6 +50,11 @@ class Condition:
     def looks(self) -> bool:
         """Whether it asks for pictures."""
         return any(term.looks for term in self.terms)
+
+    def entities(self, index: int) -> tuple[Entity, ...]:
+        """Return whom its terms are of where it speaks of one of the entities."""
+        of = (term.entities[index % len(term.entities)] for term in self.terms if term.entities)
+        return tuple(dict.fromkeys(of))
 
     def values(self, world: World, index: int) -> str:
         """Return what its terms are for one of the entities."""

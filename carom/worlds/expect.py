@@ -23,7 +23,11 @@ def read_expectations(source: Source, simulation: Simulation, items: list[Any]) 
     found: list[Expectation] = []
     for index, words in enumerate(items):
         if words is not None:
-            found += _read(source, simulation, ("expect", index), words)
+            path = ("expect", index)
+            read = _read(source, simulation, path, words)
+            for expectation in read:
+                expectation.file = source.written_at(path)
+            found += read
     return found
 
 

@@ -122,11 +122,12 @@ class Penetration(Expectation):
             return
         row = int(np.argmax(contacts.depth[: contacts.count]))
         depth = float(contacts.depth[row])
-        pair = f"{world.name(int(contacts.a[row]))} and {world.name(int(contacts.b[row]))}"
+        both = int(contacts.a[row]), int(contacts.b[row])
+        pair = " and ".join(map(world.name, both))
         if depth > self.deepest:
             self.deepest, self.worst = depth, f"{depth:.3g} m between {pair}"
         if not (depth < self.bound if self.strict else depth <= self.bound):
-            self.fail(simulation, f"{depth:.3g} m between {pair}")
+            self.fail(simulation, f"{depth:.3g} m between {pair}", both)
 
 
 class Throughout(Expectation):
@@ -150,4 +151,5 @@ class Throughout(Expectation):
             self.least, self.worst = float(room[index]), self.condition.values(simulation.world, index)
         failing = np.nonzero(holds != self.wanted)[0]
         if len(failing):
-            self.fail(simulation, self.condition.values(simulation.world, int(failing[0])))
+            index = int(failing[0])
+            self.fail(simulation, self.condition.values(simulation.world, index), self.condition.entities(index))

@@ -37,11 +37,13 @@ class Event:
 
     def matching_rows(self, world: World) -> list[int]:
         """Return the rows of the last step that are such events; impacts count whichever of the two is named first."""
-        table = world[self.kind]
-        columns = [getattr(table, name) for name in PARTIES[self.kind]]
-        parties = [tuple(int(column[row]) for column in columns) for row in range(table.count)]
+        parties = [self.parties(world, row) for row in range(world[self.kind].count)]
         swap = self.kind is Impact
         return [row for row, some in enumerate(parties) if self._fits(some) or (swap and self._fits(some[::-1]))]
+
+    def parties(self, world: World, row: int) -> tuple[int, ...]:
+        """Return who (handles) are in a row of the last step."""
+        return tuple(int(getattr(world[self.kind], name)[row]) for name in PARTIES[self.kind])
 
     def _fits(self, parties: tuple[int, ...]) -> bool:
         return all(party in group for party, group in zip(parties, self.groups, strict=True))

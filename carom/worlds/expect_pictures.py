@@ -33,6 +33,7 @@ class Visible(AtMoment):
     def compare(self, simulation: Simulation, row: int | None) -> None:
         """Look at the picture of now."""
         holds, margin = self.condition.evaluate(simulation.world)
-        self.worst = self.condition.values(simulation.world, int(margin.argmin()))
+        index = int(margin.argmin())
+        self.worst = self.condition.values(simulation.world, index)
         if not holds.all():
-            self.fail(simulation, self.worst)
+            self.fail(simulation, self.worst, self.condition.entities(index))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -82,17 +82,20 @@ class Values(AtMoment):
     def compare(self, simulation: Simulation, row: int | None) -> None:
         """Compare the values with the target; a row is that of the event."""
         world = simulation.world
+        entities: Sequence[int] = ()
         if self.term is not None:
-            values, names = self.term.read(world), self.term.names
+            values, names, entities = self.term.read(world), self.term.names, self.term.entities
         else:
-            assert self.when is not None
+            assert self.when is not None and row is not None
             values, names = np.reshape(getattr(world[self.when.kind], self.column)[row], (1, -1)), (self.column,)
+            entities = self.when.parties(world, row)
         errors = self.target.errors(values)
         index = int(np.argmax(errors))
         self.worst = f"{names[index]} = {numbers(values[index])} {self.target.unit}, off by {errors[index]:.3g}"
         if not errors[index] <= self.target.within:
             self.found = np.atleast_1d(values[index])
-            self.fail(simulation, self.worst)
+            one = entities[index : index + 1] if self.term is not None else entities
+            self.fail(simulation, self.worst, one)
 
     def fails_like(self, other: Expectation) -> bool:
         """Tell whether both have failed of the same, by values that are the same as far as this can tell."""

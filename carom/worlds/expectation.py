@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from carom.systems.simulation import Simulation
@@ -12,7 +13,10 @@ NUMBERS = re.compile(r"\[[\d,]+\]|(?<![\w.-])(?:[-+]?\d[\d.]*(?:e[-+]?\d+)?|nan|
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of an expectation: ``frame`` and ``time`` (s) are where it first failed, None where it held."""
+    """What became of an expectation: ``frame`` and ``time`` (s) are where it first failed, None where it held.
+
+    ``entities`` are the names of those of whom it failed, as far as it is of some; ``file`` is where it is written.
+    """
 
     text: str
     held: bool
@@ -21,6 +25,8 @@ class Outcome:
     worst: str
     frame: int | None = None
     time: float | None = None
+    entities: tuple[str, ...] = ()
+    file: str = ""
 
     def __str__(self) -> str:
         """Return one line."""
@@ -37,11 +43,13 @@ class Expectation:
     """
 
     looks = False
+    file = ""  # where it is written: file, line and column
 
     def __init__(self, text: str, expected: str) -> None:
         self.text, self.expected = text, expected
         self.worst = ""
         self.failure: tuple[str, int, float] | None = None
+        self.entities: tuple[str, ...] = ()  # of whom it failed
 
     def begin(self, simulation: Simulation) -> None:
         """See the world before its first step."""
@@ -52,10 +60,11 @@ class Expectation:
     def end(self, simulation: Simulation) -> None:
         """See the end of the run."""
 
-    def fail(self, simulation: Simulation, received: str) -> None:
-        """Note a failure; the first one counts."""
+    def fail(self, simulation: Simulation, received: str, entities: Sequence[int] = ()) -> None:
+        """Note a failure, of these entities (handles) where it is of some; the first one counts."""
         if self.failure is None:
             self.failure = (received, simulation.frame, simulation.time)
+            self.entities = tuple(dict.fromkeys(map(simulation.world.name, entities)))
 
     @property
     def held(self) -> bool:
@@ -81,6 +90,7 @@ class Expectation:
     def outcome(self) -> Outcome:
         """Return what became of it."""
         if self.failure is None:
-            return Outcome(self.text, True, self.expected, self.worst, self.worst)
+            return Outcome(self.text, True, self.expected, self.worst, self.worst, file=self.file)
         received, frame, time = self.failure
-        return Outcome(self.text, False, self.expected, received, self.worst or received, frame, time)
+        worst = self.worst or received
+        return Outcome(self.text, False, self.expected, received, worst, frame, time, self.entities, self.file)

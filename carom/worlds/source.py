@@ -103,6 +103,11 @@ class Source:
         home, own = self.home(self.locate(path))
         return home.positions.get(own, (1, 1))
 
+    def written_at(self, path: Path) -> str:
+        """Return file, line and column of the nearest part of ``path`` that is written, such as ``world.yaml:8:5``."""
+        line, column = self.position(path)
+        return f"{self.home(self.locate(path))[0].name}:{line}:{column}"
+
     def place(self, path: Path) -> str:
         """Return the words for another place, such as ``entities.0 at line 8``."""
         home, own = self.home(path)

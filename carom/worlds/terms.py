@@ -135,7 +135,8 @@ def _question(text: str, function: str, patterns: list[str], world: World) -> Te
     def read(world: World) -> Floats:
         return np.array([[world[Pictures].ask(function, some, camera)] for some in entities])
 
-    return Term(text, question.unit, 1, names, read, looks=True)
+    of = tuple(some[0] for some in entities) if question.entities == 1 else ()
+    return Term(text, question.unit, 1, names, read, of, looks=True)
 
 
 def _column(text: str, end: int, names: list[str], world: World) -> Term:

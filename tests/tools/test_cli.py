@@ -98,7 +98,7 @@ def test_an_expectation_that_fails_makes_exit_1(world: Path, capsys: pytest.Capt
     assert main(["test", str(world)]) == 1
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == f"FAILED {world}: 0 of 1 expectations held"
-    assert lines[1].startswith("       failed in frame 12 at 0.2 s: ")
+    assert lines[1].startswith(f"       {world}:11:5: failed in frame 12 at 0.2 s: ")
 
 
 def test_a_run_cut_short_is_not_judged(world: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -84,8 +84,8 @@ def test_a_missing_golden_fails_with_the_command_that_accepts(pytester: pytest.P
     result.stdout.fnmatch_lines(
         [
             "no golden falling.json, falling.png in __carom__/test_balls",
-            f"  left in {shown(pytester)}",
-            f"  its last frames: carom view {shown(pytester)}/recording.rrd",
+            f"  frame 10, golden __carom__/test_balls/falling, left in {shown(pytester)}",
+            f"  open it with: carom view {shown(pytester)}/recording.rrd --frame 10",
             '  again: pytest "test_balls.py::test_two_balls"',
             '  to accept what is now: pytest "test_balls.py::test_two_balls" --carom-update',
         ]
@@ -101,8 +101,8 @@ def test_a_body_moved_by_one_percent_fails_as_physics(kit: pytest.Pytester) -> N
     result.stdout.fnmatch_lines(
         [
             "physics: transform.position of entity 'left' is [[]-0.505, *[]], expected exactly [[]-0.5, *[]]",
-            f"  left in {shown(kit)}",
-            f"  its last frames: carom view {shown(kit)}/recording.rrd",
+            f"  frame 10, golden __carom__/test_balls/falling, left in {shown(kit)}",
+            f"  open it with: carom view {shown(kit)}/recording.rrd --frame 10 --select left",
             '  again: pytest "test_balls.py::test_two_balls"',
             '  to accept what is now: pytest "test_balls.py::test_two_balls" --carom-update',
             "carom: expected and actual, side by side: carom-report/index.html",

@@ -184,7 +184,11 @@ def test_world_files_are_tests(pytester: pytest.Pytester) -> None:
     result = pytester.runpytest_inprocess()
     result.assert_outcomes(failed=1)
     result.stdout.fnmatch_lines(
-        ["failed in frame 3 at 0.05 s: *", "  to look at it: carom run worlds/flight.yaml --record out/flight.rrd"]
+        [
+            f"{world}:10:5: failed in frame 3 at 0.05 s: *",
+            f"  {world}:7:5: 'ball'",
+            "  open it with: carom run worlds/flight.yaml --break 'frame 3' --pdb",
+        ]
     )
 
     world.write_text(WORLD.replace("radius: 0.5", "radius: -1"))

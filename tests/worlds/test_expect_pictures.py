@@ -37,11 +37,12 @@ cameras:
 render: {width: 160, height: 120}
 expect:
   - """
+LINE = WORLD.count("\n") + 1  # of the first expectation
 
 
 def failures(expectation: str) -> list[str]:
     """Run the world with one thing expected and return what failed."""
-    return run(load_text(WORLD + expectation)).failures
+    return list(map(str, run(load_text(WORLD + expectation)).failures))
 
 
 @pytest.mark.parametrize(
@@ -108,9 +109,11 @@ def test_no_picture_is_a_failure_of_each_that_asks_for_one(
     assert main(["test", str(world)]) == 1
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == f"FAILED {world}: 1 of 3 expectations held"
-    for line, text in zip(lines[1:], asked, strict=True):
-        assert line.startswith(f"       failed in frame 0 at 0 s: {text}; expected ")
+    for k, text in enumerate(asked):
+        line, command = lines[1 + 2 * k : 3 + 2 * k]
+        assert line.startswith(f"       {world}:{LINE + k}:5: failed in frame 0 at 0 s: {text}; expected ")
         assert "; received no picture: no OpenGL here; worst" in line
+        assert command == f"         open it with: carom run {world} --break 'frame 1' --pdb"
 
 
 def test_asking_where_nobody_draws_tells_who_does() -> None:

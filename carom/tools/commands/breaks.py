@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import shlex
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from carom.tools.commands.options import print_json
+from carom.tools.commands.options import print_json, stated_overrides
 
 if TYPE_CHECKING:
     from carom.ecs.errors import NonFiniteError
     from carom.systems.breakpoints import StoppedError
     from carom.systems.observer import Observer
+    from carom.tools.opening import Opening
     from carom.worlds.builder import LoadedWorld
 
 REACH = 5.0  # s that a prompt goes back, where no ring says how many
@@ -58,9 +58,10 @@ class Breaks:
 
     def tell(self, stopped: StoppedError, recording: Path | None) -> None:
         """Print who and where, and the command that opens it there; open the prompt if it was asked for."""
-        from carom.tools.stops import Prompt, place_of, text
+        from carom.tools.opening import place_of
+        from carom.tools.stops import Prompt, text
 
-        command = self._command(stopped, recording)
+        command = self._opening(recording).command(stopped.frame, stopped.names, self._arguments.breaks)
         told = text(stopped, self._loaded, command)
         if self._arguments.json:
             files = [place_of(self._loaded, name) for name in stopped.names]
@@ -73,21 +74,16 @@ class Breaks:
             print(told)
 
     def tell_not_finite(self, fault: NonFiniteError, recorded: str) -> None:
-        """Print what was no number, in a prompt if it was asked for."""
+        """Print what was no number, in a prompt if it was asked for, or else with the command that opens it."""
         from carom.tools.stops import Prompt
 
         if self._ring:
             Prompt(self._loaded.simulation, fault, self._ring).open(f"{fault}{recorded}")
         else:
+            recorded = recorded or f"\nopen it with: {self._opening(None).of_no_number()}"
             print(f"{fault}{recorded}", file=sys.stderr)
 
-    def _command(self, stopped: StoppedError, recording: Path | None) -> str:
-        """Return what opens the recording at the step that broke, or else a prompt on the world there."""
-        if recording:
-            selected = ["--select", stopped.names[0]] if stopped.names else []
-            return shlex.join(["carom", "view", str(recording), "--frame", str(stopped.frame), *selected])
-        stated = [word for text in self._arguments.breaks for word in ("--break", text)]
-        for option in ("collision", "dt", "integrator", "seed"):
-            if (value := getattr(self._arguments, option)) is not None:
-                stated += [f"--{option}", str(value)]
-        return shlex.join(["carom", "run", self._arguments.world, *stated, "--pdb"])
+    def _opening(self, recording: Path | None) -> Opening:
+        from carom.tools.opening import Opening
+
+        return Opening(self._loaded, self._arguments.world, stated_overrides(self._arguments), recording)

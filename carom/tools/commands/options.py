@@ -29,6 +29,12 @@ def overrides(arguments: argparse.Namespace) -> dict[str, Any]:
     return found if arguments.dt is None else found | {"dt": seconds("--dt", arguments.dt, above=0.0)}
 
 
+def stated_overrides(arguments: argparse.Namespace) -> list[str]:
+    """Return the words by which the overrides were stated."""
+    stated = {option: getattr(arguments, option) for option in ("collision", "dt", "integrator", "seed")}
+    return [word for option, value in stated.items() if value is not None for word in (f"--{option}", str(value))]
+
+
 def declare_detail(parser: argparse.ArgumentParser) -> None:
     """Declare how much a recording holds."""
     parser.add_argument(

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from carom.systems.simulation import Simulation
     from carom.tools.filming import Shot
     from carom.worlds.builder import LoadedWorld
+    from carom.worlds.expectation import Outcome
 
 
 def declare_record(parser: argparse.ArgumentParser) -> None:
@@ -74,7 +75,7 @@ class Records:
         there = (self._last is None or self._last.shown) and (self._later is None or self._later.begun)
         return self._path if there else None
 
-    def after(self, simulation: Simulation, failures: list[str]) -> str:
+    def after(self, simulation: Simulation, failures: list[Outcome]) -> str:
         """Write what a ring holds where something failed in the end; return why nothing is recorded, if so."""
         if self._last and failures:
             self._last.show(simulation)

@@ -18,6 +18,7 @@ from carom.tools.commands.options import (
     overrides,
     print_json,
     print_warnings,
+    stated_overrides,
     whole_number,
 )
 from carom.tools.commands.record import Records, declare_record
@@ -86,6 +87,7 @@ def once(
     from carom.tools.auditing import Auditing
     from carom.tools.filming import Filming, photograph, shot_of
     from carom.tools.futures import Futures
+    from carom.tools.opening import Opening
     from carom.tools.outputs import prepare_outputs
     from carom.tools.pace import Pace
     from carom.tools.painter import Painter
@@ -135,12 +137,14 @@ def once(
     written = {"recording": records.path, "film": arguments.film, "picture": arguments.picture}
     written["world"] = arguments.write
     summary.outputs = {kind: str(path) for kind, path in written.items() if path}
+    opening = Opening(loaded, arguments.world, stated_overrides(arguments), records.path)
     if arguments.json:
         further = ({"audit": auditing.rows()} if arguments.audit else {}) | ({"ledger": ledger.since} if ledger else {})
         further |= {"futures": list(map(dataclasses.asdict, futures.outcomes()))} if futures else {}
+        further |= {"failures": list(map(opening.told, summary.failures))}
         print_json(dataclasses.asdict(summary) | further)
     else:
-        print(summary.text())
+        print(summary.text(opening))
         if futures:
             print(futures.text())
         if ledger:

@@ -84,16 +84,20 @@ class CaromSnapshot:
     ) -> None:
         """Leave a case in the report; fail unless goldens are updated at the end."""
         __tracebackhide__ = True
+        from carom.tools.opening import viewing
+        from carom.tools.recording import Recording
         from carom.tools.snapshot_kit.case import RECORDING, leave
 
         case, folder = leave(self._kit.report, self._kit.root, self._test.nodeid, golden, actual, verdict)
         if self._kit.update:
             return
-        self._frames.record(simulation, folder / RECORDING, case.test, camera)
+        recorded = folder / RECORDING
+        self._frames.record(simulation, recorded, case.test, camera)
+        view = viewing(Recording(recorded), self._kit.shown(recorded), case.frame, [case.entity])
         lines = (
             str(case),
-            f"  left in {self._kit.shown(folder)}",
-            f"  its last frames: carom view {self._kit.shown(folder / RECORDING)}",
+            f"  frame {case.frame}, golden {self._kit.shown(golden.path)}, left in {self._kit.shown(folder)}",
+            f"  open it with: {view}",
             f"  again: {case.again}",
             f"  to accept what is now: {case.accept}",
         )

@@ -28,6 +28,7 @@ class WorldItem(pytest.Item):
         """Fail where the file is wrong, an expectation does not hold, or the end is not that of the golden."""
         from carom.ecs.errors import CaromError
         from carom.tools.filming import shot_of
+        from carom.tools.opening import Opening
         from carom.tools.session import run
         from carom.tools.snapshot_kit.last_frames import LastFrames
         from carom.worlds.builder import load_world
@@ -39,9 +40,8 @@ class WorldItem(pytest.Item):
             except CaromError as fault:
                 pytest.fail(str(fault), pytrace=False)
             if failures:
-                world = self.config.stash[KIT].shown(self.path)
-                record = f"carom run {world} --record out/{self.path.stem}.rrd"
-                pytest.fail("\n".join([*failures, f"  to look at it: {record}"]), pytrace=False)
+                opening = Opening(loaded, self.config.stash[KIT].shown(self.path))
+                pytest.fail("\n".join(line for failed in failures for line in opening.lines(failed)), pytrace=False)
             shot = shot_of(loaded)
             snapshot = CaromSnapshot(self, self.config.stash[KIT], frames)
             snapshot.check(loaded, END, size=(shot.width, shot.height))
