@@ -26,6 +26,13 @@ class StatedBodies(Resource):
     def __init__(self) -> None:
         self.words: dict[int, Mapping[str, Any]] = {}
 
+    def note(self, entities: Integers, words: Mapping[str, Any]) -> None:
+        """Note the words of bodies, in which numbers may have a row for each."""
+        widths = {key: len(column.shape) for key, column in RigidBody.columns.items()}
+        each = [key for key in words if key in widths and np.ndim(words[key]) > widths[key]]
+        for number, entity in enumerate(entities.tolist()):
+            self.words[entity] = {**words, **{key: words[key][number] for key in each}} if each else words
+
 
 def bodies_of(world: World) -> Integers:
     """Return for each row in use the row of the body it belongs to: itself, the nearest that carries it, or -1."""

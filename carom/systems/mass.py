@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from carom.ecs import RigidBody
-from carom.ecs.column import Floats
+from carom.ecs.column import Booleans, Floats
 from carom.ecs.components.rigid_body import BodyType
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial import quaternion
@@ -28,37 +28,39 @@ NOTHING = MassProperties(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), NO_AXES)
 
 
 class Part(NamedTuple):
-    """A solid of a density (kg/m3) at a pose in the frame of its body."""
+    """A solid of a density (kg/m3) at a pose in the frame of its body; all may have a row for each of many bodies."""
 
     solid: MassProperties
-    density: float
+    density: float | Floats
     position: Floats
     rotation: Floats
 
 
+@np.errstate(divide="ignore", over="ignore", invalid="ignore")
 def rigid_body(words: Mapping[str, Any], parts: Sequence[Part], dimensions: int = 3) -> RigidBody:
     """Return the body of some parts; what ``words`` state of mass (kg), inertia or centre of mass goes before.
 
-    A stated mass is shared out by volume, evenly where none has any. Raises DeclarationError for a dynamic body that
-    has no mass, and for damping that drives.
+    A stated mass is shared out by volume, evenly where none has any. Numbers of the words, and of a single part, may
+    have a row for each of many bodies. Raises DeclarationError for a dynamic body that has no mass, and for damping
+    that drives.
     """
     kind = BodyType[words.get("type", "dynamic").upper()]
     masses, volume = [part.density * part.solid.volume for part in parts], sum(part.solid.volume for part in parts)
-    mass = float(words.get("mass", sum(masses)))
-    if kind is BodyType.DYNAMIC and not (math.isfinite(mass) and mass > 0.0):
-        raise DeclarationError(
-            f"body.mass: must be finite and above 0 kg, received {mass:g}; state mass, or a shape with volume"
-        )
-    for key in ("linear_damping", "angular_damping"):
-        if not 0.0 <= words.get(key, 0.0) < math.inf:
-            raise DeclarationError(f"body.{key}: must be finite and at least 0 1/s, received {words[key]:g}")
-    if "mass" in words:
-        masses = [mass * (part.solid.volume / volume if volume else 1.0 / len(parts)) for part in parts]
-    solid = placed(parts[0]) if len(parts) == 1 else joined(parts, masses) if mass and parts else NOTHING
-    inertia = np.asarray(words.get("inertia", [mass * moment for moment in solid.inertia]), np.float64)
+    mass = np.asarray(words.get("mass", sum(masses)), np.float64)
     moves = kind is BodyType.DYNAMIC
-    with np.errstate(divide="ignore"):
-        inverse = np.where(inertia > 0.0, 1.0 / inertia, 0.0) if moves else np.zeros(3)
+    if moves:
+        _refuse("mass", mass, (mass > 0.0) & (mass < np.inf), "above 0 kg", "; state mass, or a shape with volume")
+    for key in ("linear_damping", "angular_damping"):
+        rate = np.asarray(words.get(key, 0.0), np.float64)
+        _refuse(key, rate, (rate >= 0.0) & (rate < np.inf), "at least 0 1/s")
+    if len(parts) == 1:
+        solid = placed(parts[0])
+    else:
+        if "mass" in words:
+            masses = [mass * (part.solid.volume / volume if volume else 1.0 / len(parts)) for part in parts]
+        solid = joined(parts, list(map(float, masses))) if parts and mass else NOTHING
+    inertia = np.asarray(words.get("inertia", mass[..., None] * np.asarray(solid.inertia)), np.float64)
+    inverse = np.where(inertia > 0.0, 1.0 / inertia, 0.0) if moves else np.zeros(3)
     return RigidBody(
         **{key: words[key] for key in PASSED_ON if key in words},
         type=kind.value,
@@ -72,11 +74,16 @@ def rigid_body(words: Mapping[str, Any], parts: Sequence[Part], dimensions: int 
     )
 
 
+def _refuse(word: str, values: Floats, fits: Booleans, wanted: str, mend: str = "") -> None:
+    """Raise DeclarationError unless all values of a word fit, naming the first that does not."""
+    if not fits.all():
+        raise DeclarationError(f"body.{word}: must be finite and {wanted}, received {values[~fits].flat[0]:g}{mend}")
+
+
 def placed(part: Part) -> MassProperties:
     """Return a solid in the frame of its body."""
     center = part.position + quaternion.rotate(part.rotation, part.solid.center)
-    axes = quaternion.multiply(part.rotation, part.solid.axes)
-    return part.solid._replace(center=tuple(center.tolist()), axes=tuple(axes.tolist()))
+    return part.solid._replace(center=center, axes=quaternion.multiply(part.rotation, part.solid.axes))  # type: ignore[arg-type]
 
 
 def joined(parts: Sequence[Part], masses: Sequence[float]) -> MassProperties:

@@ -27,7 +27,7 @@ from carom.ecs.components.motion import Motion
 from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
 from carom.ecs.errors import DeclarationError
-from carom.systems.assembly import Materials, add_entities, add_entity
+from carom.systems.assembly import add_entities, add_entity
 from carom.systems.awake import Awake
 from carom.systems.bookkeeping import Bookkeeping
 from carom.systems.breakpoints import Breakpoint, StoppedError, look
@@ -52,6 +52,7 @@ from carom.systems.landings import Landings
 from carom.systems.layers import Layers
 from carom.systems.ledger import Ledger
 from carom.systems.linkage import Linkage
+from carom.systems.materials import Materials
 from carom.systems.observer import Observer
 from carom.systems.parameters import WordFault
 from carom.systems.particles.fields import Fields

@@ -126,7 +126,7 @@ def _loaded(
         populator.add_all(items)
     there = {whole_of_copy(name) for name in simulation.world.names()}
     source.excused = {item.name for item in items if item.name is not None} - there
-    populator.connections.point_all()
+    populator.intake.connections.point_all()
     with source.telling(("entities",)):
         if not source.faults:
             compose(simulation.world)
@@ -136,7 +136,7 @@ def _loaded(
     _forces(source, simulation, values["forces"])
     take_state(source, simulation.world, values["state"])
     with source.telling(("events",)):
-        add_events(source, populator, values["events"])
+        add_events(source, populator.intake, values["events"])
     simulation.world.add(Pictures(values["cameras"]))
     if values["oracle"]:
         look_up = prefabs.variables.look_up
@@ -159,7 +159,7 @@ def _loaded(
     return LoadedWorld(
         simulation, data, name, text, run, expectations,
         values["name"], values["description"], UP[values["up"]], values["cameras"], render, recording, source.warnings,
-        files_of_world.used, source, populator.places_in_file, populator.geometries.known,
+        files_of_world.used, source, populator.intake.places_in_file, populator.intake.geometries.known,
     )  # fmt: skip
 
 

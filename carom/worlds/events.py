@@ -8,11 +8,11 @@ from carom.ecs.errors import DeclarationError
 from carom.systems.actions import Action, Spawn
 from carom.systems.events import Event, Events, read_event
 from carom.systems.parameters import WordFault
-from carom.worlds.crowd import together
+from carom.worlds.crowd import Form, Member, put_together
 from carom.worlds.errors import Path, WordError
 from carom.worlds.groups import WORLD
+from carom.worlds.intake import Intake
 from carom.worlds.names import matching
-from carom.worlds.populate import Populator
 from carom.worlds.prefab import Prefabs
 from carom.worlds.source import Source
 from carom.worlds.unfold import Item
@@ -33,9 +33,9 @@ def _with_prefab(prefabs: Prefabs, path: Path, words: Any) -> Any:
     return words | {Spawn.key: spawned}
 
 
-def add_events(source: Source, populator: Populator, events: list[Any]) -> None:
+def add_events(source: Source, intake: Intake, events: list[Any]) -> None:
     """Let events of a file happen; report everything that is wrong with them. None stands for one already reported."""
-    world, read = populator.simulation.world, list[tuple[Path, Action]]()
+    world, read = intake.simulation.world, list[tuple[Path, Action]]()
     for index, words in enumerate(events):
         if words is None:
             continue
@@ -43,7 +43,7 @@ def add_events(source: Source, populator: Populator, events: list[Any]) -> None:
         stated = words.model_dump(exclude_unset=True)
         at, faults = stated.pop("at"), list[WordFault]()
         if stated.keys() == {Spawn.key}:
-            spawned = _spawn(populator, (*path, Spawn.key), words.spawn)
+            spawned = _spawn(intake, (*path, Spawn.key), words.spawn)
             event = None if spawned is None else Event(at, spawned)
         else:
             event = read_event(world, at, stated, faults)
@@ -53,25 +53,25 @@ def add_events(source: Source, populator: Populator, events: list[Any]) -> None:
             world[Events].entries.append(event)
             read.append(((*path, event.action.key), event.action))
     for place, action in read:
-        _check_names(source, populator, place, action)
+        _check_names(source, intake, place, action)
 
 
-def _spawn(populator: Populator, path: Path, words: Any) -> Spawn | None:
+def _spawn(intake: Intake, path: Path, words: Any) -> Spawn | None:
     """Return the action that brings who is stated; report what is wrong with the words."""
-    some = populator.read(Item(path, words.name, words, WORLD), words.model_dump(exclude_unset=True))
+    some = intake.read(Item(path, words.name, words, WORLD), words.model_dump(exclude_unset=True))
     if some is None:
         return None
     try:
-        places, names, bundles = together(populator.simulation.world, [some])
+        places, names, bundles = put_together([Member(some, Form(intake.simulation.world, [some]), 0)])
     except DeclarationError as fault:
-        populator.report(path, str(fault))
+        intake.report(path, str(fault))
         return None
     return Spawn(places, None if names is None else tuple(names), tuple(bundles))
 
 
-def _check_names(source: Source, populator: Populator, path: Path, action: Action) -> None:
+def _check_names(source: Source, intake: Intake, path: Path, action: Action) -> None:
     """Report names of nobody who is there or comes later, and of those to whom the action means nothing."""
-    world, later = populator.simulation.world, list[str]()
+    world, later = intake.simulation.world, list[str]()
     for event in world[Events].entries:
         later += getattr(event.action, "names", None) or ()
     here = set(world.names())

@@ -14,10 +14,10 @@ from carom.ecs.column import Column
 from carom.ecs.component import Component
 from carom.ecs.errors import DeclarationError
 from carom.systems.actions import ACTIONS, Spawn
-from carom.systems.assembly import COMBINE_QUANTITIES
 from carom.systems.extensions import origin
 from carom.systems.forces import LAWS
 from carom.systems.joints import JOINTS
+from carom.systems.materials import COMBINE_QUANTITIES
 from carom.systems.own_components import components_of_files, is_own
 from carom.systems.settings import MOST_SUBSTEPS, MOST_THREADS, Settings
 from carom.systems.shapes import SHAPES

@@ -16,7 +16,7 @@ from carom.worlds.names import known
 from carom.worlds.sections import NOBODY, WORLD
 
 if TYPE_CHECKING:
-    from carom.worlds.populate import Populator
+    from carom.worlds.intake import Intake
 
 BESIDE = ("keyframes", "parent")  # words that say in other ways where copies are
 
@@ -35,45 +35,45 @@ class Laid(NamedTuple):
 class Laying:
     """Lays chains, reporting what is wrong with each where the file says it."""
 
-    def __init__(self, populator: Populator) -> None:
-        self.populator, self.laid = populator, list[Laid]()
+    def __init__(self, intake: Intake) -> None:
+        self.intake, self.laid = intake, list[Laid]()
 
     def add(self, path: Path, name: str | None, words: dict[str, Any], group: Group, copying: list[str]) -> None:
         """Add the links of a chain of a group; ``copying`` are the generators it states beside."""
-        populator, chain, transform = self.populator, words.pop("chain"), words.pop("transform", {})
+        intake, chain, transform = self.intake, words.pop("chain"), words.pop("transform", {})
         joint = words.pop("joint", BALL)
         surplus = copying + [word for word in BESIDE if word in words]
         surplus += [f"transform.{key}" for key in transform if key != "position"]
         if name is None:
-            populator.source.report((*path, "chain"), "has no name, after which its links are called; state name")
+            intake.source.report((*path, "chain"), "has no name, after which its links are called; state name")
             return
         if surplus:
-            populator.source.report((*path, "chain"), f"says where its links are; remove {', '.join(surplus)}")
+            intake.source.report((*path, "chain"), f"says where its links are; remove {', '.join(surplus)}")
             return
         start = np.array(transform.get("position", (0.0, 0.0, 0.0)), np.float64)
         try:
-            course = hung(populator.simulation, start, np.array(chain["end"]), chain["count"], chain.get("sag", 0.0))
+            course = hung(intake.simulation, start, np.array(chain["end"]), chain["count"], chain.get("sag", 0.0))
             if "collider" not in words:
                 words["collider"] = capsule_along(course, chain.get("radius"))
         except DeclarationError as fault:
-            populator.report((*path, "chain"), str(fault))
+            intake.report((*path, "chain"), str(fault))
             return
         try:
             refuse_lines(joint)
-            populator.read_geometries(path, words)
-            links = lay_links(populator.simulation, name, course, **words)
+            intake.read_geometries(path, words)
+            links = lay_links(intake.simulation, name, course, **words)
         except ReportedError:
             return
         except DeclarationError as fault:
-            populator.report(path, str(fault))
+            intake.report(path, str(fault))
             return
-        populator.places_in_file.update(dict.fromkeys(links.tolist(), path))
+        intake.places_in_file.update(dict.fromkeys(links.tolist(), path))
         ends = chain.get("a", WORLD), chain.get("b", NOBODY)
         self.laid.append(Laid(path, name, course, links, joint, tuple(map(group.whole, ends))))
 
     def join_all(self) -> None:
         """Join the links of all chains, and their ends to whom they name."""
-        source, simulation = self.populator.source, self.populator.simulation
+        source, simulation = self.intake.source, self.intake.simulation
         names = [WORLD, NOBODY, *simulation.world.names()]
         for laid in self.laid:
             held: list[str | int | None] = []
@@ -88,4 +88,4 @@ class Laying:
             try:
                 join_links(simulation, laid.name, laid.course, laid.links, laid.joint, *held)
             except DeclarationError as fault:
-                self.populator.report(laid.path, str(fault))
+                self.intake.report(laid.path, str(fault))

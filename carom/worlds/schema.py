@@ -10,12 +10,12 @@ from pydantic import Field, TypeAdapter, WithJsonSchema, create_model
 
 from carom.ecs import Collider, Motion, RigidBody, Transform, Visual
 from carom.ecs.components.rigid_body import BodyType
-from carom.systems.assembly import COLLIDER_COLUMNS
 from carom.systems.extensions import load_extensions
 from carom.systems.forces.region import Region
 from carom.systems.freedom import AXES
 from carom.systems.mass import PASSED_ON
 from carom.systems.particles.words import EmitterWords
+from carom.systems.surfaces import COLLIDER_COLUMNS
 from carom.worlds.camera import Camera
 from carom.worlds.generated import (
     action_fields,

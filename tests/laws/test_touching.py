@@ -14,7 +14,7 @@ from carom.ecs.errors import DeclarationError
 from carom.ecs.relations.hit import Hit
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
-from carom.systems.assembly import Materials
+from carom.systems.materials import Materials
 from carom.systems.simulation import Simulation
 from carom.worlds import load_world
 

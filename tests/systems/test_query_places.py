@@ -10,10 +10,10 @@ from meshes import block, nearest, sheet
 from solids import SOLIDS, reaching
 
 from carom.ecs.spatial import quaternion
-from carom.systems.assembly import shape_of
 from carom.systems.queries.arguments import QueryError
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.mesh import Mesh
+from carom.systems.shapes.stating import shape_of
 from carom.systems.simulation import Simulation
 
 EXACT = 1e-9  # m

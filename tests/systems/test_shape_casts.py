@@ -14,10 +14,10 @@ from solids import SOLIDS, about_axis, first_within, reaching
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.ecs.spatial.vector import normalise
-from carom.systems.assembly import shape_of
 from carom.systems.queries.arguments import QueryError
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.mesh import Mesh
+from carom.systems.shapes.stating import shape_of
 from carom.systems.simulation import Simulation
 
 EXACT = 1e-9  # m

@@ -12,7 +12,6 @@ import numpy.typing as npt
 from carom.ecs import World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.spatial import quaternion
-from carom.systems.assembly import shape_of
 from carom.systems.kernels.rays import ALL
 from carom.systems.queries.answers import Closest, Insides, Overlaps
 from carom.systems.queries.arguments import Arguments, QueryError
@@ -25,6 +24,7 @@ from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.point import Point
 from carom.systems.shapes.shape import Shape
+from carom.systems.shapes.stating import shape_of
 
 ASKANCE = (0.48, 0.6, 0.64)  # a direction that few faces lie along
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from carom.ecs import Transform, World
 from carom.systems.actions import Action, Spawn
-from carom.systems.assembly import Materials
 from carom.systems.events import Event, Events
 from carom.systems.layers import Layers
+from carom.systems.materials import Materials
 from carom.systems.parameters import words_of
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries

@@ -10,10 +10,10 @@ import numpy as np
 
 from carom.ecs import World
 from carom.ecs.errors import CaromError
-from carom.systems.assembly import Materials
 from carom.systems.forces import LAWS, Forces
 from carom.systems.forces.reach import END, Reach
 from carom.systems.layers import EVERYTHING, Layers
+from carom.systems.materials import Materials
 from carom.systems.parameters import same, words_of
 from carom.systems.settings import Random, Settings
 from carom.worlds.generated import STEP_WORDS

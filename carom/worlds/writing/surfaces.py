@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from carom.ecs import Collider, Combine, Material, Visual
 from carom.ecs.component import Component
-from carom.systems.assembly import COLLIDER_COLUMNS, COMBINE_QUANTITIES, Materials, material_of
 from carom.systems.layers import Layers
+from carom.systems.materials import COMBINE_QUANTITIES, Materials, material_of
 from carom.systems.parameters import same
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import BY_NUMBER
+from carom.systems.surfaces import COLLIDER_COLUMNS
 from carom.worlds.writing.columns import Columns, Words, color_words, plain
 from carom.worlds.writing.models import Models
 from carom.worlds.writing.sections import layer_names

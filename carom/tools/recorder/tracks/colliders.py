@@ -9,9 +9,9 @@ import numpy as np
 
 from carom.ecs import Collider, Material, Transform, World
 from carom.ecs.column import Column
-from carom.systems.assembly import Materials
 from carom.systems.compound import bodies_of
 from carom.systems.layers import Layers
+from carom.systems.materials import Materials
 from carom.systems.shapes import BY_NUMBER
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Columns
