@@ -64,7 +64,7 @@ def record_both(found: Comparison, a: Side, b: Side, out: Path) -> str:
         side.go_to(start)
     simulation = a.simulation
     last = min(found.last, found.difference.frame + round(LATER / found.dt))
-    futures = Futures([("first", simulation), ("second", b.simulation)])
+    futures = Futures([("first", simulation), ("second", b.simulation)], before=b.redo)
     recorder = recorder_of(a.loaded, shot_of(a.loaded, None), out, every=1)
     with np.errstate(all="ignore"), ExitStack() as ending:
         for observer in (futures, recorder):

@@ -22,6 +22,10 @@ from carom.systems.settings import Settings
 from carom.tools.retrace import elsewhere
 from carom.tools.side import Side
 
+NOT_HERE = (
+    "not by rules that are here: from frame {good} both go on alike, so that no system can be named; that takes the "
+    "code by which they differ, installed where this is run"
+)
 LOOKS = 8  # frames after the first in which both are given the same state again
 
 
@@ -130,7 +134,7 @@ def _narrow(made: Comparison, a: Side, b: Side, good: int | None, bad: int) -> N
         side.go_to(good)
     found = first_divergence(a.simulation, b.simulation, bad - good, lambda: any([a.redo(), b.redo()]))
     if found is None:
-        made.how, made.reproduced = f"not by rules that are here: from frame {good} both go on alike", False
+        made.how, made.reproduced = NOT_HERE.format(good=good), False
         made.notes += [note for side in (a, b) if (note := _unlike_its_recording(side, good, bad))]
         return
     made.difference, shared = found, found.frame - (found.phase != OUTSIDE)

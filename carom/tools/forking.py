@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +30,7 @@ class Forks:
     futures: Futures
     verdict: Verdict
     out: Path | None
+    notes: list[str] = field(default_factory=list)
 
     def text(self) -> str:
         """Return in words where they part, and what becomes of them."""
@@ -41,7 +42,7 @@ class Forks:
         for future in self.futures.futures[1:]:
             parts = f"parts in {future.parting}" if future.parting else "does not part"
             lines.append(f"  {future.name}: {parts}")
-        lines += [f"  note: {note}" for note in (*verdict.changes, *verdict.notes)]
+        lines += [f"  note: {note}" for note in (*self.notes, *verdict.changes, *verdict.notes)]
         lines.append(self.futures.text())
         if self.out:
             frames = [future.parting.frame for future in self.futures.futures if future.parting]
@@ -54,7 +55,8 @@ class Forks:
             asdict(outcome) | {"parting": future.parting._asdict() if future.parting else None}
             for future, outcome in zip(self.futures.futures, self.futures.outcomes(), strict=True)
         ]
-        span = {"frame": self.verdict.first, "last": self.verdict.last, "same": self.verdict.same}
+        span: dict[str, Any] = {"frame": self.verdict.first, "last": self.verdict.last, "same": self.verdict.same}
+        span |= {"notes": [*self.notes, *self.verdict.changes, *self.verdict.notes]}
         return span | {"futures": told, "out": str(self.out) if self.out else None}
 
 
@@ -69,8 +71,9 @@ def fork(
     """Simulate a recording from a frame on as it was, and beside it each branch, after its assignments.
 
     ``until`` (s of simulated time) is the end of the recording by default, or a second after the frame. What code
-    outside did between two steps is done to all. ``out`` records all, the branches as ghosts. Raises CaromError for a
-    frame that is not recorded, an end before it, and assignments that cannot be.
+    outside did between two steps is done to all but those with steps of another length, of which a note tells. ``out``
+    records all, the branches as ghosts. Raises CaromError for a frame that is not recorded, an end before it, and
+    assignments that cannot be.
     """
     base = replay.loaded_at(frame)
     dt = base.simulation.settings.dt
@@ -90,9 +93,18 @@ def fork(
         if simulation.settings.dt == dt:  # by frames, which others count otherwise
             replay.redo(simulation.world)
 
+    later = [number for number in replay.recording.edits() if frame < number <= last]
+    others = [name for name, simulation in named if simulation.settings.dt != dt]
+    notes = [_not_redone(name, later) for name in others if later]
     futures = Futures(named, redo)
     observers: list[Observer] = [futures]
     if out:
         stated = {"title": replay.title, "source": replay.source, "files": replay.files}
         observers.append(recorder_of(base, shot_of(base, None), out, every=1, **stated))
-    return Forks(futures, retrace(replay, base, last, observers), out)
+    return Forks(futures, retrace(replay, base, last, observers), out, notes)
+
+
+def _not_redone(name: str, frames: list[int]) -> str:
+    """Return in words that a branch lacks what code outside did before these frames."""
+    before = f"frame {frames[0]}" if len(frames) == 1 else f"{len(frames)} frames from {frames[0]} on"
+    return f"{name}: what code outside did before {before} is not done again there, since its steps are others"

@@ -25,15 +25,21 @@ ROUNDING = 1e-12  # of an energy: a smaller change is none
 
 
 class Parting(NamedTuple):
-    """Where a future is first elsewhere than the one that is shown: who is farthest then, by how much (m)."""
+    """Where a future is first elsewhere than the one that is shown: who is farthest then, by how much (m).
+
+    ``metres`` is None of a body that lives in one of both only: in the future, if ``lives``, or else in the one shown.
+    """
 
     frame: int
     time: float
     entity: str
-    metres: float
+    metres: float | None
+    lives: bool = True
 
     def __str__(self) -> str:
-        return f"frame {self.frame} at {self.time:.6g} s: '{self.entity}' by {self.metres:.3g} m"
+        by = "lives only there" if self.lives else "does not live there"
+        by = by if self.metres is None else f"by {self.metres:.3g} m"
+        return f"frame {self.frame} at {self.time:.6g} s: '{self.entity}' {by}"
 
 
 class Future(Ghost):
@@ -49,7 +55,7 @@ class Future(Ghost):
         self._earlier = EarlierPoses()
         self._path: list[Floats] = []
 
-    def follow(self, shown: World, time: float, before: Callable[[Simulation], None] | None = None) -> None:
+    def follow(self, shown: World, time: float, before: Callable[[Simulation], object] | None = None) -> None:
         """Take the steps that lead to a time (s), and note where bodies are then; one that explodes stays behind."""
         simulation = self.simulation
         while not self.first and self.ended is None and simulation.time < time - SAME_TIME:
@@ -68,7 +74,15 @@ class Future(Ghost):
 
     def _look(self, shown: World, bodies: Integers, poses: Transform, time: float) -> None:
         """Note where any body is elsewhere, or turned otherwise, for the first time."""
-        here = shown[Transform]
+        here, other = shown[Transform], self.simulation.world
+        handles, theirs = shown.entities(bodies), other.entities(dynamic_rows(other))
+        for world, alone, lives in (
+            (shown, handles[~other.slots.live(handles)], False),
+            (other, theirs[~shown.slots.live(theirs)], True),
+        ):
+            if len(alone):
+                self.parting = Parting(shown.frame, time, world.name(int(alone[0])), None, lives)
+                return
         moved, turned = poses.position[bodies] != here.position[bodies], poses.rotation[bodies] != here.rotation[bodies]
         apart = moved.any(axis=1) | turned.any(axis=1)
         if apart.any():
@@ -129,7 +143,7 @@ class Futures:
     """
 
     def __init__(
-        self, named: Sequence[tuple[str, Simulation]], before: Callable[[Simulation], None] | None = None
+        self, named: Sequence[tuple[str, Simulation]], before: Callable[[Simulation], object] | None = None
     ) -> None:
         self._before = before
         self.futures = [Future(name, number, simulation) for number, (name, simulation) in enumerate(named)]

@@ -13,6 +13,7 @@ from carom.ecs import Force, Motion, World
 from carom.systems.simulation import Simulation
 from carom.tools.cli import main
 from carom.tools.differing import Comparison, compare
+from carom.tools.reading import read
 from carom.tools.recorder import Recorder
 from carom.tools.recording import Recording
 from carom.tools.side import Side
@@ -43,8 +44,8 @@ def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def record(name: str, frames: int = 300, push: int | None = None) -> None:
-    """Record a world file; one ball is pushed by the smallest number before frame ``push``."""
+def record(name: str, frames: int = 300, push: int | None = None, speed: float = 1e-300) -> None:
+    """Record a world file; one ball is pushed before frame ``push``."""
     loaded = load_world(f"{name}.yaml")
     simulation, recorder = loaded.simulation, Recorder(f"{name}.rrd", source=loaded.source_text)
     simulation.observers.append(recorder)
@@ -52,7 +53,7 @@ def record(name: str, frames: int = 300, push: int | None = None) -> None:
     for frame in range(1, frames + 1):
         if frame == push:
             with simulation.world.edit(Motion) as motion:
-                motion.linear[simulation.world.row(simulation.world.find("ball[1,0,0]")), 0] = 1e-300
+                motion.linear[simulation.world.row(simulation.world.find("ball[1,0,0]")), 0] = speed
         simulation.step()
     recorder.end(simulation)
 
@@ -138,6 +139,22 @@ def test_what_code_outside_wrote_is_told(files: Path, capsys: pytest.CaptureFixt
     assert told[2] == "  how      grew: it came in once; from the same state both stay alike in 8 later frames"
 
 
+def test_what_code_outside_wrote_is_in_the_recording_of_both(files: Path) -> None:
+    """The ghost of the second goes where its recording has it: 0.2 m/s from before frame 117 on, in the air."""
+    record("sound")
+    record("planted", push=117, speed=0.2)
+    assert main(["diff", "sound.rrd", "planted.rrd", "--out", "both.rrd"]) == 1
+    ghosts = {part: rows for (path, part), rows in read(Path("both.rrd")).series.items() if "ghosts" in path}
+    frame, whose = ghosts["ghost_of"].at(200)
+    planted = Recording("planted.rrd").poses(200)
+    assert frame <= 200
+    places = ghosts["InstancePoses3D:translations"].at(200)
+    assert places[0] == 200
+    assert np.array_equal(places[1], [planted[int(entity)].position for entity in whose])
+    pushed = Side("planted.rrd").simulation.world.find("ball[1,0,0]")
+    assert planted[pushed].position[0] == pytest.approx(1 + 0.2 * 0.84, rel=1e-6)
+
+
 def test_a_recording_of_other_code_is_told_where_it_comes_out_otherwise(
     files: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -153,7 +170,10 @@ def test_a_recording_of_other_code_is_told_where_it_comes_out_otherwise(
     found = json.loads(capsys.readouterr().out)
     assert (found["good"], found["same"], found["reproduced"]) == (100, False, False)
     assert (found["difference"]["frame"], found["difference"]["entity"]) == (200, "ball[2,0,0]")
-    assert found["how"] == "not by rules that are here: from frame 100 both go on alike"
+    assert found["how"] == (
+        "not by rules that are here: from frame 100 both go on alike, so that no system can be named; that takes the "
+        "code by which they differ, installed where this is run"
+    )
     assert found["notes"] == ["old.rrd comes out otherwise here from frame 130 on, where 'ball[2,0,0]' is elsewhere"]
 
 

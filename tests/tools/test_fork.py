@@ -17,7 +17,7 @@ from carom.tools.reading import read
 from carom.tools.recorder import Recorder
 from carom.tools.recording import Recording
 from carom.tools.replay import Replay
-from carom.worlds import load_world
+from carom.worlds import load_text, load_world
 
 SLIDE = """carom: 1
 gravity: [0, -10, 0]
@@ -102,6 +102,42 @@ def test_the_command_tells_where_they_part(recording: Path, capsys: pytest.Captu
     assert (told["frame"], told["last"], told["same"], told["out"]) == (50, 80, True, None)
     assert [future["name"] for future in told["futures"]] == ["the recording", "crate.mass *= 2; gravity.y *= 0.5", "crate.linear.z = 1 m/s; dt /= 2"]  # fmt: skip
     assert told["futures"][2]["parting"]["frame"] == 51
+
+
+def test_a_body_that_lives_in_one_future_only_is_told_as_that(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Code outside adds and removes one: a recording shows what became of it, and branches do not have it done."""
+    monkeypatch.chdir(tmp_path)
+    for name, act in (
+        ("comes", lambda simulation: simulation.add(name="coin", body={}, collider={"sphere": {"radius": 0.1}})),
+        ("goes", lambda simulation: simulation.world.despawn(simulation.world.find("crate"))),
+    ):
+        loaded = load_text(SLIDE)
+        simulation, recorder = loaded.simulation, Recorder(f"{name}.rrd", source=loaded.source_text)
+        simulation.observers.append(recorder)
+        recorder.begin(simulation)
+        simulation.step(89)
+        act(simulation)
+        simulation.step(41)
+        recorder.end(simulation)
+    words = ["--frame", "50", "--set", "crate.friction *= 1", "--until", "1.3 s"]
+    for name, told in (("comes", "'coin' does not live there"), ("goes", "'crate' lives only there")):
+        assert main(["fork", f"{name}.rrd", *words]) == 1
+        assert f"  crate.friction *= 1: parts in frame 90 at 0.9 s: {told}" in capsys.readouterr().out.splitlines()
+    assert main(["fork", "goes.rrd", *words, "--json"]) == 1
+    parting = json.loads(capsys.readouterr().out)["futures"][1]["parting"]
+    assert parting == {"frame": 90, "time": pytest.approx(0.9), "entity": "crate", "metres": None, "lives": True}
+
+
+def test_what_another_dt_leaves_out_is_told(recording: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Steps of which code outside did something are not there; of others nothing is left out."""
+    words = ["fork", "slide.rrd", "--frame", "50", "--branch", "dt /= 2", "--branch", "gravity.y *= 1"]
+    assert main([*words, "--until", "1.3 s"]) == 0
+    note = "dt /= 2: what code outside did before frame 90 is not done again there, since its steps are others"
+    assert [line for line in capsys.readouterr().out.splitlines() if "note" in line] == [f"  note: {note}"]
+    assert main([*words, "--until", "0.8 s", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["notes"] == []
 
 
 def test_what_cannot_be_forked_is_refused(recording: Path, capsys: pytest.CaptureFixture[str]) -> None:
