@@ -70,7 +70,8 @@ class Resting(Resource):
         self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.points, self.row = np.empty(count, np.int64), np.empty(count, np.int64)
         self.asks, self.level_ends = np.zeros(count, np.int64), np.empty(count, np.int64)
-        self.fresh, self.ends = np.ones(count, np.bool_), np.zeros(2, np.int64)
+        self.fresh, self.stale, self.looks = (np.ones(count, np.bool_) for _ in range(3))
+        self.ends = np.zeros(2, np.int64)
 
     def group(self, contact: Contact, inverse_mass: Floats) -> None:
         """Find the manifolds of the contact table, which detection has replaced, and put them into groups."""
@@ -87,7 +88,7 @@ class Resting(Resource):
             self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
             self.points, self.row, self.ends, self.level_ends,
         )  # fmt: skip
-        self.asks[:], self.fresh[:] = 0, True
+        self.asks[:], self.fresh[:], self.stale[:] = 0, True, True
         if len(self.lanes) < rows:
             self.lanes = aligned(2 * rows, WIDTH)
         fill_groups(
@@ -114,13 +115,14 @@ class Resting(Resource):
     def sort(self, world: World, h: float) -> tuple[int, int]:
         """Find which manifolds rest; return how many do, and how many of those are of balls on exact arcs."""
         contact, flight, settings = world[Contact], world[Flight], world[Settings]
-        last = world[Progress].left == 0.0
+        last, joined = world[Progress].left == 0.0, world[Linkage].holds
 
         def sort(begin: int, end: int) -> tuple[int, int]:
             found: tuple[int, int] = sort_groups(
-                begin, end, h, settings.integrator == "verlet", last, float(settings.response == "full"), self.ends,
-                self.index_a, self.index_b, self.first, self.size, self.points, self.row,
-                self.fresh, self.asks, self.lanes, self.bodies, flight.center, world[Transform].rotation,
+                begin, end, h, settings.integrator == "verlet", last, float(settings.response == "full"), joined,
+                self.ends, self.index_a, self.index_b, self.first, self.size, self.points, self.row,
+                self.fresh, self.stale, self.looks, self.asks, self.lanes, self.bodies,
+                flight.center, world[Transform].rotation,
                 contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
                 contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
                 contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.held,

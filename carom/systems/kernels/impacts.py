@@ -12,8 +12,8 @@ from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, not
 from carom.systems.kernels.balls import BALL, NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body
-from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.reach import are_apart, time_within_all, time_within_reach, way_within
+from carom.systems.kernels.kernel import kernel, making, woven
+from carom.systems.kernels.reach import are_apart, time_within_all, time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
 
 DONE, OUT_OF_REACH = 0, 1
@@ -24,7 +24,7 @@ TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 1
 
 @kernel(
     "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
-    "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic", "arc",
+    "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic", "stale", "arc",
     makes_arrays=True,
 )  # fmt: skip
 def fly(
@@ -32,7 +32,7 @@ def fly(
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     felt, detected_center, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
-    count, beginning, body_a, body_b, normal, depth, offset_a, offset_b, share,
+    count, beginning, group_of, stale, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
     surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, until, turns, events,
     pull, arc,
@@ -46,10 +46,10 @@ def fly(
     its reach; the caller brings all bodies to the time reached, detects anew and calls again. What the substep has
     counted so far goes on: ``events``, and for each pair ``strikes`` and ``plastic``, else to detect in the middle
     would renew the patience with endless rows of impacts. ``cut`` counts impacts beyond the cap, which are let pass.
-    Nobody flies on beyond ``until``, nor after an impact by which a body turns more than its ``turns`` (rad).
-    An ``arc`` of more than no rows is accounted for (`note_arc`).
+    Nobody flies on beyond ``until``, nor after an impact by which a body turns more than its ``turns`` (rad). Groups
+    become ``stale`` in which pairs are struck. An ``arc`` of more than no rows is accounted for (`note_arc`).
     """
-    pairs, ends = np.empty(count, np.int64), np.empty(count, np.int64)
+    pairs, number = np.empty(count, np.int64), np.empty(count, np.int64)
     taken, near = 0, 0
     for m in range(count):
         p = beginning[m]
@@ -57,9 +57,9 @@ def fly(
             near += 1
             if resting[p] and restitution[p] == 0.0:  # no blow makes it an impact
                 continue
-            pairs[taken], ends[taken] = p, beginning[m + 1]
+            pairs[taken], number[taken] = p, m
             taken += 1
-    pairs, ends = pairs[:taken], ends[:taken]
+    pairs = pairs[:taken]
     most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * near
 
     # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
@@ -71,36 +71,27 @@ def fly(
     if not taken:
         return end, DONE if end >= h else OUT_OF_REACH, events, cut, log_count, log_pair, log
 
-    # Which pairs each body takes part in, as slices of one array.
-    begin = np.zeros(len(inverse_mass) + 1, np.int64)
-    for p in pairs:
-        for body in (body_a[p], body_b[p]):
-            if body >= 0:
-                begin[body + 1] += 1
-    for i in range(1, len(begin)):
-        begin[i] += begin[i - 1]
-    place = begin.copy()
-    of_body = np.empty(begin[-1], np.int64)
-    for m in range(len(pairs)):
-        for body in (body_a[pairs[m]], body_b[pairs[m]]):
-            if body >= 0:
-                of_body[place[body]] = m
-                place[body] += 1
-
     # A tournament of the foreseen times: node k is the sooner of 2k and 2k + 1, the leaves are the pairs.
     leaves = 1
-    while leaves < len(pairs):
+    while leaves < taken:
         leaves *= 2
     soonest = np.full(2 * leaves, NEVER)
-    seek = np.empty(2 * len(pairs) + 2, np.int64)
+    seek = np.empty(2 * taken + 2, np.int64)
     seek_count = 0
-    for m in range(len(pairs)):
-        if kind[pairs[m]] >= 0 or closing[pairs[m]]:
+    for m in range(taken):
+        p = pairs[m]
+        if kind[p] < 0:
+            may_meet = closing[p]
+        elif kind[p] == BALL:
+            may_meet = not are_apart(
+                p, ball[p], other[p], h - now, center, linear, acceleration, other_position, radius, extent
+            )
+        else:
+            may_meet = True
+        if may_meet:
             seek[seek_count] = m
             seek_count += 1
-    way = np.zeros(len(inverse_mass) + 1)  # how far each body can fly; that of no body, at -1, is 0
-    for i in rows:
-        way[i] = way_within(i, h - now, linear, acceleration)
+    begin, of_body = seek, seek  # found before the first impact
     first = True
     while True:
         # Foresee the next impact of every pair whose bodies changed course.
@@ -109,7 +100,7 @@ def fly(
             p = pairs[m]
             if kind[p] < 0:
                 foreseen = foresee_blow(
-                    p, ends[m], now, h, bend, center, linear, angular, time, acceleration,
+                    p, beginning[number[m] + 1], now, h, bend, center, linear, angular, time, acceleration,
                     body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, resting,
                 )  # fmt: skip
                 enter_time(soonest, leaves + m, foreseen)
@@ -118,25 +109,21 @@ def fly(
             if resting[p] and not blown:
                 enter_time(soonest, leaves + m, NEVER)
                 continue
-            if (
-                first
-                and kind[p] == BALL
-                and are_apart(p, ball[p], other[p], center, other_position, radius, extent, way)
-            ):
-                continue
             foreseen = foresee(
                 p, ball[p], other[p], now, h, blown, bend,
                 center, rotation, linear, angular, time, acceleration, felt,
                 kind, radius, extent, other_position, other_rotation, resting,
             )  # fmt: skip
             enter_time(soonest, leaves + m, foreseen)
-        first = False
         seek_count = 0
 
         # The soonest of all: down the tournament to its leaf.
         if soonest[1] > end:
             now = end
             break
+        if first:
+            begin, of_body = pairs_of_bodies(pairs, body_a, body_b, len(inverse_mass))
+            first = False
         m = 1
         while m < leaves:
             m *= 2
@@ -172,7 +159,7 @@ def fly(
         if kind[p] < 0:
             nx, ny, nz = -normal[p, 0], -normal[p, 1], -normal[p, 2]
             speed, pressed, px, py, pz, fx, fy, fz, together = blow(
-                p, ends[m], h, strikes[p], center, rotation, linear, angular, acceleration, felt,
+                p, beginning[number[m] + 1], h, strikes[p], center, rotation, linear, angular, acceleration, felt,
                 inverse_mass, inverse_inertia, principal_axes, freedom,
                 body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, share,
                 surface, friction, restitution, impulse, friction_impulse,
@@ -191,7 +178,8 @@ def fly(
             for k, f in enumerate((fx, fy, fz)):
                 friction_impulse[p, k] += along_a * f
         enter_time(soonest, leaves + m, NEVER)
-        for c in range(p, ends[m]):
+        stale[group_of[number[m]]] = True
+        for c in range(p, beginning[number[m] + 1]):
             resting[c] = together  # from now on only a blow makes it an impact, else plastic pairs would never end
         plastic[p] += together
         strikes[p] += 1
@@ -229,6 +217,26 @@ def fly(
             if spin * (h - now) > turns[body]:
                 end = now
     return now, DONE if now >= h else OUT_OF_REACH, events, cut, log_count, log_pair, log
+
+
+@making
+def pairs_of_bodies(pairs, body_a, body_b, count):
+    """Return which pairs each of ``count`` bodies takes part in: slices of one array begin at numbers of the other."""
+    begin = np.zeros(count + 1, np.int64)
+    for p in pairs:
+        for body in (body_a[p], body_b[p]):
+            if body >= 0:
+                begin[body + 1] += 1
+    for i in range(1, len(begin)):
+        begin[i] += begin[i - 1]
+    place = begin.copy()
+    of_body = np.empty(begin[-1], np.int64)
+    for m in range(len(pairs)):
+        for body in (body_a[pairs[m]], body_b[pairs[m]]):
+            if body >= 0:
+                of_body[place[body]] = m
+                place[body] += 1
+    return begin, of_body
 
 
 @woven

@@ -10,7 +10,8 @@ from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import TINY, about, dot, keep, three
 from carom.systems.kernels.lanes import choose, gather, larger, load, root, spread, store
 from carom.systems.kernels.levers import coupled, frame_of
-from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT
+from carom.systems.kernels.packing import INVERSE
+from carom.systems.kernels.rubbing import ROLLING, TWISTING
 
 
 @kernel("start")
@@ -37,11 +38,14 @@ def inverse_or_none(rests, x):
 
 
 @woven
-def prepare(g, r, points, rests, index_a, index_b, lanes, bodies):
-    """Write what follows for a group from where its bodies are; masses are 0 where a manifold does not rest."""
+def prepare(g, r, points, asks, rests, index_a, index_b, masses_a, masses_b, lanes, bodies):
+    """Write what follows for a group from where its bodies are; masses are 0 where a manifold does not rest.
+
+    What friction, spinning and rolling need is written where the group ``asks`` for them.
+    """
     zero = spread(0.0)
-    masses_a, inertia_a, movable_a, roll_a = prepare_body(g, r, 0, index_a, lanes, bodies)
-    masses_b, inertia_b, movable_b, roll_b = prepare_body(g, r, 1, index_b, lanes, bodies)
+    masses_a, inertia_a, movable_a, roll_a = prepare_body(g, r, 0, index_a, masses_a, lanes, bodies)
+    masses_b, inertia_b, movable_b, roll_b = prepare_body(g, r, 1, index_b, masses_b, lanes, bodies)
     movable = movable_a + movable_b
     (s_a, q_a, z_a), (s_b, q_b, z_b) = three(lanes, r + of.MIDDLE_A), three(lanes, r + of.MIDDLE_B)
     # An impulse along the normal at the middle has the lever q t - s u.
@@ -59,7 +63,7 @@ def prepare(g, r, points, rests, index_a, index_b, lanes, bodies):
         held = choose(yields - IMMOVABLE * movable, rests, zero)  # no impulse where locks all but forbid to part
         store(lanes, q + of.MASS, inverse_or_none(held, yields))
         x, y = load(lanes, q + of.AT), load(lanes, q + of.AT + 1)
-        store(lanes, q + of.AWAY, root(x * x + y * y))
+        store(lanes, q + of.AWAY, root(x * x + y * y) if asks >= TWISTING else zero)
     give_a, give_b = give_way(s_a, q_a, z_a, masses_a, inertia_a), give_way(s_b, q_b, z_b, masses_b, inertia_b)
     ktt, ktu, kuu = give_a[0] + give_b[0], give_a[1] + give_b[1], give_a[2] + give_b[2]
     # Where one direction is locked, the other is as good as any.
@@ -68,17 +72,17 @@ def prepare(g, r, points, rests, index_a, index_b, lanes, bodies):
     ktt, ktu, kuu = choose(locked, trace, ktt), choose(locked, zero, ktu), choose(locked, trace, kuu)
     inverse = inverse_or_none(rests, ktt * kuu - ktu * ktu)
     keep(lanes, r + of.GIVE, kuu * inverse, -ktu * inverse, ktt * inverse)
-    store(lanes, r + of.SPIN, inverse_or_none(rests, inertia_a[5] + inertia_b[5]))
-    store(lanes, r + of.ROLL, inverse_or_none(rests, roll_a + roll_b))
+    store(lanes, r + of.SPIN, inverse_or_none(rests, inertia_a[5] + inertia_b[5]) if asks >= TWISTING else zero)
+    store(lanes, r + of.ROLL, inverse_or_none(rests, roll_a + roll_b) if asks == ROLLING else zero)
 
 
 @woven
-def prepare_body(g, r, side, index, lanes, bodies):
+def prepare_body(g, r, side, index, masses, lanes, bodies):
     """Write what follows from one body of each manifold, which are a (side 0) or b (side 1).
 
     Return inverse mass and inertia in the frame, each (tt, tu, uu, tn, un, nn), inverse mass and inertia without locks.
     """
-    masses, inertia = gather(bodies, index, g, MASS_AND_FELT), gather(bodies, index, g, INVERSE)
+    inertia = gather(bodies, index, g, INVERSE)
     t, u, n = frame_of(r, lanes)
     by_t, by_u, by_n = about(inertia, *t), about(inertia, *u), about(inertia, *n)
     turns = r + of.TURN_A + 9 * side

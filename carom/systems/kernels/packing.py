@@ -29,10 +29,10 @@ def pack_bodies(
     bodies[-1, AT_WAY + BLOCK - 1] = 1.0
     for i in rows:
         ix, iy, iz = inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2]
-        qx, qy, qz, qw = product(
-            rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-            principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
-        )  # fmt: skip
+        qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
+        if ix != iy or iy != iz:  # else they do not count
+            ax, ay, az, aw = principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3]
+            qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
         inverse = held_inverse(qx, qy, qz, qw, ix, iy, iz, freedom[i, 3], freedom[i, 4], freedom[i, 5])
         for k, value in enumerate(inverse):
             bodies[i, AT_INVERSE + k] = value

@@ -20,12 +20,15 @@ def way_within(i, span, linear, acceleration):
 
 
 @woven
-def are_apart(p, i, o, center, other_position, radius, extent, way):
-    """Tell whether the ball i of pair p and the ball o, or what stands there, are too far apart to meet."""
+def are_apart(p, i, o, span, center, linear, acceleration, other_position, radius, extent):
+    """Tell whether the ball i of pair p and the ball o, or what stands there, are too far apart to meet in time."""
     away = 0.0
     for k in range(3):
         away += (center[i, k] - (center[o, k] if o >= 0 else other_position[p, k])) ** 2
-    return away > (radius[p] + extent[p, 0] + way[i] + way[o] + ROOT_GAP) ** 2
+    way = way_within(i, span, linear, acceleration)
+    if o >= 0:
+        way += way_within(o, span, linear, acceleration)
+    return away > (radius[p] + extent[p, 0] + way + ROOT_GAP) ** 2
 
 
 @woven

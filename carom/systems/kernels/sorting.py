@@ -17,24 +17,42 @@ from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, write_points
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.kinematic import follow_turning
 from carom.systems.kernels.lane_vectors import dot, keep, three
-from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, root, smaller, some, spread, store
+from carom.systems.kernels.lanes import (
+    WIDTH,
+    address,
+    choose,
+    gather,
+    larger,
+    load,
+    root,
+    smaller,
+    some,
+    spread,
+    store,
+    which,
+)
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.manifolds import prepare
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
 from carom.systems.kernels.rubbing import IDLE, RESTING, ROLLING, RUBBING, TWISTING
 
 
-@kernel("fresh", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b", "resting", "touching")
+@kernel(
+    "fresh", "stale", "looks", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b", "resting",
+    "touching",
+)  # fmt: skip
 def sort_groups(
-    begin, end, h, bends, last, resting_stage, ends, index_a, index_b, first, size, points, row,
-    fresh, asks, lanes, bodies, center, rotation,
+    begin, end, h, bends, last, resting_stage, joined, ends, index_a, index_b, first, size, points, row,
+    fresh, stale, looks, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
     normal, depth, point, offset_a, offset_b, resting, on_joint, touching,
 ):  # fmt: skip
     """Say which manifolds rest at the start of the substep and prepare them, mark their bodies as touching.
 
-    A group is prepared when it is ``fresh`` from detection, when others of it rest, and where balls have moved on.
-    The contact table learns where balls touch each other in the ``last`` substep, else only what `bend_arcs` asks for.
+    A group is prepared when it is ``fresh`` from detection, when others of it rest, and where balls have moved on; it
+    ``looks`` at its manifolds one by one where they have to be measured so. The contact table learns where balls touch
+    each other in the ``last`` substep, else only what `bend_arcs` asks for. What rested before is read from it where it
+    is ``stale``: someone else has written it since; and where bodies may be ``joined``.
     Return how many manifolds rest, and how many of those are of balls on exact arcs.
     """
     rows, packed, of_a, of_b = address(lanes), address(bodies), address(index_a), address(index_b)
@@ -42,70 +60,83 @@ def sort_groups(
     for g in range(begin, end):
         r = row[g]
         changed = fresh[g]
-        fresh[g] = False
         if changed:
             find_balls(g, r, first, kind, sign, radius, extent, lanes)
+            looks[g] = g >= ends[0] or (some(load(rows, r + of.BALL)) and not are_balls(r, lanes))
         measured = g < ends[0] and are_balls(r, lanes)
+        moved_on = measured
         if measured:
             measure_balls_in_lanes(g, r, of_a, of_b, rows, packed)
             if bends or last:
                 write_normals(g, r, first, lanes, normal)
             if last:
                 write_touches(g, r, first, index_a, center, lanes, depth, point, offset_a, offset_b)
-        moved_on = measured
-        for lane in range(WIDTH):
-            c = first[g, lane]
-            if c < 0:
-                continue
-            a, b = index_a[g, lane], index_b[g, lane]
-            joined = (a < len(on_joint) and on_joint[a]) or (b < len(on_joint) and on_joint[b])
-            lanes[r + of.TOGETHER, lane] = 2.0 if joined else 1.0 if resting[c] else 0.0
-            if measured:
-                continue
-            moves = kind[c] >= 0
-            if moves:
-                measure_ball(
-                    c, center, rotation, kind, ball, other, sign, radius, extent, other_position, other_rotation,
-                    normal, depth, point, offset_a, offset_b,
-                )  # fmt: skip
-                for k in range(3):
-                    lanes[r + of.NORMAL + k, lane] = normal[c, k]
-            if g >= ends[0] and body_a[c] >= 0 and body_b[c] >= 0:
-                time = h if bends and moves else 0.5 * h
-                for k in range(c, c + size[g, lane]):
-                    moves |= follow_turning(k, body_a[c], body_b[c], time, bodies, normal, center, offset_a, offset_b)
-            moved_on |= moves
+        elif looks[g]:
+            for lane in range(WIDTH):
+                c = first[g, lane]
+                if c < 0:
+                    continue
+                moves = kind[c] >= 0
+                if moves:
+                    measure_ball(
+                        c, center, rotation, kind, ball, other, sign, radius, extent, other_position, other_rotation,
+                        normal, depth, point, offset_a, offset_b,
+                    )  # fmt: skip
+                    for k in range(3):
+                        lanes[r + of.NORMAL + k, lane] = normal[c, k]
+                if g >= ends[0] and body_a[c] >= 0 and body_b[c] >= 0:
+                    time, a, b = h if bends and moves else 0.5 * h, body_a[c], body_b[c]
+                    for k in range(c, c + size[g, lane]):
+                        moves |= follow_turning(k, a, b, time, bodies, normal, center, offset_a, offset_b)
+                moved_on |= moves
         if moved_on:
             find_tangents(r, rows)
             for lane in range(0 if measured else WIDTH):
                 c = first[g, lane]
                 if c >= 0:
                     write_points(r, lane, c, size[g, lane], offset_a, offset_b, depth, lanes)
-        rests = find_resting(g, r, points[g], h, of_a, of_b, rows, packed) * resting_stage
         before = load(rows, r + of.RESTS)
+        if stale[g] or joined:
+            recall(g, r, index_a, index_b, first, on_joint, resting, lanes)
+        else:
+            store(rows, r + of.TOGETHER, before)
+        masses_a, masses_b = gather(packed, of_a, g, MASS_AND_FELT), gather(packed, of_b, g, MASS_AND_FELT)
+        rests = find_resting(g, r, points[g], h, of_a, of_b, masses_a, masses_b, rows, packed) * resting_stage
         store(rows, r + of.RESTS, rests)
         changed |= some(rests - before) or some(before - rests)
+        held = which(rests)
         for lane in range(WIDTH):
-            c = first[g, lane]
-            if c < 0:
-                continue
-            held = lanes[r + of.RESTS, lane] > 0.0
-            for k in range(c, c + size[g, lane]):
-                resting[k] = held
-            if held:
+            if held >> lane & 1:
                 number += 1
-                balls += measured or kind[c] >= 0
+                balls += lanes[r + of.BALL, lane] > 0.0
                 a, b = index_a[g, lane], index_b[g, lane]
                 if a < len(touching):
                     touching[a] = True
                 if b < len(touching):
                     touching[b] = True
+        if changed or stale[g] or joined:
+            for lane in range(WIDTH):
+                c = first[g, lane]
+                for k in range(c, c + size[g, lane]):
+                    resting[k] = (held >> lane & 1) == 1
         if changed:
             asks[g] = asked(r, points[g], rests, rows)
             forget(r, points[g], rests, rows)
+        fresh[g] = stale[g] = False
         if asks[g] != IDLE and (changed or moved_on):
-            prepare(g, r, points[g], rests, of_a, of_b, rows, packed)
+            prepare(g, r, points[g], asks[g], rests, of_a, of_b, masses_a, masses_b, rows, packed)
     return number, balls
+
+
+@woven
+def recall(g, r, index_a, index_b, first, on_joint, resting, lanes):
+    """Write which manifolds of a group were pressed together before, and which are on a joint."""
+    for lane in range(WIDTH):
+        c = first[g, lane]
+        if c >= 0:
+            a, b = index_a[g, lane], index_b[g, lane]
+            joined = (a < len(on_joint) and on_joint[a]) or (b < len(on_joint) and on_joint[b])
+            lanes[r + of.TOGETHER, lane] = 2.0 if joined else 1.0 if resting[c] else 0.0
 
 
 @woven
@@ -158,7 +189,7 @@ def find_tangents(r, lanes):
 
 
 @woven
-def find_resting(g, r, points, h, index_a, index_b, lanes, bodies):
+def find_resting(g, r, points, h, index_a, index_b, masses_a, masses_b, lanes, bodies):
     """Return 1 for each manifold that rests, else 0.
 
     One rests when one of its points touches or would by the end of the substep (a ball only once it touches), unless
@@ -166,7 +197,7 @@ def find_resting(g, r, points, h, index_a, index_b, lanes, bodies):
     resting.
     """
     a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
-    felt_a, felt_b = gather(bodies, index_a, g, MASS_AND_FELT)[3:6], gather(bodies, index_b, g, MASS_AND_FELT)[3:6]
+    felt_a, felt_b = masses_a[3:6], masses_b[3:6]
     n, together, zero, one = three(lanes, r + of.NORMAL), load(lanes, r + of.TOGETHER), spread(0.0), spread(1.0)
     joined = together - 1.0
     is_ball = choose(joined, zero, load(lanes, r + of.BALL))
