@@ -11,6 +11,7 @@ from carom.systems.shapes.convex import Convex
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.model_files import UNITS
+from carom.systems.shapes.noise import MOST_OCTAVES
 from carom.systems.shapes.shape import Shape
 from carom.worlds.errors import WordError
 from carom.worlds.files import WorldFiles, joined
@@ -21,6 +22,7 @@ Length = Annotated[float, In("m")]
 Spacing = Annotated[float, In("m", above=0.0)]
 Spacings = Annotated[tuple[float, float], In("m", above=0.0)]
 Points = list[Annotated[Vector3, In("m")]]
+Places = Annotated[int, Whole(2)]
 Corner = Annotated[int, Whole(0)]
 Faces = list[tuple[Corner, Corner, Corner]]
 FILE = "OBJ, STL, PLY or glTF, relative to the world file"
@@ -63,27 +65,40 @@ class ConvexWords(ModelWords):
         return self
 
 
+class NoiseWords(Words):
+    """Hills and valleys from a seed: at a place the same however large the land is and however near its places are."""
+
+    count: tuple[Places, Places] = Field(description="places along x and z")
+    wavelength: Spacing = Field(description="from hill to hill, of the first octave (m)")
+    octaves: Annotated[int, Whole(1, MOST_OCTAVES)] = Field(4, description="how many, each of half the wavelength")
+    roughness: Annotated[float, In("1", above=0.0, most=1.0)] = Field(
+        0.5, description="height of an octave over that of the one before"
+    )
+    seed: Annotated[int, Whole(0, 2**53)] = Field(0, description="which land; that of the world has no part in it")
+
+
 class HeightFieldWords(Words):
-    """Land, by rows of heights or by a grey image, seen as on a map with -z up: the first row lies at the back."""
+    """Land, by rows of heights, a grey image or noise, seen as on a map with -z up: the first row lies at the back."""
 
     heights: list[list[Length]] | None = Field(None, description="rows of heights (m), each from -x to +x")
     image: FileName | None = Field(None, description="grey image, PNG of 8 or 16 bits, relative to the world file")
+    noise: NoiseWords | None = Field(None, description="hills and valleys from a seed")
     spacing: either(Spacing, Spacings, list) = Field(description="distance of neighbours (m), one or along x and z")  # type: ignore[valid-type]
-    low: Length = Field(0.0, description="image: height of black (m)")
-    high: Length = Field(1.0, description="image: height of white (m)")
+    low: Length = Field(0.0, description="height of black, and below which noise never is (m)")
+    high: Length = Field(1.0, description="height of white, and above which noise never is (m)")
 
     @model_validator(mode="after")
     def check(self) -> HeightFieldWords:
         """Refuse both sources and neither."""
-        _refuse_two_sources(self, "heights", "image")
+        _refuse_two_sources(self, "heights", "image", "noise")
         return self
 
 
 def _refuse_two_sources(words: Any, *names: str) -> None:
     stated = [name for name in names if getattr(words, name) is not None]
     if len(stated) != 1:
-        received = "both" if stated else "neither"
-        raise WordError("must state one source", received=received, accepted=" or ".join(names))
+        received, accepted = " and ".join(stated) or "none", " or ".join([", ".join(names[:-1]), names[-1]])
+        raise WordError("must state one source", received=received, accepted=accepted)
 
 
 GEOMETRY_WORDS: dict[str, type[Words]] = {
@@ -108,9 +123,14 @@ class GeometryReader:
         words = words | {name: joined(folder, words[name]) for name in FILE_WORDS if name in words}
         files = {name: self.files.find(words[name]) for name in FILE_WORDS if name in words}
         make = SHAPES[key].seen if seen else SHAPES[key].stated
-        if not files:
+        if not files and "noise" not in words:
             return make(**words)
-        known = (key, seen, *sorted(words.items()))
+        known = (key, seen, *sorted((name, _fixed(value)) for name, value in words.items()))
         if known not in self.known:
             self.known[known] = make(**words | files)
         return self.known[known]
+
+
+def _fixed(value: Any) -> Any:
+    """Return the words of noise as pairs, which can be looked up by; `dict` makes words of them again."""
+    return tuple(sorted(value.items())) if isinstance(value, dict) else value

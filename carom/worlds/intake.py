@@ -25,7 +25,7 @@ from carom.worlds.laying import Laying
 from carom.worlds.source import Source
 from carom.worlds.unfold import Item, generators_of
 
-SOURCES = ("file", "image", "points", "vertices", "heights")  # words that say where a geometry comes from
+SOURCES = ("file", "image", "points", "vertices", "heights", "noise")  # words that say where a geometry comes from
 PROVISIONAL = {"mass": 1.0}
 SUB_PATH = re.compile(r"([a-z_]+(?:\.[a-z_]+)*): (.*)", re.DOTALL)
 
@@ -141,7 +141,7 @@ class Intake:
                         key, words[key], folder=written_in.folder, seen=path[-1] == "visual"
                     )
                 except DeclarationError as fault:
-                    self.source.report((*path, key, place), str(fault))
+                    self.source.report((*path, key, place), str(fault).removeprefix(f"{place}: "))
                     raise ReportedError from None
                 for note in words[key].geometry.notes:
                     self.source.warn((*path, key, place), note)

@@ -202,7 +202,7 @@ def test_land_from_an_image(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ({}, "height_field: must state one source, heights or image"),
+        ({}, "height_field: must state one source, heights, image or noise"),
         ({"heights": []}, "heights: must be rows of as many numbers each, received none"),
         ({"heights": [1.0, 2.0]}, "heights: must be rows of as many numbers each, received none"),
         ({"heights": [[1.0, 2.0], [3.0]]}, "heights: must be rows of as many numbers each, received rows of 1, 2"),

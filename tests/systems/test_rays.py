@@ -14,7 +14,8 @@ from carom.ecs.spatial import quaternion
 from carom.ecs.spatial.vector import normalise
 from carom.systems.queries.rays import Hits
 from carom.systems.shapes.geometry import Geometry
-from carom.systems.shapes.height_field import HeightField, land
+from carom.systems.shapes.height_field import HeightField
+from carom.systems.shapes.land import land
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.simulation import Simulation
 

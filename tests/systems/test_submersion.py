@@ -12,7 +12,8 @@ from carom.ecs.spatial.vector import normalise
 from carom.systems.kernels.submersion import CENTER, VOLUME, WHOLE
 from carom.systems.shapes import SHAPES, Shape
 from carom.systems.shapes.geometry import Geometry, hull_of
-from carom.systems.shapes.height_field import HeightField, land
+from carom.systems.shapes.height_field import HeightField
+from carom.systems.shapes.land import land
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.orientation import along_y
 

@@ -359,19 +359,25 @@ def test_shapes_from_files_and_images(tmp_path: Path) -> None:
             ".mesh.unit: unknown word; received 'feet'; accepted: m, cm, mm, km, in, ft",
             ".mesh.up: unknown word; received 'x'; accepted: y, z",
         ],
-        "convex: {}": ".convex: must state one source; received neither; accepted: points or file",
+        "convex: {}": ".convex: must state one source; received none; accepted: points or file",
         "convex: {points: [[0, 0, 0], [1, 0, 0], [0, 1]]}": (
             ".convex.points.2: must be a list of 3 numbers; received [0, 1]; accepted: numbers in m"
         ),
         "height_field: {heights: [[0, 1], [0]], spacing: 1}": (
-            ".height_field.heights: heights: must be rows of as many numbers each, received rows of 1, 2"
+            ".height_field.heights: must be rows of as many numbers each, received rows of 1, 2"
         ),
         "height_field: {heights: [[0, 1], [0, .nan]], spacing: 0}": [
             f".height_field.heights.1.1: must be finite; received nan; accepted: {LENGTH}",
             ".height_field.spacing: must be above 0 m; received 0",
         ],
         "height_field: {image: words.png, heights: [[0]], spacing: 1}": (
-            ".height_field: must state one source; received both; accepted: heights or image"
+            ".height_field: must state one source; received heights and image; accepted: heights, image or noise"
+        ),
+        "height_field: {noise: {count: [9, 9], wavelength: 2, octave: 2}, spacing: 1}": (
+            ".height_field.noise.octave: unknown key; received 'octave'; accepted: count, wavelength, octaves, roughness, seed; did you mean 'octaves'?"
+        ),
+        "height_field: {noise: {count: [9, 9], wavelength: 2 m, octaves: 2}, spacing: 1}": (
+            ".height_field.noise: octave 2 has a wavelength of 1 m, which places 1 m apart cannot show; take fewer octaves, a longer wavelength, or a spacing of at most 0.5 m"
         ),
         "height_field: {image: words.png, spacing: [1, 2]}": (
             f".height_field.image: image file {tmp_path}/words.png cannot be read: "

@@ -83,7 +83,7 @@ def test_expectations_hold(name: str, collision: str) -> None:
         ("dominoes", WEIGHT, 1.01, 0.0),
         ("dominoes", WEIGHT, 0.99, 0.0),
         ("mirror_room", r"restitution: (1)", 1.0, -0.1),
-        *[(name, WEIGHT, 1.01, 0.0) for name in ("slope", "rolling_race", "conveyor", "snapping_rope")],
+        *[(name, WEIGHT, 1.01, 0.0) for name in ("slope", "rolling_race", "conveyor", "snapping_rope", "valleys")],
         ("rolling_race", r"mass: (1), inertia", 1.05, 0.0),
         *[("snapping_rope", rf"name: {name}, .*body: {{mass: (1)}}", 1.05, 0.0) for name in ("lost", "kept")],
         ("pong", r"restitution: (1)", 1.0, -0.1),

@@ -13,7 +13,8 @@ from carom.systems.detection.fcl_pairs import measure_by_fcl
 from carom.systems.detection.meshes import tree_of
 from carom.systems.detection.narrow import MOST_POINTS, Points, measure_pairs
 from carom.systems.shapes.geometry import Geometry
-from carom.systems.shapes.height_field import HeightField, land
+from carom.systems.shapes.height_field import HeightField
+from carom.systems.shapes.land import land
 from carom.systems.simulation import Simulation
 from carom.tools.bench.measure import Figure, figure, timed
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from carom.ecs.errors import DeclarationError
-from carom.systems.shapes.height_field import read_grey
+from carom.systems.shapes.land import read_grey
 from carom.worlds.importing.elements import Element, Reading
 
 

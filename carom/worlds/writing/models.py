@@ -1,4 +1,4 @@
-"""Models: the files that shapes of a loaded world were made of, which a written world names as well."""
+"""Models: the files or noise that shapes of a loaded world were made of, which a written world names as well."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from carom.worlds.writing.columns import Words
 
 
 class Models:
-    """The words of shapes that were read from files which are still there, and which of these files were named."""
+    """The words of shapes made of noise, or of files that are still there, and which of these files were named."""
 
     def __init__(self, loaded: LoadedWorld | None = None) -> None:
         self.files = {} if loaded is None else loaded.files
         self.named: set[str] = set()
         self._words: dict[int, tuple[str, Words]] = {}
         for (key, _, *words), shape in ({} if loaded is None else loaded.models).items():
-            stated = dict(words)
+            stated: Words = {word: dict(value) if word == "noise" else value for word, value in words}
             if all(self._is_there(stated[word]) for word in FILE_WORDS if word in stated):
                 self._words[id(getattr(shape, "geometry", None))] = key, stated
 
@@ -29,7 +29,7 @@ class Models:
         return self.files[word].is_file() and not Path(word).is_absolute() and ".." not in Path(word).parts
 
     def words(self, geometry: Geometry | None) -> Words | None:
-        """Return the words of a shape that was read from a file, None for any other."""
+        """Return the words of a shape made of a file or of noise, None for any other."""
         key, words = self._words.get(id(geometry), ("", {}))
         self.named.update(words[word] for word in FILE_WORDS if word in words)
         return {key: words} if key else None
