@@ -45,6 +45,17 @@ def faults_of_path(words: Words) -> Iterator[WordFault]:
         yield WordFault((*place, n, key), f"unknown key; a keyframe has {', '.join(FRAME)}")
     if repeat not in REPEATS:
         yield WordFault(("keyframes", "repeat"), f"must be one of {', '.join(REPEATS)}", repr(repeat))
+    yield from faults_of_times(frames, place)
+    if repeat == "loop" and frames:
+        position, rotation = poses(frames, words.get("transform") or {})
+        same_turn = abs(float((rotation[0] * rotation[-1]).sum())) >= 1.0 - SAME_TURN
+        if not ((position[0] == position[-1]).all() and same_turn):
+            what = "must have the pose of the first, for the path to begin anew there; close it, or state ping_pong"
+            yield WordFault((*place, len(frames) - 1), what)
+
+
+def faults_of_times(frames: Sequence[Words], place: tuple[str, ...]) -> Iterator[WordFault]:
+    """Yield what is wrong with how many keyframes there are, and with their times; they stand at ``place``."""
     if len(frames) < 2:
         yield WordFault(("keyframes",), "must be two or more", str(len(frames)))
     untimed = [n for n, frame in enumerate(frames) if not np.isfinite(frame.get("at", np.nan))]
@@ -54,12 +65,6 @@ def faults_of_path(words: Words) -> Iterator[WordFault]:
         if not {n - 1, n} & set(untimed) and not frames[n]["at"] > frames[n - 1]["at"]:
             what = f"must be later than the keyframe before, {frames[n - 1]['at']:g} s"
             yield WordFault((*place, n, "at"), what, f"{frames[n]['at']:g} s")
-    if repeat == "loop" and frames:
-        position, rotation = poses(frames, words.get("transform") or {})
-        same_turn = abs(float((rotation[0] * rotation[-1]).sum())) >= 1.0 - SAME_TURN
-        if not ((position[0] == position[-1]).all() and same_turn):
-            what = "must have the pose of the first, for the path to begin anew there; close it, or state ping_pong"
-            yield WordFault((*place, len(frames) - 1), what)
 
 
 def stated(keyframes: Words | Sequence[Words]) -> tuple[Sequence[Words], str, tuple[str, ...]]:

@@ -1,9 +1,10 @@
-"""Rigs: where a camera of a world file is at a moment, be it that it follows an entity or orbits a place."""
+"""Rigs: where a camera of a world file is at a moment: on its path, following an entity or orbiting a place."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -11,11 +12,13 @@ from carom.ecs import Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.errors import CaromError, EntityError
 from carom.ecs.spatial import quaternion
+from carom.systems.curves import Curve
 from carom.systems.settings import time_of
 from carom.tools.cameras import Camera, Vector, front
 from carom.worlds.builder import LoadedWorld
 from carom.worlds.camera import Camera as Words
 from carom.worlds.camera import Orbit, along
+from carom.worlds.camera_path import curves_of
 
 
 @dataclass(frozen=True)
@@ -30,7 +33,11 @@ class Rig:
     def moves(self) -> bool:
         """Whether it may be elsewhere, or look elsewhere, at another time."""
         words = self.words
-        return words.follow is not None or words.orbit is not None or isinstance(words.target, str)
+        return words.position is None or isinstance(words.target, str)
+
+    @cached_property
+    def _curves(self) -> dict[str, Curve]:
+        return curves_of(self.words)
 
     def camera(self, world: World, time: float | None = None, poses: Transform | None = None) -> Camera:
         """Return the camera as the world is now; at another time (s), with the poses of all rows then, where stated.
@@ -39,8 +46,8 @@ class Rig:
         """
         where = poses if poses is not None else world[Transform]
         words, target, toward = self.words, self.words.target, front(self.up)
+        elapsed = time_of(world) if time is None else time
         if words.orbit is not None:
-            elapsed = time_of(world) if time is None else time
             centre = self._place(world, where, words.orbit.around)
             toward = self._horizontal(words.orbit, elapsed)
             position = centre + words.orbit.distance * self._risen(toward, words.orbit.elevation)
@@ -48,6 +55,9 @@ class Rig:
         elif words.follow is not None:
             position = self._followed(world, where)
             target = words.follow.entity if target is None else target
+        elif words.keyframes is not None:
+            position = self._curves["position"].point(elapsed)
+            target = _vector(self._curves["target"].point(elapsed)) if "target" in self._curves else target
         else:
             assert words.position is not None, "the schema asks for one place"
             position = np.array(words.position)

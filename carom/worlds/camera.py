@@ -1,4 +1,4 @@
-"""Cameras of a world file: fixed, following an entity, or orbiting a place; through a lens or in parallel light."""
+"""Cameras of a world file: fixed, on a path, following an entity, or orbiting a place; by a lens or parallel light."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field, model_validator
 
+from carom.worlds.camera_path import CameraKeyframes, faults_of_camera
 from carom.worlds.errors import Path, WordError, shown
 from carom.worlds.names import known
 from carom.worlds.rotation import Direction
@@ -19,6 +20,7 @@ Lengths = Annotated[Vector3, In("m")]
 Angle = Annotated[float, In("rad")]
 Elevation = Annotated[float, In("rad", least=-math.pi / 2.0, most=math.pi / 2.0)]
 Place: Any = either(Lengths, str, str)  # a point, or the origin of the entity of that name
+PLACES = ("position", "follow", "orbit", "keyframes")
 ALONG = 1e-6  # sine of the angle under which two directions count as one
 
 
@@ -41,11 +43,14 @@ class Orbit(Words):
 
 
 class Camera(Words):
-    """A view of the world: from a position, an entity it follows or an orbit, through a lens or in parallel light."""
+    """A view of the world: from a position, a path, an entity it follows or an orbit, by a lens or parallel light."""
 
     position: Lengths | None = Field(None, description="where it is (m)")
     follow: Follow | None = Field(None, description="an entity it moves with")
     orbit: Orbit | None = Field(None, description="a circle it moves on")
+    keyframes: CameraKeyframes | None = Field(
+        None, description="a path it is led along, smoothly, and when it is where"
+    )
     target: Place | None = Field(
         None, description="point (m) or name of an entity it looks at, by default who it follows, or what it orbits"
     )
@@ -58,10 +63,12 @@ class Camera(Words):
     @model_validator(mode="after")
     def check(self) -> Camera:
         """Refuse a camera that is nowhere or in several places, and one that sees nothing."""
-        places = [key for key in ("position", "follow", "orbit") if getattr(self, key) is not None]
+        places = [key for key in PLACES if getattr(self, key) is not None]
         if len(places) != 1:
             received = " and ".join(places) or "none"
-            raise WordError("must state one place", received=received, accepted="position, follow or orbit")
+            raise WordError(
+                "must state one place", received=received, accepted=f"{', '.join(PLACES[:-1])} or {PLACES[-1]}"
+            )
         if self.height is not None and "fov" in self.model_fields_set:
             raise WordError(
                 "must state one lens", received="fov and height", accepted="fov, or height for parallel light"
@@ -87,10 +94,14 @@ def along(one: Sequence[float], other: Sequence[float]) -> bool:
     return bool(np.linalg.norm(np.cross(one, other)) <= ALONG * math.hypot(*one) * math.hypot(*other))
 
 
-def check_entities(source: Source, cameras: dict[str, Any], names: Sequence[str]) -> None:
-    """Report every entity that a camera follows, looks at or orbits and that the world has not."""
+def check_cameras(source: Source, cameras: dict[str, Any], names: Sequence[str]) -> None:
+    """Report what is wrong with keyframes, and who is followed, looked at or orbited and is not in the world."""
     for name, words in cameras.items():
-        for path, entity in _entities(words) if words is not None else ():
+        if words is None:
+            continue
+        for fault in faults_of_camera(words) if words.keyframes is not None else ():
+            source.report_value(("cameras", name, *fault.steps), fault)
+        for path, entity in _entities(words):
             try:
                 known("entity", entity, names)
             except WordError as fault:

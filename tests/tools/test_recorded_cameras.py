@@ -28,6 +28,7 @@ cameras:
   chase: {follow: {entity: ball, offset: [0, 1, 3], frame: body}}
   round: {orbit: {around: ball, distance: 4, rate: 90 deg/s}}
   side: {position: [9, 0, 0], height: 4}
+  flight: {keyframes: [{at: 0, position: [0, 1, 5]}, {at: 0.4 s, position: [3, 1, 4]}, {at: 9 s, position: [3, 4, 1]}]}
 """
 
 
@@ -44,7 +45,7 @@ class Stands:
     def observe(self, simulation: Simulation) -> None:
         """Keep the poses of all that can be somewhere."""
         world = simulation.world
-        for rig in self.rigs if simulation.frame < 31 else [self.rigs[0], self.rigs[3]]:
+        for rig in self.rigs if simulation.frame < 31 else [self.rigs[0], *self.rigs[3:]]:
             self.poses[simulation.frame, rig.name] = rig.camera(world).pose()
         if simulation.frame == 30:
             world.despawn(world.find("ball"))
@@ -70,7 +71,7 @@ def test_every_camera_is_where_pictures_are_taken_from(
     path, poses = filmed
     table = Recording(path).table("cameras").arrow().to_pylist()
     recorded = {(row["frame"], row["camera"]): row for row in table}
-    moved = {(frame, name) for frame, name in poses if frame == 0 or name in ("chase", "round")}
+    moved = {(frame, name) for frame, name in poses if frame == 0 or name in ("chase", "round", "flight")}
     assert recorded.keys() == moved and (30, "chase") in moved and (31, "chase") not in moved
     for key in moved:
         row, pose = recorded[key], poses[key]

@@ -71,6 +71,33 @@ def test_an_orbit_is_a_circle_about_up_at_its_rate(up: str, front: tuple[int, ..
         assert camera.up == tuple(risen)
 
 
+def test_a_camera_on_a_path_is_where_its_keyframes_say() -> None:
+    """At their times and, by the same curve, between two steps; what a keyframe leaves out is as before."""
+    frames = "{at: 0, position: [0, 0, 9], target: [0, 0, 0]}, {at: 1, position: [4, 0, 9]}, {at: 2, target: [0, 4, 0]}"
+    loaded = world(f"{{keyframes: [{frames}], fov: 30 deg}}")
+    now, shot = loaded.simulation.world, shot_of(loaded)
+    for time, position, target in (
+        (0.0, (0, 0, 9), (0, 0, 0)), (0.5, (2, 0, 9), (0, 0, 0)), (1.0, (4, 0, 9), (0, 0, 0)),
+        (1.5, (4, 0, 9), (0, 2, 0)), (2.0, (4, 0, 9), (0, 4, 0)), (9.0, (4, 0, 9), (0, 4, 0)),
+    ):  # fmt: skip
+        camera = shot.camera(now, time)
+        assert (camera.position, camera.fov) == (pytest.approx(position), math.radians(30.0))
+        assert camera.target == pytest.approx(target)
+    loaded.simulation.step(5)
+    assert shot.camera(now) == shot.camera(now, 0.5)
+
+
+def test_a_camera_on_a_path_may_look_at_a_body_and_go_round_for_ever() -> None:
+    """Its keyframes say where it is, its target whom it looks at; a loop of 1 s is at the same places every second."""
+    corners = "".join(f"{{at: {n / 4}, position: {place}}}, " for n, place in enumerate(
+        ([9, 0, 0], [0, 0, 9], [-9, 0, 0], [0, 0, -9], [9, 0, 0])
+    ))  # fmt: skip
+    words = f"{{keyframes: {{repeat: loop, frames: [{corners[:-2]}]}}, target: ball}}"
+    after = [camera_after(words, steps) for steps in (2, 12, 32)]
+    assert [camera.position for camera in after[1:]] == [pytest.approx(after[0].position)] * 2
+    assert [camera.target for camera in after] == [pytest.approx((1.0 + 0.2 * n, 2.0, 3.0)) for n in (2, 12, 32)]
+
+
 def test_a_camera_is_of_its_moment() -> None:
     """Between two steps it stands by the time and the poses of then, not by those of the world."""
     loaded = world("{orbit: {around: ball, distance: 2, elevation: 0 deg, rate: 1 rad/s}}")

@@ -34,10 +34,10 @@ def test_words_of_a_camera_are_read_in_si() -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ("{}", "w.yaml:3:11: cameras.a: must state one place; received none; accepted: position, follow or orbit"),
+        ("{}", "w.yaml:3:11: cameras.a: must state one place; received none; accepted: position, follow, orbit or keyframes"),
         (
             "{position: [1, 0, 0], orbit: {distance: 1}}",
-            "w.yaml:3:11: cameras.a: must state one place; received position and orbit; accepted: position, follow or orbit",
+            "w.yaml:3:11: cameras.a: must state one place; received position and orbit; accepted: position, follow, orbit or keyframes",
         ),
         (
             "{position: [1, 0, 0], fov: 40 deg, height: 2}",
@@ -102,6 +102,38 @@ def test_words_of_a_camera_are_read_in_si() -> None:
         (
             "{position: [0, 4, 0], target: 3}",
             "w.yaml:3:36: cameras.a.target: must be a list of 3 numbers; received 3; accepted: numbers in m",
+        ),
+        (
+            "{keyframes: [{at: 0, position: [1, 2, 3]}]}",
+            "w.yaml:3:15: cameras.a.keyframes: must be two or more; received 1",
+        ),
+        (
+            "{keyframes: [{at: 0, position: [1, 2, 3]}, {at: 0 s, position: [1, 2, 4]}]}",
+            "w.yaml:3:58: cameras.a.keyframes.1.at: must be later than the keyframe before, 0 s; received 0 s",
+        ),
+        (
+            "{keyframes: [{at: 0, target: [1, 2, 3]}, {at: 1, position: [1, 2, 4]}]}",
+            "w.yaml:3:27: cameras.a.keyframes.0.position: is missing; the first keyframe says where the path begins",
+        ),
+        (
+            "{keyframes: {repeat: loop, frames: [{at: 0, position: [1, 2, 3]}, {at: 1, position: [1, 2, 4]}]}}",
+            "w.yaml:3:80: cameras.a.keyframes.frames.1: must have the position of the first, for the path to begin anew there; close it, or state ping_pong",
+        ),
+        (
+            "{keyframes: [{at: 0, position: [1, 2, 3], target: [0, 0, 1]}, {at: 1, position: [1, 2, 4]}], target: ball}",
+            "w.yaml:3:107: cameras.a.target: keyframes say what it looks at; remove one of the two",
+        ),
+        (
+            "{keyframes: [{at: 0, position: [1, 2, 3]}, {at: 1, position: [0, 0, 0]}]}",
+            "w.yaml:3:57: cameras.a.keyframes.1: looks at where it stands; accepted: a target elsewhere",
+        ),
+        (
+            "{keyframes: [{at: 0, position: [1, 2, 3]}, {at: 1, positon: [0, 1, 0]}]}",
+            "w.yaml:3:65: cameras.a.keyframes.1.positon: unknown key; received 'positon'; accepted: at, position, target; did you mean 'position'?",
+        ),
+        (
+            "{keyframes: [{at: 0, position: [1, 2, 3]}, {at: 1}], target: boll}",
+            "w.yaml:3:67: cameras.a.target: unknown entity; received 'boll'; accepted: ball, box; did you mean 'ball'?",
         ),
     ],
 )  # fmt: skip
