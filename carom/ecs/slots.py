@@ -153,7 +153,11 @@ class Slots:
         live = self.live(handles)
         if not live.all():
             raise EntityError(self.fate(int(handles.ravel()[np.argmin(live)])))
-        ids = handles & INDEX_MASK
+        return self.rows_of_living(handles)
+
+    def rows_of_living(self, entities: Integers) -> Integers:
+        """Return the row of each entity, all of which are known to live."""
+        ids = entities & INDEX_MASK
         return np.asarray(ids + self.row_shift[ids])
 
     def row(self, entity: int) -> int:

@@ -23,7 +23,6 @@ from carom.systems.detection.sensors import Sensing
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, WORK, fly
-from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.reach import may_leave_reach
 from carom.systems.kernels.settling import finish_drift
@@ -136,7 +135,7 @@ def drift(world: World, dt: float) -> None:
         looks += 1
         if reason == DONE:
             return
-        _finish(world, ended=False)
+        _finish(world, dt, ended=False)
         world[Landings].tell(world, dt)
         world[Resting].hand_over(contact)
         detect_again(world, world[Progress].left + dt - at)
@@ -178,9 +177,9 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
     )  # fmt: skip
     world[Answered].impacts_cut += cut
     if count:
-        first = world.count(Impact)
-        world.resize(Impact, first + count)
-        impact, new, pair, log = world[Impact], slice(first, first + count), pair[:count], log[:count]
+        impact = world[Impact]
+        new, pair, log = slice(impact.count, impact.count + count), pair[:count], log[:count]
+        world.resize(Impact, new.stop)
         impact.a[new], impact.b[new] = contact.a[pair], contact.b[pair]
         impact.time[new], impact.speed[new] = log[:, TIME], log[:, SPEED]
         impact.impulse[new], impact.work[new] = log[:, IMPULSE], log[:, WORK]
@@ -192,19 +191,14 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
 @system(reads=(RigidBody, Settings, Threads, Awake), writes=(Transform, Motion, Flight, Contact, Resting))
 def settle(world: World, dt: float) -> None:
     """End the substep: drag's second half, origins placed, and how deep contacts have come to be."""
-    transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
-    keep_course(
-        world[Awake].now(world), dt, body.inverse_mass, body.center_of_mass,
-        flight.start_position, flight.start_rotation, motion.linear, motion.angular, flight.center, transform.rotation,
-    )  # fmt: skip
-    _finish(world, ended=True)
+    _finish(world, dt, ended=True)
     world[Resting].sink(world)
 
 
-def _finish(world: World, *, ended: bool) -> None:
+def _finish(world: World, dt: float, *, ended: bool) -> None:
     flight, motion, transform, body = world[Flight], world[Motion], world[Transform], world[RigidBody]
     finish_drift(
-        world[Awake].now(world), ended, body.center_of_mass, body.freedom,
+        world[Awake].now(world), ended, dt, body.inverse_mass, body.center_of_mass, body.freedom,
         flight.start_position, flight.start_rotation, flight.decay, flight.angular_decay, flight.flow,
         transform.rotation, flight.center, motion.linear, motion.angular, transform.position,
     )  # fmt: skip

@@ -28,7 +28,7 @@ from carom.systems.kernels.packing import (
     pack_ways,
     unpack_velocities,
 )
-from carom.systems.kernels.resting import press_groups, start_warm, sum_impulses
+from carom.systems.kernels.resting import press_groups, start_warm
 from carom.systems.kernels.settling import sink_contacts
 from carom.systems.kernels.sorting import sort_groups
 from carom.systems.linkage import Linkage
@@ -37,6 +37,7 @@ from carom.systems.settings import Settings
 from carom.systems.threads import Threads, parts_for, share_out
 
 Yielding = tuple[float, float]
+NO_GATE = np.zeros(1, np.int64)  # for a kernel that nobody waits for
 
 
 class Stage(NamedTuple):
@@ -60,7 +61,7 @@ class Resting(Resource):
         self.count = self.groups = self.levels = 0
         self.structure = -1  # that of the world when contacts were detected
         self.packed: Integers | None = None  # the rows of bodies whose poses are packed: those of this step
-        self.start = np.zeros(1, np.int64)
+        self.start, self.closes = np.zeros(1, np.int64), np.ones(1, np.bool_)
         self.bodies, self.lanes = aligned(1, BODY_WIDTH), aligned(0, WIDTH)
         self._reserve(0)
 
@@ -77,7 +78,7 @@ class Resting(Resource):
         """Find the manifolds of the contact table, which detection has replaced, and put them into groups."""
         points, nobody = contact.count, len(inverse_mass)
         if len(self.start) <= points:
-            self.start = np.empty(2 * points + 1, np.int64)
+            self.start, self.closes = np.empty(2 * points + 1, np.int64), np.empty(2 * points + 1, np.bool_)
         self.count = find_manifolds(points, contact.row_a, contact.row_b, contact.normal, self.start)
         if len(self.bodies) != nobody + 1:
             self.bodies, self.packed = aligned(nobody + 1, BODY_WIDTH), None
@@ -149,7 +150,7 @@ class Resting(Resource):
 
     def closing(self, world: World, at: float, h: float) -> Booleans:
         """Tell which manifolds, by their first contacts, may strike; all of them in the middle of a substep."""
-        closing = np.ones(len(self.start), np.bool_)
+        self.closes[:] = True
         if at == 0.0 and self.groups:
             motion = world[Motion]
             pack_velocities(world[Awake].now(world), motion.linear, motion.angular, self.bodies)
@@ -157,10 +158,10 @@ class Resting(Resource):
                 world, self.groups,
                 lambda begin, end: find_closing(
                     begin, end, h, self.index_a, self.index_b, self.first, self.points, self.row,
-                    self.lanes, self.bodies, closing,
+                    self.lanes, self.bodies, self.closes,
                 ),
             )  # fmt: skip
-        return closing
+        return self.closes
 
     def sink(self, world: World) -> None:
         """Find how deep contacts have come to be."""
@@ -177,7 +178,7 @@ class Resting(Resource):
         )  # fmt: skip
 
     def relax(self, world: World, h: float) -> None:
-        """Take the speed by which overlap left out of the velocities, and sum up the impulses."""
+        """Take the speed by which overlap left out of the velocities."""
         rows, motion, linkage, hard = world[Awake].now(world), world[Motion], world[Linkage], (0.0, 1.0)
         if linkage.groups:
             self.pack(world)
@@ -188,21 +189,19 @@ class Resting(Resource):
         if linkage.groups:
             linkage.finish(self.bodies)
         unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
-        share_out(
-            world, self.groups, lambda begin, end: sum_impulses(begin, end, self.points, self.row, self.lanes)
-        )  # fmt: skip
 
     def _solve(self, world: World, stage: Stage) -> None:
         """Do all sweeps of a stage, one by one for joints, which come first, and for those who are to hear of each."""
         self._tell(stage, 0)
-        linkage = world[Linkage]
+        linkage, relaxing = world[Linkage], stage.name == "relax"
         at_once = 1 if self.hearers or linkage.groups else stage.sweeps
         for done in range(at_once, stage.sweeps + 1, at_once):
             if linkage.groups:
-                linkage.solve(stage.h, self.bodies, relaxing=stage.name == "relax")
+                linkage.solve(stage.h, self.bodies, relaxing=relaxing)
             self._together(
-                world, press_groups, at_once, stage.h, self.ends, self.levels, self.level_ends, stage.soft, stage.rigid,
-                self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
+                world, press_groups, at_once, relaxing and done == stage.sweeps, stage.h, self.ends, self.levels,
+                self.level_ends, stage.soft, stage.rigid, self.index_a, self.index_b, self.points, self.row, self.asks,
+                self.lanes, self.bodies,
             )  # fmt: skip
             self._tell(stage, done)
 
@@ -214,10 +213,11 @@ class Resting(Resource):
         """Run a kernel that goes level by level in all threads at once."""
         if not self.groups:
             return
-        parts, gate = parts_for(world, self.groups), np.zeros(1, np.int64)
+        parts = parts_for(world, self.groups)
         if parts == 1:
-            kernel(0, 1, gate, *arguments)
+            kernel(0, 1, NO_GATE, *arguments)
         else:
+            gate = np.zeros(1, np.int64)
             world[Threads].run(parts, lambda part: kernel(part, parts, gate, *arguments))
 
     def hand_over(self, contact: Contact) -> None:

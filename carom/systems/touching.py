@@ -51,8 +51,9 @@ def struck(world: World) -> tuple[Integers, Integers, Floats]:
     impact = world[Impact]
     a, b, time = impact.a[: impact.count], impact.b[: impact.count], impact.time[: impact.count]
     if impact.count:
-        living = world.slots.live(a) & world.slots.live(b)
-        one, other = world.slots.rows(a[living]), world.slots.rows(b[living])
+        both = np.stack([a, b])
+        living = world.slots.live(both).all(axis=0)
+        one, other = world.slots.rows_of_living(both[:, living])
         keys = np.minimum(one, other) * world.capacity + np.maximum(one, other)
         keys, first = np.unique(keys, return_index=True)  # impacts are in order of time
         a, b, time = keys // world.capacity, keys % world.capacity, time[living][first]
@@ -75,6 +76,8 @@ def tell_hits(world: World, dt: float) -> None:
     if not impact.count:
         return
     loud = np.nonzero(impact.speed[: impact.count] >= world[Settings].hit_speed)[0]
+    if not len(loud):
+        return
     loud = loud[np.lexsort((impact.b[loud], impact.a[loud], impact.time[loud]))]
     world.resize(Hit, len(loud))
     hit = world[Hit]

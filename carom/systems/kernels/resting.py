@@ -59,13 +59,14 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
 
 @kernel("gate", "lanes", "bodies", makes_arrays=True)
 def press_groups(
-    part, parts, gate, sweeps, h, ends, levels, level_ends, soft, rigid,
+    part, parts, gate, sweeps, ended, h, ends, levels, level_ends, soft, rigid,
     index_a, index_b, points, row, asks, lanes, bodies,
 ):  # fmt: skip
     """Solve every group that rests ``sweeps`` times over, sharing the groups of a level as `start_warm` does.
 
     ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`press_points`). Those with something
-    that cannot move come last, so that what is under a pile has the last word.
+    that cannot move come last, so that what is under a pile has the last word. Where the substep has ``ended`` with
+    them, its impulses are added to those of the step.
     """
     lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
     scratch = np.empty((SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH))
@@ -78,23 +79,22 @@ def press_groups(
                         g, row[g], points[g], asks[g], 1.0 / h, rate, hardness,
                         index_a, index_b, lanes, bodies, address(scratch),
                     )  # fmt: skip
+                    if ended and sweep == sweeps - 1:
+                        sum_impulses(row[g], points[g], lanes)
             if parts > 1:
                 wait_for_all(gate, parts, sweep * levels + level + 1)
 
 
-@kernel("lanes")
-def sum_impulses(begin, end, points, row, lanes):
-    """Add the impulses of the substep to those of the step."""
-    lanes = address(lanes)
-    for g in range(begin, end):
-        r = row[g]
-        for p in range(points[g]):
-            q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            store(lanes, q + of.SUM, load(lanes, q + of.SUM) + load(lanes, q + of.WARM))
-        along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
-        for k in range(3):
-            t, u = load(lanes, r + of.TANGENT + k), load(lanes, r + of.TANGENT + 3 + k)
-            store(lanes, r + of.RUBBED + k, load(lanes, r + of.RUBBED + k) + (along * t + across * u))
+@woven
+def sum_impulses(r, points, lanes):
+    """Add the impulses of a group in the substep to those of the step."""
+    for p in range(points):
+        q = r + MANIFOLD_ROWS + POINT_ROWS * p
+        store(lanes, q + of.SUM, load(lanes, q + of.SUM) + load(lanes, q + of.WARM))
+    along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
+    for k in range(3):
+        t, u = load(lanes, r + of.TANGENT + k), load(lanes, r + of.TANGENT + 3 + k)
+        store(lanes, r + of.RUBBED + k, load(lanes, r + of.RUBBED + k) + (along * t + across * u))
 
 
 @woven

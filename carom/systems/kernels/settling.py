@@ -6,19 +6,22 @@ from __future__ import annotations
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lanes import WIDTH, address, gather, load, store
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import WAY
 from carom.systems.kernels.spatial import turn
 
 
-@kernel("linear", "angular", "position")
+@kernel("rotation", "center", "linear", "angular", "position")
 def finish_drift(
-    rows, ended, center_of_mass, freedom, start_position, start_rotation, decay, angular_decay, flow, rotation, center,
-    linear, angular, position,
+    rows, ended, h, inverse_mass, center_of_mass, freedom, start_position, start_rotation, decay, angular_decay, flow,
+    rotation, center, linear, angular, position,
 ):  # fmt: skip
-    """End the substep: the second half of drag, and the origins placed."""
+    """End the substep of h seconds: the second half of drag, and the origins placed."""
     for i in rows:
+        if ended and inverse_mass[i] == 0.0:
+            keep_course(i, h, center_of_mass, start_position, start_rotation, linear, angular, center, rotation)
         qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
         cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
         x, y, z = 0.0, 0.0, 0.0
