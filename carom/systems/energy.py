@@ -78,8 +78,9 @@ def potential_energy(world: World) -> float:
 
 
 def total_energy(world: World) -> float:
-    """Return kinetic and potential energy in J."""
-    return kinetic_energy(world) + potential_energy(world)
+    """Return the sum of `kinetic_and_potential` in J."""
+    kinetic, potential = kinetic_and_potential(world)
+    return kinetic + potential
 
 
 def momenta(world: World, rows: Integers) -> Floats:

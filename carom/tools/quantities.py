@@ -10,7 +10,7 @@ import numpy as np
 from carom.ecs import RigidBody, World
 from carom.ecs.errors import did_you_mean
 from carom.ecs.relations.contact import Contact
-from carom.systems.energy import kinetic_energy, momentum, potential_energy
+from carom.systems.energy import kinetic_and_potential, momentum
 from carom.worlds.errors import WordError
 from carom.worlds.terms import AXES, read_term
 
@@ -27,7 +27,7 @@ class Quantity(NamedTuple):
 
 def energies(world: World) -> dict[str, float]:
     """Return the energies of all dynamic bodies in J."""
-    kinetic, potential = kinetic_energy(world), potential_energy(world)
+    kinetic, potential = kinetic_and_potential(world)
     return {"kinetic": kinetic, "potential": potential, "total": kinetic + potential}
 
 

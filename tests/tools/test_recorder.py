@@ -25,7 +25,7 @@ from carom.systems.simulation import Simulation
 from carom.tools.bench.killed import record_until_killed
 from carom.tools.recorder import Recorder
 from carom.tools.recorder.stream import application_id
-from carom.tools.recorder.tracks.contacts import closing
+from carom.tools.recorder.tracks.contacts import Contacts
 from carom.tools.recording import Recording
 
 RED, BLUE, GREY = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9), (0.4, 0.4, 0.4)
@@ -166,8 +166,7 @@ def test_contacts_are_recorded_with_both_colliders_and_exact_numbers(tmp_path: P
         touching = (contact.depth[: contact.count] >= 0.0) | (contact.impulse[: contact.count] > 0.0)
         columns = ("a", "b", "point", "normal", "depth", "impulse")
         rows = {name: getattr(contact, name)[: contact.count][touching] for name in columns}
-        found = closing(simulation.world, np.nonzero(touching)[0], *(getattr(contact, name) for name in columns[:4]))
-        seen[simulation.frame] = rows | {"speed": found["speed"]}
+        seen[simulation.frame] = rows | {"speed": Contacts().rows(simulation)["speed"]}
     recorder.end(simulation)
     recording = Recording(tmp_path / "run.rrd")
     assert sum(len(rows["a"]) for rows in seen.values()) > 20
@@ -186,12 +185,16 @@ def test_speed_of_a_contact_is_that_of_both_surfaces_along_its_normal() -> None:
     other = ball(simulation, "other", (0.2, 0.0, 0.0))
     simulation["one"].motion.linear, simulation["one"].motion.angular = (3.0, 5.0, 7.0), (0.0, 0.0, 2.0)
     simulation["other"].motion.linear = (-0.5, 1.0, 0.0)
-    sides = {"a": np.array([one, one, floor]), "b": np.array([other, floor, floor])}
-    rows = {**sides, "point": np.tile((0.1, 0.1, 0.0), (3, 1)), "normal": np.tile((1.0, 0.0, 0.0), (3, 1))}
-    first = closing(simulation.world, np.arange(3), **rows)["speed"]
-    assert first == pytest.approx([3.0 - 0.2 + 0.5, 3.0 - 0.2, 0.0], abs=1e-6)
+    with simulation.world.faces(None):  # as a system has it
+        simulation.world.resize(Contact, 4)
+        contact = simulation.world[Contact]
+        contact.a[:4], contact.b[:4] = [one, one, one, floor], [other, other, floor, floor]
+        contact.point[:4], contact.normal[:4], contact.depth[:4] = (0.1, 0.1, 0.0), (1.0, 0.0, 0.0), [-1e-9, 0, 0, 0]
+    rows = Contacts().rows(simulation)
+    assert rows["speed"] == pytest.approx([3.0 - 0.2 + 0.5, 3.0 - 0.2, 0.0], abs=1e-6)
+    assert rows["b"].tolist() == [other, floor, floor], "those that only may touch are left out"
     simulation.world.despawn(other)
-    assert closing(simulation.world, np.arange(3), **rows)["speed"][0] == pytest.approx(2.8, abs=1e-6)
+    assert Contacts().rows(simulation)["speed"][0] == pytest.approx(2.8, abs=1e-6)
 
 
 def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) -> None:

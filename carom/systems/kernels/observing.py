@@ -63,20 +63,25 @@ def centre(i, position, rotation, center_of_mass):
     return position[i, 0] + x, position[i, 1] + y, position[i, 2] + z
 
 
-@kernel("points", "normals", "speeds")
-def find_closing_speeds(
-    rows, a, b, point, normal, alive, generations, row_shift, owner,
-    position, rotation, center_of_mass, linear, angular, points, normals, speeds,
+@kernel("sides", "numbers", "vectors", "speeds")
+def note_contacts(
+    count, a, b, depth, impulse, point, normal, alive, generations, row_shift, owner,
+    position, rotation, center_of_mass, linear, angular, sides, numbers, vectors, speeds,
 ):  # fmt: skip
-    """Write where contacts ``rows`` (n,) are (n, 3) and how fast (n,) their colliders a and b, handles, close there.
+    """Write what there is of those of ``count`` contacts that touch; return how many they are.
 
-    All are float32. ``owner`` is the row of the body that each row belongs to, -1 for none; who is gone does not move.
+    Whose they are goes to ``sides`` (2, n), depth and impulse to ``numbers`` (2, n), place and normal in float32 to
+    ``vectors`` (2, n, 3), and to ``speeds`` (n,), float32, how fast their colliders, handles, close there. ``owner`` is
+    the row of the body that each row belongs to, -1 for none; who is gone does not move.
     """
-    for m in range(len(rows)):
-        k = rows[m]
+    found = 0
+    for k in range(count):
+        if not (depth[k] >= 0.0 or impulse[k] > 0.0):
+            continue
+        sides[0, found], sides[1, found], numbers[0, found], numbers[1, found] = a[k], b[k], depth[k], impulse[k]
         px, py, pz = point[k, 0], point[k, 1], point[k, 2]
         for c in range(3):
-            points[m, c], normals[m, c] = point[k, c], normal[k, c]
+            vectors[0, found, c], vectors[1, found, c] = point[k, c], normal[k, c]
         speed, sign = 0.0, 1.0
         for handle in (a[k], b[k]):
             index = handle & INDEX_MASK
@@ -88,7 +93,9 @@ def find_closing_speeds(
                 x, y, z = x + linear[i, 0], y + linear[i, 1], z + linear[i, 2]
                 speed += sign * (x * normal[k, 0] + y * normal[k, 1] + z * normal[k, 2])
             sign = -1.0
-        speeds[m] = speed
+        speeds[found] = speed
+        found += 1
+    return found
 
 
 @kernel("places", "turns", "moved")
@@ -113,9 +120,10 @@ def compile_observing() -> None:
     numbers, vectors, turns = np.zeros(0, np.int64), np.zeros((0, 3)), np.zeros((0, 4))
     ids = np.zeros(0, np.int32)
     places, orientations = vectors.astype(np.float32), turns.astype(np.float32)
-    bodies, told = (vectors, turns, vectors, vectors, vectors), (places, places, np.zeros(0, np.float32))
-    contacts = numbers, numbers, numbers, vectors, vectors
-    find_closing_speeds(*contacts, np.zeros(0, np.bool_), ids, ids, numbers, *bodies, *told)
+    bodies = vectors, turns, vectors, vectors, vectors
+    told = np.zeros((2, 0, 3), np.float32), np.zeros(0, np.float32)
     one, sums = np.zeros(0), np.zeros(2)
+    contacts = 0, numbers, numbers, one, one, vectors, vectors, np.zeros(0, np.bool_), ids, ids, numbers
+    note_contacts(*contacts, *bodies, np.zeros((2, 0), np.int64), np.zeros((2, 0)), *told)
     sum_energies(numbers, one, one, vectors, turns, one, vectors, vectors, turns, vectors, vectors, np.zeros(3), sums)
     note_poses(numbers, vectors, turns, numbers, places, orientations, places, orientations, np.zeros(0, np.bool_))

@@ -21,12 +21,16 @@ class Block(NamedTuple):
     counts: list[int]
     columns: Columns
 
-    def values(self, names: Iterable[str]) -> Any:
+    def values(self, names: Iterable[str]) -> list[Any]:
         """Return columns as Rerun takes them, in their own precision."""
         import rerun
 
         columns = {name: _arrow(self.columns[name]) for name in names}
-        return rerun.AnyValues.columns(**columns).partition(self.counts)
+        return self.drawn(rerun.AnyValues(**columns)) if columns else []
+
+    def drawn(self, archetype: Any) -> list[Any]:
+        """Return what an archetype has of all rows as Rerun takes it; its own `columns` counts them one by one."""
+        return [batch.partition(self.counts) for batch in archetype.as_component_batches()]
 
 
 def joined(pending: Sequence[tuple[Stamp, Columns]]) -> Block:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -61,14 +61,12 @@ class LoadedLines(RowTrack):
         names = np.array(world.names_told(world.entities(found.rows)), np.str_)
         return {"name": names} | told | {"line": self.lines(found).astype(np.float32)}
 
-    def draw(self, block: Block, stream: Stream) -> None:
-        """Write the lines."""
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
+        """Return the lines."""
         import rerun
 
         loads = self.loads(block.columns)
         self._most = max(self._most, float(loads.max(initial=0.0)))
         shares = loads / next_round(self._most) if self._most > 0.0 else loads
-        columns = rerun.LineStrips3D.columns(
-            strips=block.columns["line"], colors=PALER + (1.0 - PALER) * on_scale(shares)
-        )
-        stream.rows(self.path, block.stamps, columns.partition(block.counts))
+        colors = PALER + (1.0 - PALER) * on_scale(shares)
+        return block.drawn(rerun.LineStrips3D.from_fields(strips=block.columns["line"], colors=colors))

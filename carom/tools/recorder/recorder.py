@@ -16,6 +16,7 @@ from carom.tools.recorder.detail import tracks_of
 from carom.tools.recorder.edits import Edits
 from carom.tools.recorder.snapshots import Snapshots
 from carom.tools.recorder.stream import Stamp, Stream
+from carom.tools.recorder.track import Track
 from carom.tools.recorder.tracks.bodies import ROOT
 from carom.tools.recorder.tracks.cameras import Cameras
 from carom.tools.recorder.tracks.promoted import Promoted
@@ -76,6 +77,9 @@ class Recorder:
         self._only = None if only is None else Choice(only)
         for track in self._tracks.values():
             track.only = self._only
+        all_tracks = self._tracks.values()
+        self._sampled = {when: [track for track in all_tracks if track.every_step is when] for when in (False, True)}
+        self._watching = [track for track in all_tracks if type(track).watch is not Track.watch]
         self._seen = self._waiting = self._blocks = 0
         self._flushed = 0.0
         self._patience = FLUSH_AFTER if live is None else SEND_AFTER
@@ -112,7 +116,7 @@ class Recorder:
         """Record the step if it is one of the frames; write and flush about once a second."""
         assert self._stream is not None and self._every is not None, "begin() comes before observe()"
         self._seen = simulation.frame
-        for track in self._tracks.values():
+        for track in self._watching:
             track.watch(simulation)
         self._sample(simulation, self._stream, every_step=True)
         if self._edits.sample(simulation, _stamp(simulation)):
@@ -141,11 +145,11 @@ class Recorder:
         self._waiting += 1
 
     def _sample(self, simulation: Simulation, stream: Stream, *, every_step: bool) -> None:
-        for track in self._tracks.values():
-            if track.every_step is every_step:
-                track.sample(simulation, _stamp(simulation), stream)
-                if track.kept >= BLOCK:
-                    track.write(stream)
+        stamp = _stamp(simulation)
+        for track in self._sampled[every_step]:
+            track.sample(simulation, stamp, stream)
+            if track.kept >= BLOCK:
+                track.write(stream)
 
     def _write(self, stream: Stream) -> None:
         for track in self._tracks.values():

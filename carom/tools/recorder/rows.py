@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -36,8 +36,9 @@ class RowTrack(Track):
     def rows(self, simulation: Simulation) -> Columns | None:
         """Return the rows of this frame as columns of their own; None for a frame that says nothing."""
 
-    def draw(self, block: Block, stream: Stream) -> None:
-        """Write what the viewer draws of the rows, the columns ``drawn`` among it."""
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
+        """Return what is drawn of the rows at their path, the columns ``drawn`` among it; write what is elsewhere."""
+        return ()
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the rows of this frame."""
@@ -64,8 +65,8 @@ class RowTrack(Track):
         """Write the kept rows as one block."""
         if self._pending:
             block = joined(self._pending)
-            self.draw(block, stream)
-            stream.rows(self.path, block.stamps, block.values(name for name in self.columns if name not in self.drawn))
+            values = block.values(name for name in self.columns if name not in self.drawn)
+            stream.rows(self.path, block.stamps, [*self.draw(block, stream), *values])
             self._pending, self.kept = [], 0
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -52,10 +52,9 @@ class Bounds(RowTrack):
         bounded = (np.isfinite(lower) & np.isfinite(upper) & (lower < upper)).all(axis=1)
         return {"collider": world.entities(rows[bounded]), "lower": lower[bounded], "upper": upper[bounded]}
 
-    def draw(self, block: Block, stream: Stream) -> None:
-        """Write the boxes."""
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
+        """Return the boxes."""
         import rerun
 
         lower, upper = block.columns["lower"], block.columns["upper"]
-        columns = rerun.Boxes3D.columns(centers=0.5 * (lower + upper), half_sizes=0.5 * (upper - lower))
-        stream.rows(PATH, block.stamps, columns.partition(block.counts))
+        return block.drawn(rerun.Boxes3D.from_fields(centers=0.5 * (lower + upper), half_sizes=0.5 * (upper - lower)))

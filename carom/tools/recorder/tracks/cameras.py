@@ -56,6 +56,8 @@ class Cameras(RowTrack):
         """Keep where each camera is; write the lens of one that is new, and clear one that is no more."""
         import rerun
 
+        if not self._rigs:
+            return
         before, self._found = self._found, {}
         for rig in self._rigs:
             with suppress(CaromError):  # who it follows is gone
@@ -77,7 +79,7 @@ class Cameras(RowTrack):
         rotation = quaternion.look_at(target - position, up)
         return {"camera": np.array(self._moved), "position": position, "rotation": rotation}
 
-    def draw(self, block: Block, stream: Stream) -> None:
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
         """Write the pose of each at its own path."""
         import rerun
 
@@ -88,6 +90,7 @@ class Cameras(RowTrack):
                 translation=block.columns["position"][rows], quaternion=block.columns["rotation"][rows]
             )
             stream.rows(place(name), [block.stamps[stamp] for stamp in stamps[rows]], columns)
+        return ()
 
     def _lens(self, camera: Camera) -> list[Any]:
         """Return what a camera sees, in its own frame: it looks along -z."""

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
 from carom.ecs import Collider, Motion, RigidBody, Transform, Visual, World
-from carom.ecs.column import Column, Floats, Integers
+from carom.ecs.column import Column
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.systems.compound import bodies_of
-from carom.systems.kernels.observing import find_closing_speeds
+from carom.systems.kernels.observing import note_contacts
 from carom.systems.simulation import Simulation
-from carom.systems.touching import touching_rows
 from carom.tools.recorder.block import Block, Columns
 from carom.tools.recorder.rows import RowTrack
 from carom.tools.recorder.stream import Stamp, Stream
@@ -58,20 +57,29 @@ class Contacts(RowTrack):
         super().sample(simulation, stamp, stream)
 
     def rows(self, simulation: Simulation) -> Columns:
-        """Return the points that touch."""
+        """Return the points that touch, and how fast (m/s) both sides close along the normal; below 0: they part."""
         world = simulation.world
+        owners, slots = bodies_of(world), world.slots
         with world.faces(None):  # as within a system: else kernels are handed copies of columns
-            table = world[Contact]
-            touching = touching_rows(table)
-            rows = {name: getattr(table, name).take(touching) for name in ("a", "b", "depth", "impulse")}
-            return rows | closing(world, touching, table.a, table.b, table.point, table.normal)
+            table, motion, pose = world[Contact], world[Motion], world[Transform]
+            count = table.count
+            sides, numbers = np.empty((2, count), np.int64), np.empty((2, count))
+            vectors, speeds = np.empty((2, count, 3), np.float32), np.empty(count, np.float32)
+            found = note_contacts(
+                count, table.a, table.b, table.depth, table.impulse, table.point, table.normal,
+                slots.alive, slots.generations, slots.row_shift, owners,
+                pose.position, pose.rotation, world[RigidBody].center_of_mass, motion.linear, motion.angular,
+                sides, numbers, vectors, speeds,
+            )  # fmt: skip
+        columns = *sides, *numbers, *vectors, speeds
+        names = "a", "b", "depth", "impulse", "point", "normal", "speed"
+        return {name: column[:found] for name, column in zip(names, columns, strict=True)}
 
-    def draw(self, block: Block, stream: Stream) -> None:
-        """Write the points."""
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
+        """Return the points."""
         import rerun
 
-        columns = rerun.Points3D.columns(positions=block.columns["point"])
-        stream.rows(POINTS, block.stamps, columns.partition(block.counts))
+        return block.drawn(rerun.Points3D.from_fields(positions=block.columns["point"]))
 
     def _name_unseen(self, world: World, stamp: Stamp, stream: Stream) -> None:
         """Write the names of bodies and colliders that are not among those that are drawn."""
@@ -86,16 +94,3 @@ class Contacts(RowTrack):
         if not np.array_equal(entities, self._unseen):
             self._unseen = entities
             stream.row(PATH, stamp, rerun.AnyValues(collider=entities, name=world.names_told(entities)))
-
-
-def closing(world: World, rows: Integers, a: Integers, b: Integers, point: Floats, normal: Floats) -> Columns:
-    """Return where contacts ``rows`` are, and how fast (m/s) both sides close along the normal; below 0: they part."""
-    count, slots, owners = len(rows), world.slots, bodies_of(world)
-    points, normals, speeds = (np.empty(shape, np.float32) for shape in ((count, 3), (count, 3), count))
-    with world.faces(None):
-        motion, pose, centers = world[Motion], world[Transform], world[RigidBody].center_of_mass
-        find_closing_speeds(
-            rows, a, b, point, normal, slots.alive, slots.generations, slots.row_shift, owners,
-            pose.position, pose.rotation, centers, motion.linear, motion.angular, points, normals, speeds,
-        )  # fmt: skip
-    return {"point": points, "normal": normals, "speed": speeds}

@@ -40,7 +40,9 @@ class Errors(NamedCurves):
     def read(self, simulation: Simulation) -> Mapping[str, float]:
         """Return a number for each entity."""
         world = simulation.world
-        rows = world[Oracle].rows(world) if Oracle in world else np.zeros(0, np.int64)
+        if Oracle not in world:
+            return {}
+        rows = world[Oracle].rows(world)
         values = errors(world, rows).tolist() if len(rows) else []
         return dict(zip(world.names_told(world.entities(rows)), values, strict=True))
 

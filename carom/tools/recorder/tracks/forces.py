@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -72,8 +72,8 @@ class Forces(RowTrack):
             "point": found.point,
         }
 
-    def draw(self, block: Block, stream: Stream) -> None:
-        """Write arrows; those of what is far larger than a weight are cut."""
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
+        """Return arrows; those of what is far larger than a weight are cut."""
         import rerun
 
         forces, sources = block.columns["force"], block.columns["source"]
@@ -81,7 +81,5 @@ class Forces(RowTrack):
         shares = np.minimum(self._scale, self._longest / np.maximum(sizes, 1e-300))
         names, place = np.unique(sources, return_inverse=True)
         colors = np.array([COLORS.get(name, OTHERS) for name in names.tolist()], np.uint32)[place.ravel()]
-        columns = rerun.Arrows3D.columns(
-            origins=block.columns["point"], vectors=shares[:, None] * forces, colors=colors
-        )
-        stream.rows(PATH, block.stamps, columns.partition(block.counts))
+        vectors = shares[:, None] * forces
+        return block.drawn(rerun.Arrows3D.from_fields(origins=block.columns["point"], vectors=vectors, colors=colors))

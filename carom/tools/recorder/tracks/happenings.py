@@ -32,6 +32,8 @@ class Happenings(Track):
 
     def __init__(self) -> None:
         self._pending: list[tuple[Stamp, str, str]] = []
+        self._structure = -1
+        self._names: dict[int, str] = {}  # that were told while nobody came or went
 
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the lines with their times."""
@@ -69,7 +71,7 @@ class Happenings(Track):
         told = rows[:MOST_LINES]
         if not len(told):
             return
-        names = world.names_told(np.concatenate([a[told], b[told]]))  # at once: a call costs as much as ten lines
+        names = self._told(world, np.concatenate([a[told], b[told]]))
         strikes = _strikes(world, told[told < impact.count])
         others = [TOUCH if row < impact.count + len(quiet) else PART for row in told[len(strikes) :].tolist()]
         lines = zip(time[told].tolist(), names, names[len(told) :], strikes + others, strict=False)
@@ -78,6 +80,15 @@ class Happenings(Track):
         if len(rows) > len(told):
             more = f"{len(rows) - len(told)} more impacts and contacts in this step"
             self._pending.append((stamp, "DEBUG", more))
+
+    def _told(self, world: World, entities: Integers) -> list[str]:
+        """Return names; those not told before are asked for at once, which costs as much as ten lines."""
+        if self._structure != world.structure:
+            self._structure, self._names = world.structure, {}
+        handles = entities.tolist()
+        if new := [handle for handle in handles if handle not in self._names]:
+            self._names |= zip(new, world.names_told(np.array(new)), strict=True)
+        return [self._names[handle] for handle in handles]
 
     def _kept(self, world: World, a: Integers, b: Integers) -> Integers:
         """Return the rows of a table of pairs in which somebody is chosen."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -75,11 +75,10 @@ class Manifolds(RowTrack):
             "warm_start": self._persistence.began_with.copy(),
         }
 
-    def draw(self, block: Block, stream: Stream) -> None:
-        """Write the points, by state."""
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
+        """Return the points, by state."""
         import rerun
 
         names, place = np.unique(block.columns["state"], return_inverse=True)
         colors = np.array([COLORS[name] for name in names.tolist()], np.uint32)[place.ravel()]
-        columns = rerun.Points3D.columns(positions=block.columns["point"], colors=colors)
-        stream.rows(PATH, block.stamps, columns.partition(block.counts))
+        return block.drawn(rerun.Points3D.from_fields(positions=block.columns["point"], colors=colors))

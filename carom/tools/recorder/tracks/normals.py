@@ -56,8 +56,8 @@ class Normals(Track):
 
         if self._pending:
             block = joined(self._pending)
-            columns = rerun.Arrows3D.columns(origins=block.columns["origin"], vectors=block.columns["vector"])
-            stream.rows(NORMALS, block.stamps, columns.partition(block.counts))
+            arrows = rerun.Arrows3D.from_fields(origins=block.columns["origin"], vectors=block.columns["vector"])
+            stream.rows(NORMALS, block.stamps, block.drawn(arrows))
             self._pending = []
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -33,16 +33,20 @@ class Particles(RowTrack):
     def __init__(self) -> None:
         super().__init__()
         self._told: list[int] = []
+        self._structure = -1
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the particles of this frame; tell the names of emitters where there are others than before."""
         import rerun
 
-        emitters = simulation.world.query(Emitter).entities
-        if emitters.tolist() != self._told:
-            self._told, names = emitters.tolist(), simulation.world.names_told(emitters)
-            stream.row(f"{self.path}/emitters", stamp, rerun.AnyValues(entity=emitters, name=names))
-        super().sample(simulation, stamp, stream)
+        world = simulation.world
+        if self._structure != world.structure:
+            self._structure, emitters = world.structure, world.query(Emitter).entities
+            if emitters.tolist() != self._told:
+                self._told, names = emitters.tolist(), world.names_told(emitters)
+                stream.row(f"{self.path}/emitters", stamp, rerun.AnyValues(entity=emitters, name=names))
+        if self._told or world.count(Particle):
+            super().sample(simulation, stamp, stream)
 
     def rows(self, simulation: Simulation) -> Columns | None:
         """Return a row for each particle; none at all where nothing emits."""
@@ -64,14 +68,14 @@ class Particles(RowTrack):
             "color": np.rint(255.0 * np.concatenate([cloud.colors for cloud in seen])).astype(np.uint8),
         }
 
-    def draw(self, block: Block, stream: Stream) -> None:
-        """Write the points."""
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
+        """Return the points."""
         import rerun
 
-        columns = rerun.Points3D.columns(
-            positions=block.columns["position"], radii=block.columns["radius"], colors=block.columns["color"]
+        columns = block.columns
+        return block.drawn(
+            rerun.Points3D.from_fields(positions=columns["position"], radii=columns["radius"], colors=columns["color"])
         )
-        stream.rows(self.path, block.stamps, columns.partition(block.counts))
 
 
 def _nothing() -> Columns:

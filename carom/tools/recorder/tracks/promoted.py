@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -128,7 +128,7 @@ class Promoted(RowTrack):
             **{name: _summed(found.body[kept], found.force[kept], rows) for name, kept in forces.items()},
         }
 
-    def draw(self, block: Block, stream: Stream) -> None:
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
         """Write labels and curves, of forces their sizes."""
         import rerun
 
@@ -144,6 +144,7 @@ class Promoted(RowTrack):
                     sizes = np.linalg.norm(numbers, axis=1) if numbers.ndim == 2 else numbers
                     columns = rerun.Scalars.columns(scalars=sizes)
                     stream.rows(f"{own_path(ROOT, name)}/{key}/{curve}", when, columns)
+        return ()
 
     def write(self, stream: Stream) -> None:
         """Write rows, labels, curves and lanes."""

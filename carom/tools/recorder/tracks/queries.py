@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -87,7 +87,7 @@ class Queries(RowTrack):
             "entity": np.concatenate([np.zeros(0, np.int64), *(question.entity for question in questions)]),
         }
 
-    def draw(self, block: Block, stream: Stream) -> None:
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
         """Write hits and misses as lines, labelled by what they are called."""
         import rerun
 
@@ -99,6 +99,7 @@ class Queries(RowTrack):
             counts = np.bincount(frames[chosen], minlength=len(block.counts))
             strips = rerun.LineStrips3D.columns(strips=lines[chosen], labels=named[chosen].tolist())
             stream.rows(f"{ROOT}/{kind}", block.stamps, strips.partition(counts))
+        return ()
 
 
 def _words(questions: list[Question], name: str) -> list[str]:

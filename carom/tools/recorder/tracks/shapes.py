@@ -96,7 +96,7 @@ class Shapes(Track):
             block = joined(pending)
             archetype = getattr(rerun, SOLIDS[name].archetype)
             poses = what == "pose"
-            columns = archetype.columns(**block.columns).partition(block.counts) if poses else block.values([what])
+            columns = block.drawn(archetype.from_fields(**block.columns)) if poses else block.values([what])
             stream.rows(f"{PATH}/{name}", block.stamps, columns)
         self._pending.clear()
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
 
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Column
@@ -58,10 +58,15 @@ class Velocities(RowTrack):
             "center": center,
         }
 
-    def draw(self, block: Block, stream: Stream) -> None:
-        """Write the arrows."""
+    def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
+        """Return the arrows, of linear velocities; write those of angular ones."""
         import rerun
 
-        for path, name in ((LINEAR, "linear"), (ANGULAR, "angular")):
-            columns = rerun.Arrows3D.columns(origins=block.columns["center"], vectors=AHEAD * block.columns[name])
-            stream.rows(path, block.stamps, columns.partition(block.counts))
+        linear, angular = (
+            block.drawn(
+                rerun.Arrows3D.from_fields(origins=block.columns["center"], vectors=AHEAD * block.columns[name])
+            )
+            for name in ("linear", "angular")
+        )
+        stream.rows(ANGULAR, block.stamps, angular)
+        return linear
