@@ -7,6 +7,8 @@ from typing import Any
 from carom.systems.simulation import Simulation
 from carom.worlds.condition import read_condition
 from carom.worlds.errors import Path, WordError
+from carom.worlds.expect_bounds import Bounds
+from carom.worlds.expect_course import Eventually, Order, Settled
 from carom.worlds.expect_laws import QUANTITIES, Conserved, Penetration, Throughout
 from carom.worlds.expect_moment import frame_of, read_event
 from carom.worlds.expect_pictures import Visible
@@ -15,7 +17,7 @@ from carom.worlds.expectation import Expectation, Outcome
 from carom.worlds.source import Source
 
 __all__ = ["Expectation", "Outcome", "read_expectations"]
-EVERY_FRAME = (*QUANTITIES, "penetration", "never", "always")
+RUN = (*QUANTITIES, "penetration", "bounds", "never", "always", "eventually", "settles_by", "order")  # of all of it
 
 
 def read_expectations(source: Source, simulation: Simulation, items: list[Any]) -> list[Expectation]:
@@ -34,19 +36,17 @@ def read_expectations(source: Source, simulation: Simulation, items: list[Any]) 
 def _read(source: Source, simulation: Simulation, path: Path, words: Any) -> list[Expectation]:
     values = dict(words.__pydantic_extra__ or {})
     moments = [key for key in ("at", "when") if getattr(words, key) is not None]
-    laws = [key for key in EVERY_FRAME if getattr(words, key) is not None]
+    laws = [key for key in RUN if getattr(words, key) is not None]
     asked = bool(values) or words.visible is not None
     if len(moments) > 1 or (moments and not asked) or (values and not moments) or not (laws or asked):
-        accepted = (
-            f"{', '.join(EVERY_FRAME)}, visible; or at or when, with values such as ball.position: {{is, within}}"
-        )
+        accepted = f"{', '.join(RUN)}, visible; or at or when, with values such as ball.position: {{is, within}}"
         received = ", ".join((*moments, *values)) or "none"
         source.report(path, "must state a law, or a moment with values", received=received, accepted=accepted)
         return []
     found: list[Expectation] = []
     for key in laws:
         try:
-            found.append(_every_frame(simulation, key, getattr(words, key)))
+            found.append(_of_run(simulation, key, getattr(words, key)))
         except WordError as fault:
             source.report_value((*path, key), fault)
     moment: dict[str, Any] = {}
@@ -69,12 +69,23 @@ def _read(source: Source, simulation: Simulation, path: Path, words: Any) -> lis
     return found
 
 
-def _every_frame(simulation: Simulation, key: str, text: str) -> Expectation:
-    if key in QUANTITIES:
-        return Conserved(key, text)
-    if key == "penetration":
-        return Penetration(text)
-    return Throughout(key, read_condition(text, simulation.world))
+def _of_run(simulation: Simulation, key: str, stated: Any) -> Expectation:
+    world = simulation.world
+    match key:
+        case "penetration":
+            return Penetration(stated)
+        case "bounds":
+            return Bounds(stated, world)
+        case "never" | "always":
+            return Throughout(key, read_condition(stated, world))
+        case "eventually":
+            return Eventually(read_condition(stated, world))
+        case "settles_by":
+            return Settled(stated, simulation)
+        case "order":
+            return Order(stated, world)
+        case _:
+            return Conserved(key, stated)
 
 
 def _moment(simulation: Simulation, key: str, value: Any) -> dict[str, Any]:

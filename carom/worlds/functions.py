@@ -1,4 +1,4 @@
-"""Functions that expectations know: of one entity, and of two."""
+"""Functions that expectations know: of one entity, of several together, and of two."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from math import dist
 
 import numpy as np
 
-from carom.ecs import Motion, Transform, World
+from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.joint import Joint
+from carom.systems.bodies import centers_of_mass
 from carom.systems.energy import kinetic_energies
 from carom.systems.queries.space import Space
 from carom.worlds.oracle import errors
@@ -35,6 +36,13 @@ def _load(world: World, rows: Integers) -> Floats:
     return _lengths(world[Joint].force[rows])
 
 
+def _center_of_mass(world: World, rows: Integers) -> Floats:
+    mass = world[RigidBody].mass[rows]
+    if not mass.any():
+        return np.full(3, np.nan)
+    return np.asarray((mass[:, None] * centers_of_mass(world, rows)).sum(axis=0) / mass.sum())
+
+
 def _distance(world: World, rows: Integers) -> float:
     return dist(*world[Transform].position[rows].tolist())
 
@@ -54,4 +62,5 @@ CALLS: dict[str, tuple[str, str, Callable[[World, Integers], Floats]]] = {  # un
     "load": ("N", "break_force", _load),
     "error": ("m", "position", errors),
 }
+OF_ALL: dict[str, Callable[[World, Integers], Floats]] = {"center_of_mass": _center_of_mass}  # a place (3,), m
 PAIRS: dict[str, tuple[str, Callable[[World, Integers], float]]] = {"distance": ("m", _distance), "sees": ("1", _sees)}

@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from carom.ecs import BodyType, Motion, RigidBody
+from carom.ecs import Motion, World
+from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import DeclarationError
+from carom.systems.bodies import dynamic_rows
 from carom.systems.compound import reaches
 from carom.systems.simulation import Simulation
 
@@ -58,10 +60,12 @@ def frames_of(seconds: float, dt: float) -> int:
 
 
 def at_rest(simulation: Simulation, speed: float) -> bool:
-    """Tell whether no dynamic body moves faster than ``speed``, nor any point of its bounds by its rotation."""
-    world = simulation.world
-    rows = world.row_numbers(RigidBody, Motion)
-    rows = rows[world[RigidBody].type[rows] == BodyType.DYNAMIC]
+    """Tell whether no dynamic body moves as fast as ``speed`` (m/s), nor any point of its bounds by its rotation."""
+    return bool((speeds(simulation.world, dynamic_rows(simulation.world)) < speed).all())
+
+
+def speeds(world: World, rows: Integers) -> Floats:
+    """Return the speeds (n,) of bodies (rows), m/s: of their centres, or of points of them by rotation if faster."""
     motion = world[Motion]
     turning = np.linalg.norm(motion.angular[rows], axis=1) * reaches(world)[rows]
-    return bool(((np.linalg.norm(motion.linear[rows], axis=1) < speed) & (turning < speed)).all())
+    return np.asarray(np.maximum(np.linalg.norm(motion.linear[rows], axis=1), turning))

@@ -17,6 +17,7 @@ from carom.systems.mass import PASSED_ON
 from carom.systems.particles.words import EmitterWords
 from carom.systems.surfaces import COLLIDER_COLUMNS
 from carom.worlds.camera import Camera
+from carom.worlds.expect_words import Expect
 from carom.worlds.generated import (
     action_fields,
     column_fields,
@@ -31,7 +32,6 @@ from carom.worlds.generated import (
 )
 from carom.worlds.sections import (
     ChainWords,
-    Expect,
     KeyframesWords,
     KeyframeWords,
     LayersMet,

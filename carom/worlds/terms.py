@@ -13,9 +13,10 @@ from carom.ecs import Component, Entity, Material, Motion, RigidBody, Transform,
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.joint import Joint
 from carom.ecs.errors import did_you_mean
+from carom.systems.bodies import dynamic_rows
 from carom.systems.own_components import is_own
 from carom.worlds.errors import WordError
-from carom.worlds.functions import CALLS, PAIRS
+from carom.worlds.functions import CALLS, OF_ALL, PAIRS
 from carom.worlds.joint_terms import TURNS, WAYS, readings, spelled_out
 from carom.worlds.names import fitting, matching
 from carom.worlds.oracle import check_foretold
@@ -25,8 +26,8 @@ from carom.worlds.pictures import QUESTIONS, Pictures, check_drawn, read_camera
 NAME_PATTERN = r"[^\W\d][\w*-]*(?:\[[\d,*]*\]|\.[\w*][\w*-]*)*"  # rain[3,0,1], rope.joint[2], cart.wheel[0]
 COLUMN_TERM = re.compile(NAME_PATTERN)
 DOT = re.compile(r"\.(?=[\w.]+$)")  # before a column, as far as can be told without the names of entities
-CALL_TERM = re.compile(r"(\w+)\s*\(([^()]*)\)")
-TERM_PATTERN = rf"\w+\s*\([^()]*\)|{NAME_PATTERN}"
+CALL_TERM = re.compile(r"(\w+)\s*\(([^()]*)\)(?:\.([xyz]))?")
+TERM_PATTERN = rf"\w+\s*\([^()]*\)(?:\.[xyz])?|{NAME_PATTERN}"
 AXES = ("x", "y", "z", "w")
 FIRST_KINDS = (
     Transform,
@@ -84,9 +85,14 @@ def read_term(text: str, world: World) -> Term:
     text = text.strip()
     call, dots = CALL_TERM.fullmatch(text), [dot.start() for dot in DOT.finditer(text)]
     if call is not None:
-        return _call(text, call[1], re.findall(NAME_PATTERN, call[2]), world)
+        patterns = re.findall(NAME_PATTERN, call[2])
+        if call[1] in OF_ALL:
+            return _of_all(text, call[1], patterns, call[3], world)
+        if call[3] is None:
+            return _call(text, call[1], patterns, world)
     if COLUMN_TERM.fullmatch(text) is None or not dots:
-        calls = [f"{name}(entity)" for name in CALLS] + [f"{name}(entity, entity)" for name in PAIRS]
+        calls = [f"{name}(entity)" for name in CALLS] + [f"{name}(entity, ...)" for name in OF_ALL]
+        calls += [f"{name}(entity, entity)" for name in PAIRS]
         accepted = f"<entity>.<column>, {', '.join(calls[:-1])} or {calls[-1]}"
         raise WordError("is no value of the world", received=repr(text), accepted=accepted)
     there = world.names()
@@ -102,7 +108,8 @@ def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
     if wanted.get(function) != len(patterns):
         forms = [f"{name}({', '.join(['entity'] * count)})" for name, count in wanted.items()]
         forms += [f"{name}({'entity, ' * question.entities}camera)" for name, question in QUESTIONS.items()]
-        known = (*wanted, *QUESTIONS)
+        forms += [f"{name}(entity, ...)" for name in OF_ALL]
+        known = (*wanted, *QUESTIONS, *OF_ALL)
         hint = did_you_mean(function, known) if function not in known else ""
         raise WordError("unknown function", received=repr(text), accepted=", ".join(forms), hint=hint)
     groups = [matching(pattern, world.names()) for pattern in patterns]
@@ -117,6 +124,24 @@ def _call(text: str, function: str, patterns: list[str], world: World) -> Term:
             check_foretold(world, entity)
     names, rows = tuple(f"{function}({name})" for name in groups[0]), _Rows(entities)
     return Term(text, unit, 1, names, lambda world: measure(world, rows(world))[:, None], tuple(entities))
+
+
+def _of_all(text: str, function: str, patterns: list[str], axis: str | None, world: World) -> Term:
+    """Return the term of a function that is one place of all the bodies that are meant, everybody by default."""
+    rows: Callable[[World], Integers] = dynamic_rows
+    if patterns:
+        named = dict.fromkeys(world.find(name) for pattern in patterns for name in matching(pattern, world.names()))
+        bodies = [entity for entity in named if world.table(RigidBody).present[world.row(entity)]]
+        if not bodies:
+            raise WordError("is of no body", received=repr(text), accepted="names of entities with body")
+        rows = _Rows(bodies)
+    measure = OF_ALL[function]
+
+    def read(world: World) -> Floats:
+        place = measure(world, rows(world))[None, :]
+        return place if axis is None else place[:, [AXES.index(axis)]]
+
+    return Term(text, "m", 3 if axis is None else 1, (text,), read)
 
 
 def _question(text: str, function: str, patterns: list[str], world: World) -> Term:

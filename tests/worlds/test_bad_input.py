@@ -272,7 +272,7 @@ expect:
             ("always: unknown function; received \"__import__('os')\"; accepted: speed(entity), spin(entity), "
             "kinetic_energy(entity), load(entity), error(entity), distance(entity, entity), sees(entity, entity), visible(entity, camera), "
             "visible_share(entity, camera), overlap(entity, entity, camera), left_of(entity, entity, camera), "
-            "above(entity, entity, camera)"),
+            "above(entity, entity, camera), center_of_mass(entity, ...)"),
         ),
         (
             "{always: ball.position.y + 1 > 0}",
@@ -310,7 +310,7 @@ expect:
         (
             "{}",
             (": must state a law, or a moment with values; received none; accepted: energy, momentum, angular_momentum, "
-            "penetration, never, always, visible; or at or when, with values such as ball.position: {is, within}"),
+            "penetration, bounds, never, always, eventually, settles_by, order, visible; or at or when, with values such as ball.position: {is, within}"),
         ),
     ],
 )  # fmt: skip
