@@ -24,7 +24,8 @@ class Column:
     """One field of a table: what it holds, in which unit, and how it lives through a step.
 
     ``role`` is *state* (saved and hashed), *input* (set from outside, cleared after the step), *derived* (rewritten by
-    every step before it is read) or *cache* (droppable at any time without a bit of change in what follows).
+    every step before it is read) or *cache* (droppable at any time without a bit of change in what follows). Words that
+    state it lie ``above`` a number, are at ``least`` one, at ``most`` one.
     """
 
     shape: tuple[int, ...]
@@ -34,6 +35,15 @@ class Column:
     doc: str
     role: Role
     holds: Literal["values", "entities", "rows"]
+    above: float | None = None
+    least: float | None = None
+    most: float | None = None
+
+    @property
+    def bounds(self) -> dict[str, float]:
+        """Return the bounds there are by their names."""
+        bounds = {"above": self.above, "least": self.least, "most": self.most}
+        return {name: bound for name, bound in bounds.items() if bound is not None}
 
     @cached_property
     def zero(self) -> bool:
@@ -96,6 +106,9 @@ def column(
     default: Any = 0,
     role: Role = "state",
     holds: Literal["values", "entities", "rows"] = "values",
+    above: float | None = None,
+    least: float | None = None,
+    most: float | None = None,
 ) -> Any:
     """Declare a column with per-row ``shape``; ``unit`` and ``doc`` are mandatory ("1" is the unit of a pure number).
 
@@ -110,4 +123,4 @@ def column(
         )
     if holds != "values":
         dtype, default = np.int64, -1
-    return Column(tuple(shape), np.dtype(dtype), default, unit, doc, role, holds)
+    return Column(tuple(shape), np.dtype(dtype), default, unit, doc, role, holds, above, least, most)

@@ -19,6 +19,7 @@ from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import compose
 from carom.ecs.spatial import quaternion
 from carom.systems.compound import StatedBodies, joining, weigh
+from carom.systems.entity_words import refuse_words
 from carom.systems.freedom import refuse_locked_motion
 from carom.systems.joints.stating import joint_of
 from carom.systems.mass import Part, rigid_body
@@ -106,6 +107,16 @@ def bundles_of(
     **own: Words,
 ) -> list[Component]:
     """Return the components that the words of an entity stand for, or of many where numbers have a row for each."""
+    refuse_words(
+        {
+            "transform": transform,
+            "motion": motion,
+            "body": body,
+            "material": material,
+            "collider": collider,
+            "visual": visual,
+        }
+    )
     further = [tag(label)() for label in tags] + [own_component(key, words, ENTITY_WORDS) for key, words in own.items()]
     if joint is not None:
         beside: dict[str, Any] = {
@@ -143,7 +154,7 @@ def bundles_of(
         ]
     elif motion is not None:
         raise DeclarationError("motion: a static entity does not move; give it a body")
-    seen = visual_of(world, visual, collider, shapes, surface)
+    seen = visual_of(world, visual, collider, shapes, surface, body is not None)
     if seen is not None:
         bundles.append(seen)
     if emitter is not None:

@@ -8,8 +8,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from carom.ecs.errors import did_you_mean
-from carom.systems.parameters import WordFault, number_fault
+from carom.systems.parameters import WordFault, number_fault, unknown_keys
 
 T = TypeVar("T", bound="Stated")
 Steps = tuple[str, ...]
@@ -84,10 +83,7 @@ def read_words(kind: type[T], words: Any, steps: Steps, faults: list[WordFault])
         faults.append(WordFault(steps, "must be a mapping", repr(words), ", ".join(fields)))
         return None
     before = len(faults)
-    for key in words:
-        if key not in fields:
-            hint = did_you_mean(str(key), fields)
-            faults.append(WordFault((*steps, str(key)), "unknown key", repr(key), ", ".join(fields), hint))
+    faults += unknown_keys(steps, words, fields)
     stated = {name: value for name, value in words.items() if value is not None}
     values: dict[str, Any] = {}
     for name, field in fields.items():

@@ -8,7 +8,7 @@ from typing import Any
 from carom.ecs.component import Component, Record
 from carom.ecs.components.parent import Parent
 from carom.ecs.components.spring import Spring
-from carom.ecs.errors import DeclarationError
+from carom.ecs.errors import DeclarationError, did_you_mean
 from carom.systems.extensions import load_extensions
 
 OF_CAROM = (Parent, Spring)
@@ -45,7 +45,9 @@ def own_component(key: str, words: Any, others: Iterable[str]) -> Component:
         if issubclass(kind, Component) and (kind in OF_CAROM or is_own(kind))
     }
     if key not in own:
-        raise DeclarationError(f"an entity has no word '{key}'; its words are {', '.join([*others, *sorted(own)])}")
+        words_there = [*others, *sorted(own)]
+        hint = did_you_mean(key, words_there) or f"its words are {', '.join(words_there)}"
+        raise DeclarationError(f"an entity has no word '{key}'; {hint}")
     if not isinstance(words, Mapping):
         columns = ", ".join(own[key].columns) or "nothing"
         raise DeclarationError(f"{key}: must be a mapping of {columns}; received {words!r}")

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from carom.ecs.errors import did_you_mean
 
 
 class WordFault(NamedTuple):
@@ -26,6 +28,14 @@ class WordFault(NamedTuple):
         parts += [f"accepted: {self.accepted}"] if self.accepted else []
         parts += [self.hint] if self.hint else []
         return ": ".join(filter(None, (".".join(map(str, self.steps)), "; ".join(parts))))
+
+
+def unknown_keys(steps: tuple[str, ...], stated: Iterable[Any], known: Iterable[str]) -> Iterator[WordFault]:
+    """Yield a fault for each word that is none of those known."""
+    known = list(known)
+    for key in map(str, stated):
+        if key not in known:
+            yield WordFault((*steps, key), "unknown key", repr(key), ", ".join(known), did_you_mean(key, known))
 
 
 def parameter(
@@ -68,21 +78,26 @@ def same(value: Any, other: Any) -> bool:
 
 
 def number_fault(metadata: Mapping[str, Any], received: Any) -> str:
-    """Return what is wrong with the value received for a declared parameter; nothing where it is in its bounds."""
-    unit, width = metadata["unit"], metadata.get("width")
+    """Return what is wrong with the value received for a declared parameter; nothing where it is in its bounds.
+
+    Where ``rows`` are declared, it may have one for each of many.
+    """
+    unit, width = "" if metadata["unit"] == "1" else f" {metadata['unit']}", metadata.get("width")
     above, least, most = (metadata.get(key) for key in ("above", "least", "most"))
     try:
         values = np.asarray(received)
     except ValueError:  # lists of different lengths
         values = np.asarray(None)
-    if values.dtype.kind not in "fiu" or values.shape != (() if width is None else (width,)):
+    shape = () if width is None else (width,)
+    each = metadata.get("rows") and values.ndim == len(shape) + 1 and values.shape[1:] == shape
+    if values.dtype.kind not in "fiu" or (values.shape != shape and not each):
         return f"must be {'a number' if width is None else f'{width} numbers'}, received {received!r}"
     wrong, wanted = ~np.isfinite(values), ["finite"]
     for bound, word, fits in ((above, "above", np.greater), (least, "at least", np.greater_equal)):
         if bound is not None:
             wrong |= ~fits(values, bound)
-            wanted.append(f"{word} {bound:g} {unit}")
+            wanted.append(f"{word} {bound:g}{unit}")
     if most is not None:
         wrong |= ~(values <= most)
-        wanted.append(f"at most {most:g} {unit}")
+        wanted.append(f"at most {most:g}{unit}")
     return f"must be {' and '.join(wanted)}, received {values[wrong].flat[0]:g}" if wrong.any() else ""

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, get_args
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any, Literal, get_args
 
 import numpy as np
 
 from carom.ecs import World
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
+from carom.systems.parameters import unknown_keys
 
 MOST_THREADS = 64
 MOST_SUBSTEPS = 1000  # a step of more would not end before the user does
@@ -59,6 +61,13 @@ class Settings(Resource):
         floats = {"dt": float(self.dt), "hit_speed": float(self.hit_speed), "gravity": tuple(map(float, self.gravity))}
         for name, value in floats.items():  # a kernel that is first called with whole numbers would cut all others off
             object.__setattr__(self, name, value)
+
+
+def settings_of(words: Mapping[str, Any]) -> Settings:
+    """Return the settings that words state; raise DeclarationError for words that are none."""
+    if wrong := list(unknown_keys((), words, [field.name for field in fields(Settings)])):
+        raise DeclarationError("; ".join(map(str, wrong)))
+    return Settings(**words)
 
 
 def time_of(world: World) -> float:

@@ -41,10 +41,10 @@ from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
+from carom.systems.entity_words import refuse_words
 from carom.systems.events import Events, read_event
 from carom.systems.explosion import Explosion, blast
-from carom.systems.forces import LAWS
-from carom.systems.forces.law import Forces, Law
+from carom.systems.forces.law import Forces, Law, read_law
 from carom.systems.forces.reach import read_reach
 from carom.systems.forces.region import Region
 from carom.systems.interpolation import EarlierPoses
@@ -64,7 +64,7 @@ from carom.systems.queries.asked import Asked
 from carom.systems.queries.scene import Scene
 from carom.systems.queries.space import Space
 from carom.systems.resting import Resting
-from carom.systems.settings import Random, Settings
+from carom.systems.settings import Random, settings_of
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.step import STEP, has_strangers
 from carom.systems.threads import Threads
@@ -84,7 +84,7 @@ class Simulation:
     """
 
     def __init__(self, *, checked: bool | None = None, **settings: Any) -> None:
-        self.settings = Settings(**settings)
+        self.settings = settings_of(settings)
         self.world = World()
         self.schedule: Schedule = extended(STEP)
         self.checked = bool(os.environ.get(CHECK_VARIABLE)) if checked is None else checked
@@ -114,7 +114,8 @@ class Simulation:
         return add_entities(self.world, positions, names=names, **words)
 
     def material(self, name: str, **words: Any) -> None:
-        """Name a material for later `add` calls."""
+        """Name a material for later `add` calls; raise DeclarationError for what is wrong with its words."""
+        refuse_words({"material": words})
         self.world[Materials].named[name] = words
 
     def layers(self, accepts: dict[str, Iterable[str] | None]) -> None:
@@ -134,13 +135,14 @@ class Simulation:
         """Let a force law act, on these entities or on every body: ``force("wind", velocity=(5, 0, 0))``.
 
         ``region={"sphere": {"radius": 2}}`` is where it acts, ``layers=["leaves"]`` on whose colliders, and when
-        ``during=(0.5, 2)`` or ``(0.5, "end")``, in s. Raises DeclarationError for what is wrong with these.
+        ``during=(0.5, 2)`` or ``(0.5, "end")``, in s. Raises DeclarationError for all that is wrong.
         """
         faults: list[WordFault] = []
         reach = read_reach(self.world[Layers], faults, entities, region, layers, during)
-        if faults:
+        made = law if isinstance(law, Law) else read_law(law, words, faults)
+        if made is None or faults:
             raise DeclarationError("; ".join(map(str, faults)))
-        self.world[Forces].add(LAWS[law](**words) if isinstance(law, str) else law, reach)
+        self.world[Forces].add(made, reach)
 
     def force_function(self, function: Callable[[World, Integers], npt.ArrayLike], name: str | None = None) -> System:
         """Let a Python function ``(world, rows) -> forces (n, 3) in N`` act on every body in every substep.

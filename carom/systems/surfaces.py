@@ -20,6 +20,7 @@ from carom.systems.shapes.stating import shapes_of, stacked
 
 Words = Mapping[str, Any]
 COLLIDER_COLUMNS = ("position", "rotation", "sensor", "surface_velocity")
+BODY_COLOR = (0.35, 0.55, 0.8, 1.0)  # of bodies of which none is stated, so that they stand out from what is static
 
 
 def collider_of(world: World, words: Words, shapes: Sequence[Shape]) -> Collider:
@@ -39,7 +40,12 @@ def collider_of(world: World, words: Words, shapes: Sequence[Shape]) -> Collider
 
 
 def visual_of(
-    world: World, words: Words | bool | None, collider: Words | None, shapes: Sequence[Shape], material: Material
+    world: World,
+    words: Words | bool | None,
+    collider: Words | None,
+    shapes: Sequence[Shape],
+    material: Material,
+    moves: bool,
 ) -> Visual | None:
     """Return the Visual bundle of words; None for what is not seen. Raises DeclarationError for what has no shape."""
     if words is False or (words is None and (collider is None or collider.get("sensor", False))):
@@ -53,7 +59,8 @@ def visual_of(
     values = _shape_columns(world, drawn)
     values |= {key: place[key] for key in ("position", "rotation") if key in place}
     finished = any(part.finish for part in getattr(getattr(drawn[0], "geometry", None), "parts", ()))
-    color = look.get("color", (1.0, 1.0, 1.0) if finished else getattr(material, "color", None))
+    plain = (1.0, 1.0, 1.0) if finished else getattr(material, "color", BODY_COLOR if moves else None)
+    color = look.get("color", plain)
     if color is not None:
         values["color"] = opaque(color)
     return Visual(**values, visible=look.get("visible", True))

@@ -13,13 +13,12 @@ from carom.ecs import RigidBody, World
 from carom.ecs.column import Floats
 from carom.ecs.errors import CaromError, did_you_mean
 from carom.ecs.spatial import quaternion
-from carom.systems.own_components import is_own
 from carom.systems.simulation import Simulation
 from carom.worlds.check import check
 from carom.worlds.errors import WordError
 from carom.worlds.expect_moment import frame_of
 from carom.worlds.expression import evaluate
-from carom.worlds.generated import COLUMN_BOUNDS, SETTING_UNITS, setting_types
+from carom.worlds.generated import SETTING_UNITS, setting_types
 from carom.worlds.quantity import quantity
 from carom.worlds.source import Source
 from carom.worlds.terms import AXES, Place, Term, read_term
@@ -67,9 +66,8 @@ def _assign_column(simulation: Simulation, target: str, operator: str, text: str
         raise WordError(what, received=repr(target), accepted="columns that a step does not compute anew")
     before = term.read(world)
     after = _changed(before, operator, _value(text, "1" if operator in ("*", "/") else term.unit, simulation))
-    bounds = {} if is_own(place.kind) else COLUMN_BOUNDS.get(place.name, {})
     for value in np.unique(after).tolist():
-        read_quantity(value, term.unit, **bounds)
+        read_quantity(value, term.unit, **column.bounds)
     _write(world, term, place, after)
     simulation.wake(*term.entities)
 

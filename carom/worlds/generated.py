@@ -18,7 +18,7 @@ from carom.systems.extensions import origin
 from carom.systems.forces import LAWS
 from carom.systems.joints import JOINTS
 from carom.systems.materials import COMBINE_QUANTITIES
-from carom.systems.own_components import components_of_files, is_own
+from carom.systems.own_components import components_of_files
 from carom.systems.settings import MOST_SUBSTEPS, MOST_THREADS, Settings
 from carom.systems.shapes import SHAPES
 from carom.worlds.color import ColorWord
@@ -38,20 +38,6 @@ SETTING_WHOLE: dict[str, tuple[int, int | None]] = {
     "threads": (1, MOST_THREADS),
 }
 STEP_WORDS = ("dt", "substeps", "integrator", "threads", "sleeping")
-COLUMN_BOUNDS: dict[str, dict[str, float]] = {
-    "mass": {"above": 0.0},
-    "inertia": {"least": 0.0},
-    "linear_damping": {"least": 0.0},
-    "angular_damping": {"least": 0.0},
-    "density": {"above": 0.0},
-    "rest_length": {"least": 0.0},
-    "stiffness": {"least": 0.0},
-    "damping": {"least": 0.0},
-    "friction": {"least": 0.0},
-    "restitution": {"least": 0.0, "most": 1.0},
-    "rolling_friction": {"least": 0.0},
-    "spinning_friction": {"least": 0.0},
-}
 Fields = dict[str, Any]
 
 
@@ -62,15 +48,10 @@ def numbers(width: int, mark: In) -> Any:
 
 def column_fields(kind: type[Component], *names: str) -> Fields:
     """Return model fields for columns of a component: unit, meaning and default are the column's."""
-    bounds = {} if is_own(kind) else COLUMN_BOUNDS
-    fields: Fields = {}
-    for name in names:
-        column = kind.columns[name]
-        fields[name] = (_column_type(name, column, **bounds.get(name, {})), _column_field(column))
-    return fields
+    return {name: (_column_type(name, kind.columns[name]), _column_field(kind.columns[name])) for name in names}
 
 
-def _column_type(name: str, column: Column, **bounds: float) -> Any:
+def _column_type(name: str, column: Column) -> Any:
     if name in SPECIAL and column.shape == (4,):
         return SPECIAL[name]
     shape = column.shape
@@ -84,7 +65,7 @@ def _column_type(name: str, column: Column, **bounds: float) -> Any:
         held = np.iinfo(column.dtype)
         kind = Annotated[int, Whole(int(held.min), int(held.max))]
     else:
-        kind, shape = numbers(shape[-1] if shape else 1, In(column.unit, **bounds)), shape[:-1]
+        kind, shape = numbers(shape[-1] if shape else 1, In(column.unit, **column.bounds)), shape[:-1]
     for width in reversed(shape):
         kind = tuple.__class_getitem__((kind,) * width)
     return kind

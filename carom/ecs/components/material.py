@@ -24,11 +24,13 @@ class Combine(IntEnum):
 class Material(Component):
     """Surface and substance of an entity."""
 
-    friction: Floats = column(unit="1", doc="Coulomb friction", default=0.5)
-    restitution: Floats = column(unit="1", doc="parting over closing speed of an impact")
-    density: Floats = column(unit="kg/m3", doc="density, used where a body states no mass", default=1000.0)
-    rolling_friction: Floats = column(unit="1", doc="torque against rolling over normal force times radius")
-    spinning_friction: Floats = column(unit="1", doc="torque against spinning over normal force times radius")
+    friction: Floats = column(unit="1", doc="Coulomb friction", default=0.5, least=0.0)
+    restitution: Floats = column(unit="1", doc="parting over closing speed of an impact", least=0.0, most=1.0)
+    density: Floats = column(unit="kg/m3", doc="density, used where a body states no mass", default=1000.0, above=0.0)
+    rolling_friction: Floats = column(unit="1", doc="torque against rolling over normal force times radius", least=0.0)
+    spinning_friction: Floats = column(
+        unit="1", doc="torque against spinning over normal force times radius", least=0.0
+    )
     friction_combine: Integers = column(unit="1", doc="rule for friction of a pair", dtype="int64")
     restitution_combine: Integers = column(unit="1", doc="rule for restitution of a pair", dtype="int64")
     number: Integers = column(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, fields
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
@@ -11,10 +11,10 @@ import numpy as np
 from carom.ecs import Collider, Parent, RigidBody, Transform, World, system
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.component import Resource
-from carom.ecs.errors import DeclarationError
+from carom.ecs.errors import DeclarationError, did_you_mean
 from carom.systems.bodies import centers_of_mass
 from carom.systems.forces.reach import NOBODY, Reach
-from carom.systems.parameters import number_fault, parameter, vector
+from carom.systems.parameters import WordFault, number_fault, parameter, unknown_keys, vector
 from carom.systems.progress import Progress
 from carom.systems.registry import enter
 
@@ -72,6 +72,18 @@ class Law:
         """Raise DeclarationError, which says what is wrong with a word, unless it fits."""
         if not fits:
             raise DeclarationError(f"{self.key}.{word}: {fault}")
+
+
+def read_law(key: str, words: Mapping[str, Any], faults: list[WordFault]) -> Law | None:
+    """Return the law that words state; None where anything is wrong with them, all of which is added to ``faults``."""
+    if key not in LAWS:
+        faults.append(WordFault((key,), "unknown force law", repr(key), ", ".join(LAWS), did_you_mean(key, LAWS)))
+        return None
+    takes, before = {one.name: one for one in fields(LAWS[key])}, len(faults)
+    faults += unknown_keys((key,), words, takes)
+    lacking = [name for name, one in takes.items() if one.default is MISSING and name not in words]
+    faults += [WordFault((key, name), "is missing", accepted=takes[name].metadata["doc"]) for name in lacking]
+    return LAWS[key](**words) if len(faults) == before else None
 
 
 @dataclass

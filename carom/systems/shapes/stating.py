@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
+from inspect import Parameter, signature
 from typing import Any, TypeVar
 
 import numpy as np
 
 from carom.ecs.errors import DeclarationError
+from carom.systems.parameters import WordFault, unknown_keys
 from carom.systems.shapes import SHAPES, Shape
 
 Words = Mapping[str, Any]
@@ -35,13 +38,28 @@ def shapes_of(words: Words, *, seen: bool = False) -> Sequence[Shape]:
     if isinstance(stated, Shape):
         return [stated]
     kind = SHAPES[keys[0]]
-    try:
-        shapes = [kind.seen(**row) if seen else kind.stated(**row) for row in _rows(kind, stated)]
-    except TypeError as fault:
-        raise DeclarationError(f"{keys[0]}: {str(fault).partition('() ')[2] or fault}") from None
+    if wrong := list(shape_faults((keys[0],), kind, stated)):
+        raise DeclarationError("; ".join(map(str, wrong)))
+    shapes = [kind.seen(**row) if seen else kind.stated(**row) for row in _rows(kind, stated)]
     for note in getattr(getattr(shapes[0], "geometry", None), "notes", ()):
         warnings.warn(note, stacklevel=2)
     return shapes
+
+
+def shape_faults(path: tuple[str, ...], kind: type[Shape], words: Words) -> Iterator[WordFault]:
+    """Yield which words a kind of shape does not take, and which it lacks."""
+    takes = _takes(kind)
+    yield from unknown_keys(path, words, takes)
+    missing = [name for name, one in takes.items() if one.default is Parameter.empty and name not in words]
+    yield from (WordFault((*path, name), "is missing") for name in missing)
+
+
+@cache
+def _takes(kind: type[Shape]) -> Mapping[str, Parameter]:
+    """Return the words of a shape: its fields, or what it takes in their place."""
+    takes = signature(kind.stated).parameters
+    anything = any(one.kind is Parameter.VAR_KEYWORD for one in takes.values())
+    return signature(kind).parameters if anything else takes
 
 
 def _rows(kind: type[Shape], stated: Words) -> Sequence[Words]:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from carom.ecs import Collider, Combine, Material, Visual
+from typing import Any
+
+from carom.ecs import Collider, Combine, Material, RigidBody, Visual
 from carom.ecs.component import Component
 from carom.systems.layers import Layers
 from carom.systems.materials import COMBINE_QUANTITIES, Materials, material_of
 from carom.systems.parameters import same
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import BY_NUMBER
-from carom.systems.surfaces import COLLIDER_COLUMNS
+from carom.systems.surfaces import BODY_COLOR, COLLIDER_COLUMNS
 from carom.worlds.writing.columns import Columns, Words, color_words, plain
 from carom.worlds.writing.models import Models
 from carom.worlds.writing.sections import layer_names
@@ -81,13 +83,17 @@ class Surfaces:
         )
         words = self.shape(Visual, row) | self.columns.stated(Visual, row, POSE) if own else {}
         color = self.columns.held(Visual, "color", row)
-        if self._finished(row) or not (
-            self.columns.has(Material, row) and same(color, self.columns.held(Material, "color", row))
-        ):
+        if self._finished(row) or not (self.columns.has(Material, row) and same(color, self._usual_color(row))):
             words["color"] = color_words(color)
         if not self.columns.held(Visual, "visible", row):
             words["visible"] = False
         return words or (None if plain_look else {"visible": True})
+
+    def _usual_color(self, row: int) -> Any:
+        """Return the colour in which what has a material is seen where its looks state none."""
+        color = self.columns.held(Material, "color", row)
+        plain = same(color, Material.columns["color"].default)
+        return BODY_COLOR if plain and self.columns.has(RigidBody, row) else color
 
     def _finished(self, row: int) -> bool:
         """Tell whether what is seen has a finish of its own, in whose place the colour of the material is not taken."""
