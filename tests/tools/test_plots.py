@@ -69,7 +69,8 @@ def test_what_is_no_quantity_is_told() -> None:
     assert str(caught.value) == (
         "bounce.yaml: plots: is no value of the world; received 'enrgy'; accepted: energy, momentum, overlap, counts, "
         "<entity>.<column>, speed(entity), spin(entity), kinetic_energy(entity), load(entity), "
-        "error(entity), distance(entity, entity) or sees(entity, entity); did you mean 'energy'?"
+        "error(entity), center_of_mass(entity, ...), distance(entity, entity) or sees(entity, entity); "
+        "did you mean 'energy'?"
     )
     with pytest.raises(WordError):
         quantity("speed(nobody)", loaded.simulation.world)
