@@ -2,7 +2,7 @@
 # pyproject.toml only when there is something to set up. It carries the folder's checksum, since a .venv cannot be moved.
 
 .NOTPARALLEL:
-.PHONY: demo test lint clean
+.PHONY: demo test lint docs clean
 
 READY := .venv/.carom-$(shell pwd -P | cksum | cut -d' ' -f1)
 
@@ -18,6 +18,10 @@ lint: $(READY)-dev
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
 	.venv/bin/mypy
+
+# Strictly: a link, an anchor or a picture that is not there fails.
+docs: $(READY)-docs
+	.venv/bin/mkdocs build --quiet
 
 clean:
 	rm -rf .venv out

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -20,21 +20,26 @@ Collision = Literal["auto", "fcl"]
 Response = Literal["full", "reflect"]
 
 
+def meant(default: Any, doc: str) -> Any:
+    """Declare a setting: what it is where nobody states it, and its meaning, for schema and docs."""
+    return field(default=default, metadata={"doc": doc})
+
+
 @dataclass(frozen=True)
 class Settings(Resource):
     """How a simulation steps; the values here are the defaults of files and Python alike."""
 
-    dt: float = 1.0 / 60.0  # s, one step
-    substeps: int = 4
-    gravity: tuple[float, float, float] = (0.0, -9.81, 0.0)  # m/s2
-    integrator: Integrator = "verlet"
-    dimensions: int = 3  # 2: every body keeps to its plane z = const and turns about z only
-    collision: Collision = "auto"  # fcl: no kernel stands in for FCL, but on meshes
-    response: Response = "full"  # reflect: impacts only, no resting contacts
-    hit_speed: float = 0.2  # m/s, closing speed from which an impact is a hit
-    sleeping: bool = True  # bodies that have come to rest are left alone until something touches or changes them
-    seed: int = 0
-    threads: int = 1  # that share the work of a step; the bits do not depend on it
+    dt: float = meant(1.0 / 60.0, "one step")
+    substeps: int = meant(4, "parts of a step in which forces act and contacts are solved")
+    gravity: tuple[float, float, float] = meant((0.0, -9.81, 0.0), "acceleration of free fall")
+    integrator: Integrator = meant("verlet", "rule by which bodies that touch nothing move")
+    dimensions: int = meant(3, "2: every body keeps to its plane z = const and turns about z only")
+    collision: Collision = meant("auto", "fcl: no kernel stands in for FCL, but on meshes")
+    response: Response = meant("full", "reflect: impacts only, no resting contacts")
+    hit_speed: float = meant(0.2, "closing speed from which an impact is a hit")
+    sleeping: bool = meant(True, "bodies that have come to rest are left alone until something touches or changes them")
+    seed: int = meant(0, "of the world's one generator of random numbers")
+    threads: int = meant(1, "that share the work of a step; the bits do not depend on it")
 
     def __post_init__(self) -> None:
         """Refuse what cannot be stepped; raise DeclarationError naming every fault."""

@@ -197,7 +197,7 @@ def setting_fields(*, in_step: bool) -> Fields:
             unit, bounds = SETTING_UNITS.get(field.name, "1"), SETTING_BOUNDS.get(field.name, {})
             width, whole = len(get_args(hints[field.name])) or 1, SETTING_WHOLE.get(field.name, (0, None))
             kind = _hinted(hints[field.name], unit, width=width, whole=whole, **bounds)
-            fields[field.name] = (kind, Field(field.default, description=f"default {field.default}"))
+            fields[field.name] = (kind, Field(field.default, description=_description(field.metadata["doc"], unit)))
     return fields
 
 
