@@ -51,5 +51,5 @@ def test_its_commands_and_files_exist() -> None:
             assert f"\n{target}:" in makefile, target
     for command in set(re.findall(r"`carom (\w+)", README)):
         assert (ROOT / "carom/tools/commands" / f"{command}.py").is_file(), command
-    for path in re.findall(r"\]\(((?!http)[^)]+)\)", README):
+    for path in re.findall(r"\]\(((?!http)[^)#]+)", README):
         assert (ROOT / path).is_file(), path

@@ -1,11 +1,10 @@
-"""Pages of the site that nobody writes: the README as its start, the API, commands and schema, sources that are linked."""
+"""Pages of the site that nobody writes: the README as its start, API, commands, schema, sources that are linked."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 from posixpath import normpath, relpath
-from typing import Any
 
 from api import ROOT, modules
 from mkdocs.config.defaults import MkDocsConfig
