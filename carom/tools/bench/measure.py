@@ -52,7 +52,7 @@ class Figure:
     def holds(self) -> bool:
         """Whether the bound holds."""
         value = self.cpu if self.by == "cpu" else self.wall
-        return value >= self.bound if self.at_least else value <= self.bound
+        return bool(value >= self.bound if self.at_least else value <= self.bound)  # not one of NumPy, for JSON
 
     def __str__(self) -> str:
         """Return one line."""
