@@ -46,11 +46,34 @@ def test_each_level_has_all_of_those_before_it() -> None:
         "particles", "plots", "promoted", "triggers",
     ]  # fmt: skip
     own = {
-        "bounds", "colliders", "forces", "manifolds", "normals", "shapes", "states", "trails", "velocities"
+        "bounds", "colliders", "forces", "manifolds", "momentum", "normals", "shapes", "states", "trails", "velocities"
     }  # fmt: skip
     assert own <= set(full) - set(light)
     assert [key for key in full if key in light] == light
     assert [key for key in solver if key in full] == full
+
+
+def test_momentum_is_that_of_all_bodies_in_every_frame(tmp_path: Path) -> None:
+    """Two masses that fall freely gain (m1 + m2) g t; nothing acts sideways."""
+    simulation = Simulation(dt=1 / 60, gravity=(0.0, -10.0, 0.0))
+    for mass, speed in ((2.0, 3.0), (1.0, -1.0)):
+        place = {"position": (mass, 9.0, 0.0)}
+        simulation.add(
+            transform=place,
+            collider={"sphere": {"radius": 0.1}},
+            body={"mass": mass},
+            motion={"linear": (speed, 0.0, 0.0)},
+        )
+    recorder = Recorder(tmp_path / "rec.rrd", detail="full")
+    simulation.observers.append(recorder)
+    recorder.begin(simulation)
+    simulation.step(30)
+    recorder.end(simulation)
+    table = Recording(tmp_path / "rec.rrd").table("momentum").polars()
+    assert table["frame"].to_list() == list(range(31))
+    assert table["x"].to_list() == [5.0] * 31
+    assert table["y"].to_list() == pytest.approx([-30.0 * frame / 60 for frame in range(31)], abs=1e-12)
+    assert table["z"].to_list() == [0.0] * 31
 
 
 def test_the_command_line_goes_before_the_world(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
