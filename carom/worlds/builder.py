@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
+from carom.ecs.column import Floats
 from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import compose
 from carom.systems.forces import LAWS, Forces
@@ -30,6 +31,7 @@ from carom.worlds.generators import Setting
 from carom.worlds.geometry import GeometryReader
 from carom.worlds.header import with_header
 from carom.worlds.include import Includes
+from carom.worlds.measuring import measured
 from carom.worlds.names import known, matching, whole_of_copy
 from carom.worlds.oracle import read_oracle
 from carom.worlds.pictures import Pictures
@@ -40,6 +42,7 @@ from carom.worlds.sections import RecordingWords, Render
 from carom.worlds.source import Source
 from carom.worlds.state import take_state
 from carom.worlds.uncollected import uncollected
+from carom.worlds.unfold import Item
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -119,9 +122,15 @@ def _loaded(
     data, prefabs = filled(source, source.data)
     values = checked_sections(source, with_prefabs(prefabs, data))
     simulation = _simulation(source, values, checked, options)
-    setting = Setting(UP[values["up"]].index(1.0), simulation.world[Random].generator)
-    items = unfolded(source, prefabs, data.get("entities", []), setting)
-    populator = Populator(source, simulation, GeometryReader(files_of_world), setting)
+    up, geometries = UP[values["up"]].index(1.0), GeometryReader(files_of_world)
+    setting = Setting(up, simulation.world[Random].generator)
+
+    def measure(some: list[Item]) -> tuple[Floats, Floats] | None:
+        apart = _simulation(source, values, checked, options)
+        return measured(Populator(source, apart, geometries, Setting(up, apart.world[Random].generator)), some)
+
+    items = unfolded(source, prefabs, data.get("entities", []), setting, measure)
+    populator = Populator(source, simulation, geometries, setting)
     if few_enough(source, items):
         populator.add_all(items)
     there = {whole_of_copy(name) for name in simulation.world.names()}

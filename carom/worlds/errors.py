@@ -15,6 +15,11 @@ LONGEST_PART = 300  # characters of each part of a message that a file can fill 
 LONGEST_LIST = 1500  # of what is accepted
 
 
+def dotted(path: Path) -> str:
+    """Return a path as messages show it, ``entities.3.body``; a key of blanks alone stands in quotes."""
+    return ".".join(str(step) if str(step).strip() else repr(step) for step in path)
+
+
 class WordError(ValueError):
     """A value that cannot be read, before it is known where it stands."""
 

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from carom.ecs import Collider, RigidBody, Transform, World
-from carom.ecs.column import Floats, Integers
-from carom.ecs.spatial import quaternion
+from carom.ecs.column import Integers
 from carom.systems.compound import bodies_of
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import WordError
 from carom.worlds.expect_course import handles
 from carom.worlds.expectation import Expectation
+from carom.worlds.measuring import boxes
 
 AXES = ("x", "y", "z")
 
@@ -65,13 +65,3 @@ class Bounds(Expectation):
         else:
             spoken = np.isin(world.entities(owners), self.among) | np.isin(world.entities(rows), self.among)
         return rows[spoken], owners[spoken]
-
-
-def boxes(world: World, rows: Integers) -> tuple[Floats, Floats]:
-    """Return the lowest and highest corners (n, 3), m, of boxes along the axes of the world around colliders (rows)."""
-    transform, collider = world[Transform], world[Collider]
-    turn = transform.rotation[rows]
-    middle = transform.position[rows] + quaternion.rotate(turn, collider.bound_center[rows])
-    half = (np.abs(quaternion.matrix(turn)) * collider.bound_half[rows][:, None, :]).sum(axis=-1)
-    half += collider.bound_radius[rows][:, None]
-    return middle - half, middle + half

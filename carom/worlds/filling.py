@@ -10,7 +10,7 @@ from carom.worlds.generators import Setting
 from carom.worlds.prefab import MEMBERS, Prefabs
 from carom.worlds.schema import document
 from carom.worlds.source import Source
-from carom.worlds.unfold import Item, Unfolding
+from carom.worlds.unfold import Item, Measure, Unfolding
 from carom.worlds.variables import Variables
 
 APART = ("variables", "prefabs", "entities")  # sections whose expressions are computed item by item
@@ -42,13 +42,13 @@ def checked_sections(source: Source, data: dict[str, Any]) -> dict[str, Any]:
     return values
 
 
-def unfolded(source: Source, prefabs: Prefabs, entities: Any, setting: Setting) -> list[Item]:
+def unfolded(source: Source, prefabs: Prefabs, entities: Any, setting: Setting, measure: Measure) -> list[Item]:
     """Return the entities of a world and of its groups, with the words of their prefabs; report what is wrong there."""
     check_prefabs(source, prefabs)
     if not isinstance(entities, list):
         refuse_form(source, ("entities",), entities, list)
         return []
-    unfolding = Unfolding(source, prefabs, setting)
+    unfolding = Unfolding(source, prefabs, setting, measure)
     for index, words in enumerate(entities):
         unfolding.unfold(("entities", index), words)
     return unfolding.items

@@ -120,9 +120,9 @@ class Intake:
         own = collider.get("rotation", quaternion.IDENTITY)
         center = np.asarray(collider.get("position", (0.0, 0.0, 0.0))) + quaternion.rotate(own, bounds.center)
         turned = np.abs(quaternion.matrix(quaternion.multiply(turn, own)))
-        half = (turned * np.asarray(bounds.half)).sum(axis=1) + bounds.radius + np.abs(quaternion.rotate(turn, center))
+        edges = 2.0 * ((turned * np.asarray(bounds.half)).sum(axis=1) + bounds.radius)
         reach = float(np.linalg.norm(center) + np.linalg.norm(bounds.half)) + bounds.radius
-        return self.setting._replace(half=half, reach=reach)
+        return self.setting._replace(edges=edges, reach=reach)
 
     def read_geometries(self, path: Path, words: dict[str, Any]) -> None:
         """Put shapes in the place of the words of meshes and hulls of an entity."""

@@ -9,7 +9,7 @@ from typing import Any
 
 import yaml
 
-from carom.worlds.errors import Fault, Path, WorldError, shown
+from carom.worlds.errors import Fault, Path, WorldError, dotted, shown
 from carom.worlds.source import OPENING, Position, Source
 
 MOST_CHARACTERS = 32_000_000  # a file of a million bodies; above it is no world
@@ -162,7 +162,7 @@ class _Builder:
             return None
 
     def fault(self, event: Any, path: Path, what: str, *, received: str = "", accepted: str = "") -> None:
-        where = ".".join(map(str, path))
+        where = dotted(path)
         self.source.faults.append(Fault(self.source.name, *_place(event), where, what, received, accepted))
 
     def refusal(self, event: Any, what: str) -> WorldError:

@@ -30,13 +30,12 @@ from carom.worlds.generated import (
     setting_fields,
     shape_fields,
 )
+from carom.worlds.generators.words import Gap, Gaps
 from carom.worlds.sections import (
     ChainWords,
     KeyframesWords,
     KeyframeWords,
     LayersMet,
-    Length,
-    Lengths,
     OnEnter,
     OracleWords,
     Placement,
@@ -72,7 +71,7 @@ def document() -> type[Words]:
         "Transform",
         "Where an entity is.",
         **column_fields(Transform, "position", "rotation"),
-        jitter=(either(Length, Lengths, list), Field(None, description="seeded random offset within +- this (m)")),
+        jitter=(either(Gap, Gaps, list), Field(None, description="seeded random offset within +- this (m)")),
     )
     motion = _model("Motion", "How an entity moves.", **column_fields(Motion, "linear", "angular"))
     body_type = word_of(*(kind.name.lower() for kind in BodyType))

@@ -10,7 +10,7 @@ from typing import Any
 
 from carom.ecs.errors import CaromError
 from carom.systems.parameters import WordFault
-from carom.worlds.errors import Fault, Path, WordError, WorldError
+from carom.worlds.errors import Fault, Path, WordError, WorldError, dotted
 
 OPENING = "${"  # of an expression
 
@@ -112,12 +112,12 @@ class Source:
         """Return the words for another place, such as ``entities.0 at line 8``."""
         home, own = self.home(path)
         file = "" if home is self else f" of {home.name}"
-        return f"{'.'.join(map(str, own))} at line {self.position(path)[0]}{file}"
+        return f"{dotted(own)} at line {self.position(path)[0]}{file}"
 
     def _fault(self, found: Path, missing: Path, *told: str) -> Fault:
         home, own = self.home(found)
         line, column = home.positions.get(own, (1, 1))
-        return Fault(home.name, line, column, ".".join(map(str, (*own, *missing))), *told)
+        return Fault(home.name, line, column, dotted((*own, *missing)), *told)
 
     def refuse_if_faulty(self) -> None:
         """Raise WorldError when anything was reported."""

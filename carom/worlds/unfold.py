@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from copy import deepcopy
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from carom.ecs.column import Floats
 from carom.ecs.components.name import NAME_LENGTH
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial import quaternion
@@ -41,11 +43,16 @@ class Item(NamedTuple):
     group: Group
 
 
+Filling = Callable[["Unfolding", Group], None]  # unfolds what a group holds
+# The lowest and highest corners (3,), m, of the box around the colliders of entities; None where there is none.
+Measure = Callable[[list[Item]], tuple[Floats, Floats] | None]
+
+
 class Unfolding:
     """Turns entities and groups of a file into entities with words of their own."""
 
-    def __init__(self, source: Source, prefabs: Prefabs, setting: Setting) -> None:
-        self.source, self.prefabs, self.setting = source, prefabs, setting
+    def __init__(self, source: Source, prefabs: Prefabs, setting: Setting, measure: Measure) -> None:
+        self.source, self.prefabs, self.setting, self.measure = source, prefabs, setting, measure
         self.items: list[Item] = []
         self.members = 0
 
@@ -80,18 +87,32 @@ class Unfolding:
             )  # whoever names it or its members has said it already
             return
         members = frozenset(str(item["name"]) for item in stated if isinstance(item, dict) and "name" in item)
-        for inner in self._copies(path, frame, Group("", members, written, outer=group)):
-            for number, member in enumerate(stated):
-                self.unfold((*written, number), member, outer, inner)
 
-    def _copies(self, path: Path, frame: Any, group: Group) -> Iterator[Group]:
+        def fill(unfolding: Unfolding, inner: Group) -> None:
+            for number, member in enumerate(stated):
+                unfolding.unfold((*written, number), member, outer, inner)
+
+        for inner in self._copies(path, frame, Group("", members, written, outer=group), fill):
+            fill(self, inner)
+
+    def _copies(
+        self, path: Path, frame: Any, group: Group, fill: Callable[[Unfolding, Group], None]
+    ) -> Iterator[Group]:
         """Yield a group with its name and pose, or one for each copy that a generator makes of it."""
         outer = group.outer or WORLD
         position, rotation = np.array([frame.transform.position]), np.array([frame.transform.rotation])
         names = [frame.name]
         for key in generators_of(self.source, path, frame):
+            setting = self.setting
+            if GENERATORS[key].sized:
+                turned = np.array(frame.transform.rotation)
+                measured = self._measured(replace(group, prefix=f"{frame.name}.", rotation=turned), fill)
+                if measured is None:  # told of those it holds, of which one is unfolded for that
+                    self.items.append(Item(path, f"{outer.prefix}{frame.name}", None, outer))
+                    break
+                setting = measured
             try:
-                made = getattr(frame, key).copies(self.setting)
+                made = getattr(frame, key).copies(setting)
             except DeclarationError as fault:
                 self.source.report((*path, key), str(fault).removeprefix(f"{key}: "))
                 return
@@ -103,6 +124,23 @@ class Unfolding:
         places, turned = outer.point(position), outer.turn(rotation)
         for name, place, turn in zip(names, places, turned, strict=True):
             yield replace(group, prefix=f"{outer.prefix}{name}.", position=place, rotation=turn)
+
+    def _measured(self, group: Group, fill: Filling) -> Setting | None:
+        """Return the setting of a group that is as large as all it holds; None where something is wrong with that."""
+        source, told = self.source, (len(self.source.faults), len(self.source.warnings))
+        trial = Unfolding(source, self.prefabs, self.setting._replace(draws=deepcopy(self.setting.draws)), self.measure)
+        trial.members = self.members
+        fill(trial, group)
+        self.members = trial.members  # what is made to be measured counts, since groups in groups are measured again
+        measured = self.measure(trial.items) if len(source.faults) == told[0] else None
+        wrong = len(source.faults) > told[0]
+        del source.faults[told[0] :], source.warnings[told[1] :]
+        if wrong:
+            return None
+        if measured is None:
+            return self.setting
+        low, high = measured
+        return self.setting._replace(edges=high - low, reach=float(np.linalg.norm(np.maximum(-low, high))))
 
     def _too_many(self, path: Path, count: int, group: Group) -> bool:
         self.members += count

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from carom.worlds.errors import Path, ReportedError, WordError, shown
+from carom.worlds.errors import Path, ReportedError, WordError, dotted, shown
 from carom.worlds.expression import evaluate
 from carom.worlds.names import known
 from carom.worlds.quantity import Quantity, in_words
@@ -97,7 +97,7 @@ class Variables:
 
     def _settle(self, steps: Path, value: Any) -> Any:
         if steps in self.settling:
-            circle = " -> ".join(".".join(map(str, item)) for item in (*self.settling, steps))
+            circle = " -> ".join(dotted(item) for item in (*self.settling, steps))
             raise WordError(f"is made of itself: {circle}")
         if len(self.settling) == MOST_STEPS:
             raise WordError(f"is made of more than {MOST_STEPS} variables, one of another")

@@ -152,10 +152,64 @@ def test_what_cannot_be_laid_is_told(words: str, message: str) -> None:
     assert str(caught.value) == message
 
 
+LAMP = """
+    entities:
+      - {name: foot, collider: {box: {size: [0.4, 0.2, 0.4]}}, body: {}, transform: {position: [0, 0.1, 0]}}
+      - {name: bulb, prefab: ball, transform: {position: [0, 0.5, 0]}}
+"""
+
+
+def test_groups_are_laid_by_how_large_they_are_together() -> None:
+    """A lamp is 0.4 m by 0.6 m; turned by a quarter about z it is 0.6 m wide. Of a ball its reach counts, sqrt(0.44) m."""
+    head = "carom: 1\nprefabs: {ball: {collider: {sphere: {radius: 0.1}}, body: {}}}\nentities:\n  - name: lamp\n    "
+    stack = load_text(f"{head}stack: {{count: 3, gap: 1 cm}}{LAMP}").simulation
+    assert stack["lamp[2].foot"].transform.position == pytest.approx([0, 2 * 0.61 + 0.1, 0])
+    turned = "transform: {rotation: {axis: [0, 0, 1], angle: 90 deg}}\n    wall: {count: [2, 2]}"
+    wall = load_text(f"{head}{turned}{LAMP}").simulation
+    assert wall["lamp[0,1].bulb"].transform.position == pytest.approx([0.6 - 0.5, 0, 0])
+    assert wall["lamp[1,0].bulb"].transform.position == pytest.approx([0.3 - 0.5, 0.4, 0])
+    flung = load_text(f"{head}random: {{count: 20, box: [5, 5, 5]}}{LAMP}").simulation
+    feet = np.array([flung[f"lamp[{n}].foot"].transform.position for n in range(20)]) - [0, 0.1, 0]
+    assert np.abs(feet).max() <= 2.5 - 0.44**0.5 < np.abs(feet).max() + 0.3
+
+
+def test_a_group_is_measured_with_all_that_is_in_it() -> None:
+    """Copies of a member, links of a chain, who is carried, and groups of groups; draws of the world are left alone."""
+    text = """carom: 1
+seed: 3
+entities:
+  - name: pile
+    stack: {count: 2}
+    entities:
+      - name: pair
+        stack: {count: 2}
+        entities:
+          - {name: brick, collider: {box: {size: [1, 0.5, 1]}}, body: {}, line: {count: 2, step: [0, 0.5, 0]}}
+          - {name: flag, parent: {entity: "brick[1]", position: [0, 1, 0]}, collider: {sphere: {radius: 0.25}}}
+  - {name: leaf, collider: {sphere: {radius: 0.1}}, body: {}, random: {count: 3, box: [9, 9, 9]}}
+"""
+    simulation = load_text(text).simulation
+    # One pair is from -0.25 m to 1.75 m, two of them 4 m high.
+    assert simulation["pile[1].pair[1].brick[0]"].transform.position == pytest.approx([0, 6.0, 0])
+    bare = load_text("carom: 1\nseed: 3\nentities:\n" + text[text.index("  - {name: leaf") :]).simulation
+    assert [simulation[f"leaf[{n}]"].transform.position.tolist() for n in range(3)] == [
+        bare[f"leaf[{n}]"].transform.position.tolist() for n in range(3)
+    ]
+
+
+def test_what_is_wrong_in_a_group_that_is_measured_is_told_once() -> None:
+    """Where it is written, and nothing of whom it would have been copied to."""
+    text = "carom: 1\nentities:\n  - name: a\n    stack: {count: 9}\n    entities: [{name: b, collider: {sphere: {radius: -1}}}]\nevents: [{at: 1 s, despawn: ['a[3].b']}]\n"
+    with pytest.raises(WorldError) as caught:
+        load_text(text, "w.yaml")
+    assert (
+        str(caught.value) == "w.yaml:5:46: entities.0.entities.0.collider.sphere.radius: must be above 0 m; received -1"
+    )
+
+
 def test_what_has_no_size_is_not_stacked() -> None:
-    """A plane has no end, and a group no collider."""
-    for words in ("collider: {plane: {}}", "name: g, entities: []"):
-        with pytest.raises(
-            WorldError, match=r"\.stack: needs the size of what is copied; give it a collider of finite size$"
-        ):
+    """A plane has no end, and an empty group no collider."""
+    mend = "give it a collider of finite size, or write line or grid, which say how far apart copies are"
+    for words in ("collider: {plane: {}}", "name: g, entities: []", "name: g, entities: [{collider: {plane: {}}}]"):
+        with pytest.raises(WorldError, match=rf"\.stack: needs the size of what is copied; {mend}$"):
             load_text(f"carom: 1\nentities: [{{{words}, stack: {{count: 2}}}}]\n")

@@ -159,3 +159,20 @@ def test_layers_with_a_fault_are_no_further_fault_of_who_is_on_them() -> None:
         "entities: [{name: hole, collider: {sphere: {radius: 1}, sensor: true, on_enter: {layer: pocketed}}}]\n"
     )
     assert found == "w.yaml:2:1: layers: unknown layer 'nobody'; the layers are none, default, lost, pocketed"
+
+
+def test_a_key_of_blanks_is_shown() -> None:
+    """In quotes, where a path of nothing would be no place."""
+    with pytest.raises(WorldError) as caught:
+        load_text('carom: 1\nentities: [{body: {" ": 1}}]\n', "w.yaml")
+    assert str(caught.value).startswith("w.yaml:2:20: entities.0.body.' ': unknown key; received ' '; accepted: type")
+
+
+def test_jitter_is_a_distance() -> None:
+    """None below 0, and none whose square is no number."""
+    with pytest.raises(WorldError) as caught:
+        load_text("carom: 1\nentities: [{transform: {jitter: -1}}, {transform: {jitter: [0, 1e200, 0]}}]\n", "w.yaml")
+    assert str(caught.value).split("\n") == [
+        "w.yaml:2:25: entities.0.transform.jitter: must be at least 0 m; received -1",
+        "w.yaml:2:64: entities.1.transform.jitter.1: must be at most 1e+100 m; received 1e+200",
+    ]

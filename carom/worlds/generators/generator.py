@@ -21,13 +21,13 @@ GENERATORS: dict[str, type[Generator]] = {}
 class Setting(NamedTuple):
     """What copies are made in: which axis is up, the seeded draws of the world, and how large one copy is.
 
-    It lies within a box of half extents ``half`` (3,), m, about its origin, along the axes of the world, and within
-    ``reach`` (m) of its origin whichever way it is turned; None of what has no collider, or one without end.
+    The box around it has ``edges`` (3,), m, along the axes of the world; it lies within ``reach`` (m) of its origin
+    whichever way it is turned. Both are None of what has no collider, or one without end.
     """
 
     up: int
     draws: np.random.Generator
-    half: Floats | None = None
+    edges: Floats | None = None
     reach: float | None = None
 
     @property
@@ -37,9 +37,9 @@ class Setting(NamedTuple):
 
     def size(self, key: str) -> Floats:
         """Return the edges (3,) of the box about a copy, m; raise DeclarationError where it has none."""
-        if self.half is None:
+        if self.edges is None:
             raise _sizeless(key)
-        return 2.0 * self.half
+        return self.edges
 
     def radius(self, key: str) -> float:
         """Return the radius of the ball about a copy, m; raise DeclarationError where it has none."""
@@ -49,7 +49,8 @@ class Setting(NamedTuple):
 
 
 def _sizeless(key: str) -> DeclarationError:
-    return DeclarationError(f"{key}: needs the size of what is copied; give it a collider of finite size")
+    mend = "give it a collider of finite size, or write line or grid, which say how far apart copies are"
+    return DeclarationError(f"{key}: needs the size of what is copied; {mend}")
 
 
 class Copies(NamedTuple):
@@ -72,6 +73,7 @@ class Generator(Words):
     """Words that stand for many copies; ``key`` is their word on an entity."""
 
     key: ClassVar[str]
+    sized: ClassVar[bool] = False  # whether copies are laid by how large they are
 
     @classmethod
     def __pydantic_init_subclass__(cls, **options: Any) -> None:

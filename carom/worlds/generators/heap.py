@@ -17,6 +17,7 @@ class Heap(Generator):
     """Copies of an entity turned at random that fall into a heap, called like ``stone[3]`` from below."""
 
     key: ClassVar[str] = "heap"
+    sized: ClassVar[bool] = True
     count: Count = Field(description="how many")
     area: Annotated[tuple[float, float], In("m", above=0.0)] = Field(
         description="edges of the level rectangle above which they are, about where the entity is (m)"

@@ -17,6 +17,7 @@ class Pyramid(Generator):
     """Copies of an entity in layers, each over the joints of that below, called like ``stone[layer,row,place]``."""
 
     key: ClassVar[str] = "pyramid"
+    sized: ClassVar[bool] = True
     base: Counts = Field(description="copies along the two level axes of the lowest layer; one row makes it flat")
     gap: Gap = Field(0.0, description="left free between neighbours (m)")
 

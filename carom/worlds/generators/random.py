@@ -21,6 +21,7 @@ class Random(Generator):
     """Copies of an entity scattered over a region about where it is, called like ``leaf[3]``; no two overlap."""
 
     key: ClassVar[str] = "random"
+    sized: ClassVar[bool] = True
     count: Count = Field(description="how many; those that find no room are left out, and told")
     box: Edges | None = Field(None, description="edges of the box they lie in (m)")
     sphere: Edge | None = Field(None, description="radius of the ball they lie in (m)")

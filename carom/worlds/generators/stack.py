@@ -15,6 +15,7 @@ class Stack(Generator):
     """Copies of an entity one upon another, called like ``tower[3]`` from below."""
 
     key: ClassVar[str] = "stack"
+    sized: ClassVar[bool] = True
     count: Count = Field(description="how many")
     gap: Gap = Field(0.0, description="left free between neighbours (m)")
 

@@ -15,6 +15,7 @@ class Wall(Generator):
     """Copies of an entity as bricks along x, each over a joint of those below, called like ``brick[course,place]``."""
 
     key: ClassVar[str] = "wall"
+    sized: ClassVar[bool] = True
     count: Counts = Field(description="bricks in the lowest course, and courses; every other course has one less")
     gap: Gap = Field(0.0, description="left free between neighbours (m)")
 

@@ -12,5 +12,6 @@ Length = Annotated[float, In("m")]
 Lengths = Annotated[Vector3, In("m")]
 WIDEST = 1e100  # m; squares of more are beyond all numbers
 Gap = Annotated[float, In("m", least=0.0, most=WIDEST)]
+Gaps = Annotated[Vector3, In("m", least=0.0, most=WIDEST)]
 Edge = Annotated[float, In("m", above=0.0, most=WIDEST)]
 Edges = Annotated[Vector3, In("m", above=0.0, most=WIDEST)]
