@@ -1,8 +1,9 @@
 """Every tolerance of the step: its unit, why this size, and what breaks if it changes."""
 
-# m. Bounds reach this much further than the motion foreseen, so that small pushes do not ask for a new detection.
-# Larger: more pairs to look at. Smaller: more detections in the middle of a step.
-REACH_SLACK = 5e-3
+# m. Bounds reach this much further than the motion foreseen, so that small pushes do not ask for a new detection; and
+# where everybody moves, by up to this part of their size, for those who are struck. Larger: more pairs to look at.
+# Smaller: more detections in the middle of a step, twice as many in falling piles.
+REACH_SLACK, REACH_STIRRED = 3e-3, 0.125
 
 # Part of itself, one in this many, by which a step is due early in real time, so that 100 steps of 0.01 s fit into 1 s
 # although the float 0.01 is more than a hundredth; never seen, 16 ns at 60 Hz. Larger: sums of rounded numbers such as

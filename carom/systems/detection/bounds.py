@@ -28,7 +28,8 @@ def reach_within(world: World, dt: float) -> None:
     pull = sqrt(sum(g * g for g in gravity))
     foresee_reach(
         world[Awake].now(world), dt, pull, transform.position, transform.rotation, motion.linear,
-        body.center_of_mass, motion.linear_acceleration, flight.reach, flight.detected_center,
+        body.center_of_mass, body.inertia, body.inverse_mass, motion.linear_acceleration,
+        flight.reach, flight.detected_center,
     )  # fmt: skip
     place_bounds(
         world.row_numbers(Collider), dt, bodies_of(world), motion.angular, flight.reach, flight.detected_center,

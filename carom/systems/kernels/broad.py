@@ -7,16 +7,27 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import REACH_FACTOR, REACH_SLACK
+from carom.systems.constants import REACH_FACTOR, REACH_SLACK, REACH_STIRRED
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.spatial import product, turn
 
 
 @kernel("reach", "detected_center")
 def foresee_reach(
-    rows, dt, pull, position, rotation, linear, center_of_mass, last_acceleration, reach, detected_center
+    rows, dt, pull, position, rotation, linear, center_of_mass, inertia, inverse_mass, last_acceleration,
+    reach, detected_center,
 ):  # fmt: skip
-    """Say how far each body may travel within ``dt``: its speed and acceleration, or gravity's ``pull`` if greater."""
+    """Say how far each body may travel within ``dt``: its speed and acceleration, or gravity's ``pull`` if greater.
+
+    Those that are struck travel farther. Where many move they all are given more: the mean of the ways of all, each up
+    to REACH_STIRRED of its least radius of gyration.
+    """
+    stirred = 0.0
+    for i in rows:
+        way = sqrt(linear[i, 0] ** 2 + linear[i, 1] ** 2 + linear[i, 2] ** 2) * dt
+        most = REACH_STIRRED * sqrt(min(inertia[i, 0], inertia[i, 1], inertia[i, 2]) * inverse_mass[i])
+        stirred += way if way < most else most
+    slack = REACH_SLACK + stirred / max(1, len(rows))
     for i in rows:
         ox, oy, oz = turn(
             rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
@@ -29,7 +40,7 @@ def foresee_reach(
         for k in range(3):
             speed += linear[i, k] * linear[i, k]
             push += last_acceleration[i, k] * last_acceleration[i, k]
-        reach[i] = REACH_SLACK + REACH_FACTOR * (sqrt(speed) + max(pull, sqrt(push)) * dt) * dt
+        reach[i] = slack + REACH_FACTOR * (sqrt(speed) + max(pull, sqrt(push)) * dt) * dt
 
 
 @kernel("pose_position", "pose_rotation", "lower", "upper", "body_row", "moved")
