@@ -9,9 +9,9 @@ from carom.ecs.components.material import Combine
 from carom.systems.constants import LEANING, SAME_POINT
 from carom.systems.kernels.balls import BOX, HALF_SPACE
 from carom.systems.kernels.frames import turned_back
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
-from carom.systems.kernels.recycling import first_of_pair, smaller_reach, turned
+from carom.systems.kernels.recycling import first_of_pair, is_alike, smaller_reach, turned
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
 
@@ -82,7 +82,7 @@ def complete_contacts(
                 surface[c, 0], surface[c, 1], surface[c, 2] = surface_of_pair(
                     c, a, b, normal, surface_velocity, pose_rotation
                 )
-            if c > first and is_parallel(c, c - 1, normal):
+            if c > first and is_alike(c, c - 1, normal):
                 share[c] = share[c - 1]
             else:
                 share[c] = share_of_b(c, a, b, normal, shape, pose_rotation)
@@ -127,12 +127,6 @@ def exact_pair(a, b, shape, size, body_row, pose_position, pose_rotation, center
     ):
         what = -1
     return what, i, o, sense, ex, ey, ez
-
-
-@woven
-def is_parallel(c, o, normal):
-    """Tell whether two contacts have one normal."""
-    return normal[c, 0] == normal[o, 0] and normal[c, 1] == normal[o, 1] and normal[c, 2] == normal[o, 2]
 
 
 @woven
@@ -206,6 +200,34 @@ def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass)
     return is_centred(collider, body, pose_position, center)
 
 
+@woven
+def are_the_same(c, end, o, until, found_feature, feature):
+    """Tell whether a pair has the points that it had, each once."""
+    same = until - o == end - c
+    for k in range(end - c if same else 0):
+        same &= feature[o + k] == found_feature[c + k] and (k == 0 or feature[o + k] > feature[o + k - 1])
+    return same
+
+
+@inlined
+def match_points(begin, end, o, until, near, feature, point, found_feature, found_point, match, taken):
+    """Write which contact, o to ``until``, each of a pair found is: that of its feature, else the nearest left over."""
+    for new in range(begin, end):
+        for old in range(o, until):
+            if feature[old] == found_feature[new]:
+                match[new], taken[old] = old, True
+    for new in range(begin, end):
+        nearest = near**2
+        for old in range(o, until if match[new] < 0 else o):
+            away = 0.0
+            for k in range(3):
+                away += (point[old, k] - found_point[new, k]) ** 2
+            if not taken[old] and away < nearest:
+                match[new], nearest = old, away
+        if match[new] >= 0:
+            taken[match[new]] = True
+
+
 @kernel(
     "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
     "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
@@ -236,20 +258,14 @@ def renew_contacts(
         until = o
         while until < old_count and a[until] == handles[x] and b[until] == handles[y]:
             until += 1
-        for new in range(c, end):
-            for old in range(o, until):
-                if feature[old] == found_feature[new]:
-                    match[new], taken[old] = old, True
-        for new in range(c, end):
-            nearest = (SAME_POINT * smaller_reach(x, y, bound_half, bound_radius)) ** 2
-            for old in range(o, until if match[new] < 0 else o):
-                away = 0.0
-                for k in range(3):
-                    away += (point[old, k] - found_point[new, k]) ** 2
-                if not taken[old] and away < nearest:
-                    match[new], nearest = old, away
-            if match[new] >= 0:
-                taken[match[new]] = True
+        if are_the_same(c, end, o, until, found_feature, feature):
+            for k in range(end - c):
+                match[c + k] = o + k
+        else:
+            match_points(
+                c, end, o, until, SAME_POINT * smaller_reach(x, y, bound_half, bound_radius),
+                feature, point, found_feature, found_point, match, taken,
+            )  # fmt: skip
         o, c = until, end
     # Rows that stay where they are keep what they hold; what others held is put aside before it is written over.
     moves = np.empty(count, np.int64)

@@ -53,17 +53,22 @@ def recycle_contacts(
             continue
         slip = RECYCLED_SLIP * smaller_reach(x, y, bound_half, bound_radius)
         begin, stayed = count, True
-        while o < old_count and a[o] == handles[x] and b[o] == handles[y]:
-            nx, ny, nz = turned(x, o, lean_a, rotation)
-            mx, my, mz = turned(y, o, lean_b, rotation)
-            ax, ay, az = turned(x, o, seat_a, rotation)
-            bx, by, bz = turned(y, o, seat_b, rotation)
-            ax, ay, az = ax + position[x, 0], ay + position[x, 1], az + position[x, 2]
-            bx, by, bz = bx + position[y, 0], by + position[y, 1], bz + position[y, 2]
+        px, py, pz = position[x, 0], position[x, 1], position[x, 2]
+        qx, qy, qz = position[y, 0], position[y, 1], position[y, 2]
+        of_x, of_y = rotation_of(x, rotation), rotation_of(y, rotation)
+        nx, ny, nz, leant = 0.0, 0.0, 0.0, 0.0
+        first, one, other = o, a[o], b[o]
+        while o < old_count and a[o] == one and b[o] == other:
+            if o == first or not (is_alike(o, o - 1, lean_a) and is_alike(o, o - 1, lean_b)):
+                nx, ny, nz = turned_by(of_x, o, lean_a)
+                mx, my, mz = turned_by(of_y, o, lean_b)
+                leant = (nx - mx) ** 2 + (ny - my) ** 2 + (nz - mz) ** 2
+            ax, ay, az = turned_by(of_x, o, seat_a)
+            bx, by, bz = turned_by(of_y, o, seat_b)
+            ax, ay, az, bx, by, bz = ax + px, ay + py, az + pz, bx + qx, by + qy, bz + qz
             dx, dy, dz = ax - bx, ay - by, az - bz
             deep = nx * dx + ny * dy + nz * dz
             aside = dx * dx + dy * dy + dz * dz - deep * deep
-            leant = (nx - mx) ** 2 + (ny - my) ** 2 + (nz - mz) ** 2
             if (
                 leant > RECYCLED_TURN * RECYCLED_TURN
                 or aside > slip * slip
@@ -71,6 +76,7 @@ def recycle_contacts(
                 or -deep > reaches[p]
             ):
                 stayed = False
+                break
             row_a[count], row_b[count], feature[count], by_fcl[count] = x, y, old_feature[o], old_by_fcl[o]
             depth[count] = deep
             normal[count, 0], normal[count, 1], normal[count, 2] = nx, ny, nz
@@ -111,11 +117,27 @@ def is_ball(i, shape):
 
 
 @woven
+def rotation_of(i, rotation):
+    """Return the quaternion of collider i."""
+    return rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
+
+
+@woven
+def is_alike(c, o, column):
+    """Tell whether two contacts have the same vector there."""
+    return column[c, 0] == column[o, 0] and column[c, 1] == column[o, 1] and column[c, 2] == column[o, 2]
+
+
+@woven
+def turned_by(q, c, column):
+    """Return a vector of contact c turned by a quaternion."""
+    return turn(q[0], q[1], q[2], q[3], column[c, 0], column[c, 1], column[c, 2])
+
+
+@woven
 def turned(i, c, column, rotation):
     """Return a vector of contact c as collider i, in whose frame it is, is turned now."""
-    return turn(
-        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3], column[c, 0], column[c, 1], column[c, 2]
-    )
+    return turned_by(rotation_of(i, rotation), c, column)
 
 
 @kernel("seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form")
