@@ -11,7 +11,7 @@ from carom.ecs.relations.hit import Hit
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
 from carom.systems.awake import Awake, stirs
-from carom.systems.kernels.touching import renew_touching
+from carom.systems.kernels.touching import find_struck, renew_touching
 from carom.systems.settings import Settings, time_of
 
 
@@ -49,15 +49,9 @@ def tell_contacts(world: World, dt: float) -> None:
 def struck(world: World) -> tuple[Integers, Integers, Floats]:
     """Return the pairs (rows) of living entities that were struck in the step, in order of rows, and when first (s)."""
     impact = world[Impact]
-    a, b, time = impact.a[: impact.count], impact.b[: impact.count], impact.time[: impact.count]
-    if impact.count:
-        both = np.stack([a, b])
-        living = world.slots.live(both).all(axis=0)
-        one, other = world.slots.rows_of_living(both[:, living])
-        keys = np.minimum(one, other) * world.capacity + np.maximum(one, other)
-        keys, first = np.unique(keys, return_index=True)  # impacts are in order of time
-        a, b, time = keys // world.capacity, keys % world.capacity, time[living][first]
-    return a, b, time
+    a, b, at = np.empty(impact.count, np.int64), np.empty(impact.count, np.int64), np.empty(impact.count)
+    count = find_struck(impact.count, impact.a, impact.b, impact.time, world.handles(), world.slots.row_shift, a, b, at)
+    return a[:count], b[:count], at[:count]
 
 
 def tell(world: World, kind: type[ContactBegin] | type[ContactEnd], time: Floats, a: Integers, b: Integers) -> None:
@@ -85,7 +79,7 @@ def tell_hits(world: World, dt: float) -> None:
         getattr(hit, name)[: len(loud)] = getattr(impact, name)[loud]
     for party, material in ((hit.a, hit.material_a), (hit.b, hit.material_b)):
         living = world.slots.live(party[: len(loud)])
-        numbers = world[Material].number[world.slots.rows(party[: len(loud)][living])]
+        numbers = world[Material].number[world.slots.rows_of_living(party[: len(loud)][living])]
         material[: len(loud)] = -1
         material[: len(loud)][living] = numbers
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -132,16 +133,16 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     starts = np.zeros(len(FUNCTIONS) + 2, np.int64)
     table = FUNCTION_OF if (collision or world[Settings].collision) == "auto" else NO_STAND_INS
     sort_by_function(pairs, collider.shape, table, SWAPS, order, first, second, starts)
-    by_fcl = int(starts[1])
+    begins = starts.tolist()
+    by_fcl = begins[1]
     answered.fcl += by_fcl
     answered.kernels += n - by_fcl
-    sizes = np.diff(starts).tolist()
-    points = Points(n, sum(room * size for room, size in zip(ROOMS, sizes, strict=True)))
+    points = Points(n, sum(room * (end - begin) for room, (begin, end) in zip(ROOMS, pairwise(begins), strict=True)))
     taken = measure_by_fcl(world, order[:by_fcl], pairs, reaches, points) if by_fcl else 0
     hulls = world[PackedHulls].holding(world)
     meshes = world[PackedMeshes].holding(world)
     for number, function in enumerate(FUNCTIONS, 1):
-        bucket = slice(starts[number], starts[number + 1])
+        bucket = slice(begins[number], begins[number + 1])
         if bucket.stop > bucket.start:
             taken = function(
                 order[bucket], first[bucket], second[bucket], reaches, taken,

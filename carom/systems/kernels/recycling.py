@@ -27,23 +27,24 @@ def form_of_pair(a, b, shape, size, geometry):
     return form
 
 
-@kernel("stays", "feature", "normal", "depth", "point", "row_a", "row_b", "by_fcl")
+@kernel("moved", "moved_reaches", "row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl")
 def recycle_contacts(
     pairs, reaches, old_count, handles, row_shift,
     shape, size, geometry, bound_half, bound_radius, position, rotation,
     a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, form, old_feature, old_by_fcl,
-    stays, row_a, row_b, feature, normal, depth, point, by_fcl,
+    moved, moved_reaches, row_a, row_b, feature, normal, depth, point, by_fcl,
 ):  # fmt: skip
-    """Write the contacts, where their shapes are now, of all pairs that have hardly moved; return how many they are.
+    """Write the contacts, where their shapes are now, of all pairs that have hardly moved, and which pairs have moved.
 
-    A pair ``stays`` unless one is a ball, which rolls, one of its points has slipped or sunk by RECYCLED_SLIP of the
-    smaller shape, or one shape has turned against the other. ``seat``, ``lean`` and ``seat_depth`` say where the points
-    and the normal were found on the two shapes.
+    Moved has a pair of which one is a ball, which rolls, one of whose points has slipped or sunk by RECYCLED_SLIP of
+    the smaller shape, or of which one shape has turned against the other. ``seat``, ``lean`` and ``seat_depth`` say
+    where the points and the normal were found on the two shapes. Return how many contacts and how many pairs they are.
     """
-    count, o = 0, 0
+    count, moving, o = 0, 0, 0
     for p in range(len(pairs)):
         x, y = pairs[p, 0], pairs[p, 1]
-        stays[p] = False
+        moved[moving, 0], moved[moving, 1], moved_reaches[moving] = x, y, reaches[p]
+        moving += 1
         if is_ball(x, shape) or is_ball(y, shape):
             continue
         o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
@@ -83,23 +84,36 @@ def recycle_contacts(
             point[count, 0], point[count, 1], point[count, 2] = 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz)
             count += 1
             o += 1
-        stays[p] = stayed
-        if not stayed:
+        if stayed:
+            moving -= 1
+        else:
             count = begin
-    return count
+    return count, moving
 
 
 @woven
 def first_of_pair(o, old_count, x, y, a, b, handles, row_shift):
     """Return the first contact from ``o`` on, all sorted by pair, that is of the rows (x, y) or of a later pair."""
     while o < old_count:
-        q, r = a[o] & INDEX_MASK, b[o] & INDEX_MASK  # ids, then the rows of those ids
-        q, r = q + row_shift[q], r + row_shift[r]
-        living = q < len(handles) and r < len(handles) and handles[q] == a[o] and handles[r] == b[o]
+        q, r = row_of(a[o], row_shift), row_of(b[o], row_shift)
+        living = is_at(q, a[o], handles) and is_at(r, b[o], handles)
         if living and (q > x or (q == x and r >= y)):  # others have lost their order
             break
         o += 1
     return o
+
+
+@woven
+def row_of(entity, row_shift):
+    """Return the row that an entity has if it lives."""
+    index = entity & INDEX_MASK
+    return index + row_shift[index]
+
+
+@woven
+def is_at(row, entity, handles):
+    """Tell whether an entity lives in a row."""
+    return row < len(handles) and handles[row] == entity
 
 
 @woven

@@ -5,10 +5,49 @@ from __future__ import annotations
 from math import inf
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import TOUCH
 from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.recycling import first_of_pair
+from carom.systems.kernels.recycling import first_of_pair, is_at, row_of
+
+
+@kernel("struck_a", "struck_b", "struck_at")
+def find_struck(count, a, b, time, handles, row_shift, struck_a, struck_b, struck_at):
+    """Write the pairs (rows) of those alive that ``count`` impacts were of, in order, each with its first time.
+
+    Return how many they are. Sorted as by Shell, CACM 2 (7), 1959.
+    """
+    n = 0
+    for k in range(count):
+        x, y = row_of(a[k], row_shift), row_of(b[k], row_shift)
+        if is_at(x, a[k], handles) and is_at(y, b[k], handles):
+            struck_a[n], struck_b[n], struck_at[n] = min(x, y), max(x, y), time[k]
+            n += 1
+    gap = n // 2
+    while gap > 0:
+        for k in range(gap, n):
+            x, y, at, o = struck_a[k], struck_b[k], struck_at[k], k
+            while o >= gap and comes_before(x, y, at, o - gap, struck_a, struck_b, struck_at):
+                p = o - gap
+                struck_a[o], struck_b[o], struck_at[o] = struck_a[p], struck_b[p], struck_at[p]
+                o = p
+            struck_a[o], struck_b[o], struck_at[o] = x, y, at
+        gap //= 2
+    pairs = 0
+    for k in range(n):
+        if pairs == 0 or struck_a[k] != struck_a[pairs - 1] or struck_b[k] != struck_b[pairs - 1]:
+            struck_a[pairs], struck_b[pairs], struck_at[pairs] = struck_a[k], struck_b[k], struck_at[k]
+            pairs += 1
+    return pairs
+
+
+@woven
+def comes_before(x, y, at, o, struck_a, struck_b, struck_at):
+    """Tell whether a pair, then its time, comes before that in place o."""
+    if x != struck_a[o]:
+        return x < struck_a[o]
+    if y != struck_b[o]:
+        return y < struck_b[o]
+    return at < struck_at[o]
 
 
 @kernel("a", "b", "since", "begins", "ends")
@@ -63,9 +102,8 @@ def keep_sleepers(
 ):
     """Let pairs go on touching of which one sleeps; return how many pairs there are then."""
     for o in range(begin, end):
-        q, r = was_a[o] & INDEX_MASK, was_b[o] & INDEX_MASK
-        q, r = q + row_shift[q], r + row_shift[r]
-        living = q < len(handles) and r < len(handles) and handles[q] == was_a[o] and handles[r] == was_b[o]
+        q, r = row_of(was_a[o], row_shift), row_of(was_b[o], row_shift)
+        living = is_at(q, was_a[o], handles) and is_at(r, was_b[o], handles)
         if ends[o] and living and (sleeps(q, body_row, asleep) or sleeps(r, body_row, asleep)):
             a[n], b[n], since[n], begins[n], ends[o] = was_a[o], was_b[o], was_since[o], False, False
             n += 1
