@@ -77,11 +77,10 @@ def tell_hits(world: World, dt: float) -> None:
     hit = world[Hit]
     for name in Impact.columns:
         getattr(hit, name)[: len(loud)] = getattr(impact, name)[loud]
-    for party, material in ((hit.a, hit.material_a), (hit.b, hit.material_b)):
-        living = world.slots.live(party[: len(loud)])
-        numbers = world[Material].number[world.slots.rows_of_living(party[: len(loud)][living])]
-        material[: len(loud)] = -1
-        material[: len(loud)][living] = numbers
+    parties = np.stack([hit.a[: len(loud)], hit.b[: len(loud)]])
+    living, numbers = world.slots.live(parties), np.full(parties.shape, -1)
+    numbers[living] = world[Material].number[world.slots.rows_of_living(parties[living])]
+    hit.material_a[: len(loud)], hit.material_b[: len(loud)] = numbers
 
 
 def touching_rows(contact: Contact) -> Integers:

@@ -78,8 +78,8 @@ def store(world: World, found: Found) -> None:
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     renew_contacts(
         old_count, world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
-        found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point,
-        found.by_fcl, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
+        found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point, found.by_fcl,
+        found.recycled, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
         contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
         contact.warm_rolling, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic,
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,

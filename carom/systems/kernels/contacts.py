@@ -236,7 +236,7 @@ def match_points(begin, end, o, until, near, feature, point, found_feature, foun
 )  # fmt: skip
 def renew_contacts(
     old_count, handles, row_shift, bound_half, bound_radius,
-    found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl,
+    found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, recycled,
     a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
     warm_normal, warm_friction, warm_rolling, impulse, friction_impulse, strikes, plastic,
     seat_a, seat_b, lean_a, lean_b, seat_depth, form,
@@ -244,7 +244,8 @@ def renew_contacts(
     """Replace the contacts by those found, keeping what a contact of the same colliders and feature held.
 
     Both lists are sorted by rows and feature, so that one pass matches them. Where corners and edges change places
-    under bodies that hardly move, a point of another feature within SAME_POINT takes over what the old one held.
+    under bodies that hardly move, a point of another feature within SAME_POINT takes over what the old one held. Where
+    on the two shapes they were found goes with those recycled only: others are `seat_contacts` to say.
     """
     count = len(found_a)
     match, taken = np.full(count, -1), np.zeros(old_count, np.bool_)
@@ -283,9 +284,11 @@ def renew_contacts(
             for k in range(3):
                 kept[m, 1 + k], kept[m, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
                 kept[m, 8 + k] = friction_impulse[o, k]
-                kept[m, 11 + k], kept[m, 14 + k] = seat_a[o, k], seat_b[o, k]
-                kept[m, 17 + k], kept[m, 20 + k] = lean_a[o, k], lean_b[o, k]
-            kept[m, 23], kept[m, 24] = seat_depth[o], form[o]
+            if recycled[moves[m]]:
+                kept[m, 11], kept[m, 12] = seat_depth[o], form[o]
+                for k in range(3):
+                    kept[m, 13 + k], kept[m, 16 + k] = seat_a[o, k], seat_b[o, k]
+                    kept[m, 19 + k], kept[m, 22 + k] = lean_a[o, k], lean_b[o, k]
     for m in range(moving):
         c = moves[m]
         a[c], b[c] = handles[found_a[c]], handles[found_b[c]]
@@ -294,9 +297,11 @@ def renew_contacts(
         for k in range(3):
             warm_friction[c, k], warm_rolling[c, k] = kept[m, 1 + k], kept[m, 4 + k]
             friction_impulse[c, k] = kept[m, 8 + k]
-            seat_a[c, k], seat_b[c, k] = kept[m, 11 + k], kept[m, 14 + k]
-            lean_a[c, k], lean_b[c, k] = kept[m, 17 + k], kept[m, 20 + k]
-        seat_depth[c], form[c] = kept[m, 23], kept[m, 24]
+        if recycled[c]:
+            seat_depth[c], form[c] = kept[m, 11], kept[m, 12]
+            for k in range(3):
+                seat_a[c, k], seat_b[c, k] = kept[m, 13 + k], kept[m, 16 + k]
+                lean_a[c, k], lean_b[c, k] = kept[m, 19 + k], kept[m, 22 + k]
     for c in range(count):
         row_a[c], row_b[c], feature[c], by_fcl[c] = found_a[c], found_b[c], found_feature[c], found_by_fcl[c]
         depth[c] = found_depth[c]

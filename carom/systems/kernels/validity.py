@@ -29,7 +29,10 @@ def refuse_points(
         fault[p] = SOUND
         a, b = pairs[p, 0], pairs[p, 1]
         deepest, farthest = inf, (1.0 + MEASURED) * reaches[p] + MEASURED
-        if count[p]:
+        overlaps = False
+        for source in range(start[p], start[p] + count[p]):
+            overlaps |= depth[source] > 0.0
+        if overlaps:
             ball_a = radius_about(a, local, bound_center, bound_half, bound_radius)
             ball_b = radius_about(b, local, bound_center, bound_half, bound_radius)
             deepest = greatest_depth(a, b, ball_a, ball_b, shape, size, position, rotation)
@@ -48,9 +51,10 @@ def refuse_points(
             elif -depth[source] > farthest:
                 wrong, received, bound = TOO_FAR, -depth[source], farthest
             else:
-                feature[to], depth[to] = feature[source], depth[source]
-                for k in range(3):
-                    normal[to, k], point[to, k] = normal[source, k], point[source, k]
+                if to != source:
+                    feature[to], depth[to] = feature[source], depth[source]
+                    for k in range(3):
+                        normal[to, k], point[to, k] = normal[source, k], point[source, k]
                 to += 1
                 continue
             if fault[p] == SOUND:
