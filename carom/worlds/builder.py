@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from carom.ecs.column import Floats
-from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import compose
-from carom.systems.forces import LAWS, Forces
-from carom.systems.forces.reach import read_reach
-from carom.systems.layers import Layers
-from carom.systems.parameters import WordFault
-from carom.systems.settings import Random, Settings
+from carom.systems.settings import Random
 from carom.systems.shapes import Shape
 from carom.systems.simulation import Simulation
 from carom.worlds import library
@@ -26,13 +21,14 @@ from carom.worlds.events import add_events, with_prefabs
 from carom.worlds.expect import Expectation, read_expectations
 from carom.worlds.files import WorldFiles
 from carom.worlds.filling import checked_sections, filled, unfolded
-from carom.worlds.generated import STEP_WORDS
+from carom.worlds.forces import add_forces
+from carom.worlds.founding import founded
 from carom.worlds.generators import Setting
 from carom.worlds.geometry import GeometryReader
 from carom.worlds.header import with_header
 from carom.worlds.include import Includes
 from carom.worlds.measuring import measured
-from carom.worlds.names import known, matching, whole_of_copy
+from carom.worlds.names import known, whole_of_copy
 from carom.worlds.oracle import read_oracle
 from carom.worlds.pictures import Pictures
 from carom.worlds.populate import Populator
@@ -44,7 +40,6 @@ from carom.worlds.state import take_state
 from carom.worlds.uncollected import uncollected
 from carom.worlds.unfold import Item
 
-STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}
 UP = {"y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
 
@@ -121,12 +116,12 @@ def _loaded(
     Includes(source, files_of_world).take(source, (Path(name).name,))
     data, prefabs = filled(source, source.data)
     values = checked_sections(source, with_prefabs(prefabs, data))
-    simulation = _simulation(source, values, checked, options)
+    simulation = founded(source, values, checked, options)
     up, geometries = UP[values["up"]].index(1.0), GeometryReader(files_of_world)
     setting = Setting(up, simulation.world[Random].generator)
 
     def measure(some: list[Item]) -> tuple[Floats, Floats] | None:
-        apart = _simulation(source, values, checked, options)
+        apart = founded(source, values, checked, options)
         return measured(Populator(source, apart, geometries, Setting(up, apart.world[Random].generator)), some)
 
     items = unfolded(source, prefabs, data.get("entities", []), setting, measure)
@@ -142,7 +137,7 @@ def _loaded(
             populator.weigh_all()
     with source.telling(("entities",)):
         populator.join_all()
-    _forces(source, simulation, values["forces"])
+    add_forces(source, simulation, values["forces"])
     take_state(source, simulation.world, values["state"])
     with source.telling(("events",)):
         add_events(source, populator.intake, values["events"])
@@ -170,55 +165,3 @@ def _loaded(
         values["name"], values["description"], UP[values["up"]], values["cameras"], render, recording, source.warnings,
         files_of_world.used, source, populator.intake.places_in_file, populator.intake.geometries.known,
     )  # fmt: skip
-
-
-def _simulation(source: Source, values: dict[str, Any], checked: bool | None, options: dict[str, Any]) -> Simulation:
-    settings = {f.name: values[f.name] for f in fields(Settings) if f.name not in STEP_WORDS}
-    if "gravity" not in source.data:
-        settings["gravity"] = STANDARD_GRAVITY[values["up"]]
-    if values["step"] is not None:
-        settings |= values["step"].model_dump(exclude_unset=True)
-    settings |= {key: value for key, value in options.items() if value is not None}
-    if settings["dimensions"] == 2 and settings["gravity"][2]:
-        place, received = ("gravity" if "gravity" in source.data else "up"), str(list(settings["gravity"]))
-        what = "gravity must lie in the plane of dimensions: 2"
-        source.report((place,), what, received=received, accepted="[x, y, 0]")
-        settings["gravity"] = (*settings["gravity"][:2], 0.0)
-    simulation = Simulation(checked=checked, **settings)
-    simulation.world[Random].draw(values["drawn"] or 0)
-    for name, words in values["materials"].items():
-        simulation.material(name, **({} if words is None else words.model_dump(exclude_unset=True)))
-    try:
-        simulation.layers(values["layers"])
-    except DeclarationError as fault:
-        source.report(("layers",), str(fault))
-    return simulation
-
-
-def _forces(source: Source, simulation: Simulation, forces: list[Any]) -> None:
-    names = simulation.world.names()
-    for index, words in enumerate(forces):
-        if words is None:
-            continue
-        stated = words.model_dump(exclude_unset=True)
-        patterns, *limits = (stated.pop(word, None) for word in ("entities", "region", "layers", "during"))
-        if len(stated) != 1:
-            received, accepted = ", ".join(stated) or "none", ", ".join(sorted(LAWS))
-            source.report(("forces", index), "must state one force", received=received, accepted=accepted)
-            continue
-        found: list[str] = []
-        for number, pattern in enumerate(patterns or ()):
-            try:
-                found += matching(pattern, names)
-            except WordError as fault:
-                source.report_value(("forces", index, "entities", number), fault)
-        ((key, parameters),) = stated.items()
-        entities = None if patterns is None else [simulation.world.find(name) for name in found]
-        wrong: list[WordFault] = []
-        reach = read_reach(simulation.world[Layers], wrong, entities, *limits)
-        for word in wrong:
-            source.report_value(("forces", index, *word.steps), word)
-        try:
-            simulation.world[Forces].add(LAWS[key](**parameters), reach)
-        except DeclarationError as fault:
-            source.report(("forces", index, key), str(fault))

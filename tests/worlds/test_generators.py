@@ -207,6 +207,14 @@ def test_what_is_wrong_in_a_group_that_is_measured_is_told_once() -> None:
     )
 
 
+def test_a_group_is_measured_whatever_else_is_wrong() -> None:
+    """A fault elsewhere is the only one told."""
+    text = "carom: 1\nseed: -1\nentities:\n  - {name: a, stack: {count: 9}, entities: [{name: b, collider: {sphere: {radius: 1}}}]}\n"
+    with pytest.raises(WorldError) as caught:
+        load_text(text, "w.yaml")
+    assert str(caught.value) == "w.yaml:2:1: seed: must be a whole number; received -1; accepted: 0 or more"
+
+
 def test_what_has_no_size_is_not_stacked() -> None:
     """A plane has no end, and an empty group no collider."""
     mend = "give it a collider of finite size, or write line or grid, which say how far apart copies are"

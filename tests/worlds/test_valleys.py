@@ -1,4 +1,4 @@
-"""The valleys of the library are the lowest places of its land, rolled over by its balls."""
+"""The valleys of the library are the lowest places of its land, rolled over by its balls; land is written as noise."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from carom.ecs.column import Floats
+from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.noise import fractal_noise
-from carom.worlds import load_world
+from carom.worlds import load_text, load_world, world_text
 
 STEP = 0.01  # of the places looked at, m
 
@@ -47,3 +48,13 @@ def test_balls_rest_where_their_centres_are_lowest(name: str) -> None:
     row, column = np.unravel_index(lies.argmin(), lies.shape)
     found = x[inner, inner][row, column], lies.min(), z[inner, inner][row, column]
     np.testing.assert_allclose(found, expected, rtol=0, atol=5e-3)
+
+
+def test_land_of_noise_is_written_as_noise() -> None:
+    """In its words, which make the same land."""
+    land = "{height_field: {noise: {count: [9, 5], wavelength: 4, seed: 3}, spacing: 0.25, low: -1}}"
+    loaded = load_text(f"carom: 1\nentities: [{{name: land, collider: {land}}}]\n")
+    text = world_text(loaded)
+    assert "{height_field: {low: -1, noise: {count: [9, 5], seed: 3, wavelength: 4}, spacing: 0.25}}" in text
+    one, other = (world[Geometries].items[0] for world in (loaded.simulation.world, load_text(text).simulation.world))
+    assert one.vertices.tobytes() == other.vertices.tobytes()

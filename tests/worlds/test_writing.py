@@ -123,16 +123,6 @@ def test_meshes_hulls_and_land_are_written_triangle_by_triangle() -> None:
         np.testing.assert_array_equal(one.faces, other.faces)
 
 
-def test_land_of_noise_is_written_as_noise() -> None:
-    """In its words, which make the same land."""
-    land = "{height_field: {noise: {count: [9, 5], wavelength: 4, seed: 3}, spacing: 0.25, low: -1}}"
-    loaded = load_text(f"carom: 1\nentities: [{{name: land, collider: {land}}}]\n")
-    text = world_text(loaded)
-    assert "{height_field: {low: -1, noise: {count: [9, 5], seed: 3, wavelength: 4}, spacing: 0.25}}" in text
-    one, other = (world[Geometries].items[0] for world in (loaded.simulation.world, load_text(text).simulation.world))
-    assert one.vertices.tobytes() == other.vertices.tobytes()
-
-
 def test_the_generator_is_told_by_how_far_it_has_gone() -> None:
     """Draws are counted from the seed; half of a draw that is left over is state."""
     simulation = Simulation(seed=3)
