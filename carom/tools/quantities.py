@@ -12,7 +12,8 @@ from carom.ecs.errors import did_you_mean
 from carom.ecs.relations.contact import Contact
 from carom.systems.energy import kinetic_and_potential, momentum
 from carom.worlds.errors import WordError
-from carom.worlds.terms import AXES, read_term
+from carom.worlds.term import AXES
+from carom.worlds.terms import read_term
 
 MILLIMETRES = 1e3
 

@@ -21,7 +21,8 @@ from carom.worlds.expression import evaluate
 from carom.worlds.generated import SETTING_UNITS, setting_types
 from carom.worlds.quantity import quantity
 from carom.worlds.source import Source
-from carom.worlds.terms import AXES, Place, Term, read_term
+from carom.worlds.term import AXES, Place, Term
+from carom.worlds.terms import read_term
 from carom.worlds.units import parse_unit, read_quantity
 
 FORM = re.compile(r"\s*([^=]+?)\s*([-+*/]?)=(?!=)\s*(.+?)\s*")

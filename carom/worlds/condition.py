@@ -13,7 +13,8 @@ from carom.ecs import Entity, World
 from carom.ecs.column import Booleans, Floats
 from carom.worlds.errors import WordError
 from carom.worlds.parsing import Parser
-from carom.worlds.terms import TERM_PATTERN, Term, read_term
+from carom.worlds.term import Term
+from carom.worlds.terms import TERM_PATTERN, read_term
 from carom.worlds.units import NUMBER, read_quantity
 
 END = r"(?=\s*(?:$|[<>=!)]|and\b|or\b))"

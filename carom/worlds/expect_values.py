@@ -15,7 +15,8 @@ from carom.systems.simulation import Simulation
 from carom.worlds.errors import WordError, shown
 from carom.worlds.expect_moment import AtMoment, Event
 from carom.worlds.expectation import Expectation
-from carom.worlds.terms import Term, read_term
+from carom.worlds.term import Term
+from carom.worlds.terms import read_term
 from carom.worlds.units import VALUE, read_quantity
 
 
