@@ -24,6 +24,8 @@ def compose(world: World, children: Integers | None = None) -> None:
     EntityError when a parent has no Transform or entities carry each other in a circle.
     """
     rows = world.row_numbers(Parent, Transform) if children is None else children
+    if not len(rows):
+        return
     with world.edit(Transform) as transform:
         carry(world, rows, transform.position, transform.rotation)
 

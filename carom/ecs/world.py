@@ -255,7 +255,8 @@ class World(Structure):
 
     def resize(self, kind: type[Relation], count: int) -> None:
         """Set the row count of a relation; only systems that write it may."""
-        if kind in self.tables and self.count(kind) == count:
+        table = self.tables.get(kind)
+        if table is not None and isinstance(table.view, Relation) and table.view.count == count:
             return
         if self._current is not self._live and self._current.get(kind) is not self.table(kind).live:
             raise AccessError(f"only a system that writes {kind.__name__} may resize it")

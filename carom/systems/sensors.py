@@ -34,7 +34,7 @@ Pair = tuple[int, int]  # sensor, entity
 def sense(world: World, dt: float) -> None:
     """Tell who entered and left sensors on the way flown, and when."""
     sensing, clock = world[Sensing], world[Progress].clock
-    if not len(sensing.pairs) and not world.count(Inside):
+    if not len(sensing.pairs) and not world[Inside].count:
         return
     sensing.keep(np.all(world.slots.live(sensing.pairs), axis=1))
     pairs = list(map(tuple, sensing.pairs.tolist()))
