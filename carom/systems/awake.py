@@ -24,7 +24,7 @@ class Awake(Resource):
 
     def __init__(self) -> None:
         self.rows: Integers = np.zeros(0, np.int64)
-        self.sleepers: Integers = np.zeros(0, np.int64)
+        self.sleepers = self.bodies = self.rows
         self.idle = self.strangers = False
         self.asked: list[int] = []
         self.edited: set[type[Record]] = set()
@@ -34,10 +34,11 @@ class Awake(Resource):
 
     def find(self, world: World) -> None:
         """Find who is awake and who sleeps."""
-        is_body = world.table(RigidBody).present[: world.used()]
-        asleep = world.table(Motion).arrays["asleep"][: world.used()]
-        self.rows, self.sleepers = np.nonzero(is_body & ~asleep)[0], np.nonzero(is_body & asleep)[0]
-        self.found = world.structure
+        if self.found != world.structure:
+            self.bodies = np.nonzero(world.table(RigidBody).present[: world.used()])[0]
+            self.found = world.structure
+        asleep = world.table(Motion).arrays["asleep"][self.bodies]
+        self.rows, self.sleepers = self.bodies[~asleep], self.bodies[asleep]
 
     def now(self, world: World) -> Integers:
         """Return the rows of bodies that do not sleep, also before the first step and right after commands."""

@@ -30,7 +30,8 @@ def begin_step(world: World, dt: float) -> None:
     progress = world[Progress]
     progress.substep = 0
     for kind in EVENTS:
-        world.resize(kind, 0)
+        if world[kind].count:
+            world.resize(kind, 0)
 
 
 @system(reads=(Settings,), writes=(Progress,))

@@ -10,12 +10,17 @@ from carom.systems.constants import SMALL_ANGLE
 from carom.systems.kernels.accounting import KEPT, keep_arc, note_arc
 from carom.systems.kernels.bodies import advance_body
 from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.lanes import WIDTH, address, choose, load, root, some, spread, store, whole
+from carom.systems.kernels.lane_columns import (
+    give_four,
+    give_one,
+    give_three,
+    in_a_row,
+    take_four,
+    take_one,
+    take_three,
+)
+from carom.systems.kernels.lanes import WIDTH, choose, root, some, spread, whole
 from carom.systems.kernels.spatial import product, quarter, series, turn, turned_by
-
-# Rows of the scratch, a lane each body: the time to go, and what moves in it; then what stays.
-TIME, CENTER, LINEAR, ANGULAR, TURNED, ROTATION = 0, 1, 4, 7, 10, 13
-ACCELERATION, ANGULAR_ACCELERATION, PRINCIPAL, INERTIA, ROWS = 17, 20, 23, 27, 30
 
 
 @kernel("center", "rotation", "turned", "linear", "angular", "time", "arc", makes_arrays=True)
@@ -25,98 +30,80 @@ def advance_bodies(
 ):  # fmt: skip
     """Bring all bodies that are not there yet along their arcs to ``now``.
 
-    Those that are kinematic or have locked rotations go one by one. An ``arc`` of more than no rows is accounted for.
+    Eight go side by side, unless one of them is there, is kinematic or has locked rotations. An ``arc`` of more than no
+    rows is accounted for.
     """
-    scratch, row, kept = np.zeros((ROWS, WIDTH)), np.empty(WIDTH, np.int64), np.empty((WIDTH, KEPT))
-    for lane in range(WIDTH):  # what has no body is one that stands still
-        scratch[ROTATION + 3, lane] = scratch[PRINCIPAL + 3, lane] = 1.0
-    lanes = address(scratch)
-    filled = 0
-    for number, i in enumerate(rows):
-        if time[i] < now:
-            if inverse_mass[i] == 0.0 or freedom[i, 3] + freedom[i, 4] + freedom[i, 5] < 3.0:
-                t = now - time[i]
-                if len(arc):
-                    keep_arc(i, filled, kept, center, linear, angular, rotation)
-                advance_body(
-                    i, now, bend, center, rotation, turned, linear, angular, time, acceleration,
-                    angular_acceleration, inverse_mass, inertia, principal_axes, freedom,
+    kept, took = np.empty((WIDTH, KEPT)), np.empty(WIDTH)
+    one, three, four = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4))
+    for n in range(0, len(rows), WIDTH):
+        alike = True
+        for lane, i in enumerate(rows[n : n + WIDTH]):
+            took[lane] = now - time[i]
+            free = freedom[i, 3] + freedom[i, 4] + freedom[i, 5] == 3.0
+            alike &= free and inverse_mass[i] != 0.0 and time[i] < now
+            if len(arc):
+                keep_arc(i, lane, kept, center, linear, angular, rotation)
+        if alike:
+            advance_eight(
+                n, now, bend, in_a_row(rows, n), one, three, four, rows, center, rotation, turned, linear, angular,
+                time, acceleration, angular_acceleration, inertia, principal_axes,
+            )  # fmt: skip
+        else:
+            for i in rows[n : n + WIDTH]:
+                if time[i] < now:
+                    advance_body(
+                        i, now, bend, center, rotation, turned, linear, angular, time, acceleration,
+                        angular_acceleration, inverse_mass, inertia, principal_axes, freedom,
+                    )  # fmt: skip
+        for lane, i in enumerate(rows[n : n + WIDTH] if len(arc) else rows[:0]):
+            if took[lane] > 0.0:
+                note_arc(
+                    i, lane, took[lane], bend, kept, center, rotation, linear, angular, acceleration,
+                    angular_acceleration, inverse_mass, inertia, principal_axes, pull, arc,
                 )  # fmt: skip
-                if len(arc):
-                    note_arc(
-                        i, filled, t, bend, kept, center, rotation, linear, angular, acceleration,
-                        angular_acceleration, inverse_mass, inertia, principal_axes, pull, arc,
-                    )  # fmt: skip
-            else:
-                if len(arc):
-                    keep_arc(i, filled, kept, center, linear, angular, rotation)
-                scratch[TIME, filled] = now - time[i]
-                time[i] = now
-                for k in range(3):
-                    scratch[CENTER + k, filled], scratch[LINEAR + k, filled] = center[i, k], linear[i, k]
-                    scratch[ANGULAR + k, filled], scratch[TURNED + k, filled] = angular[i, k], turned[i, k]
-                    scratch[ACCELERATION + k, filled] = acceleration[i, k]
-                    scratch[ANGULAR_ACCELERATION + k, filled] = angular_acceleration[i, k]
-                    scratch[INERTIA + k, filled] = inertia[i, k]
-                for k in range(4):
-                    scratch[ROTATION + k, filled] = rotation[i, k]
-                    scratch[PRINCIPAL + k, filled] = principal_axes[i, k]
-                row[filled] = i
-                filled += 1
-        if filled == WIDTH or (filled and number == len(rows) - 1):
-            advance(lanes, bend)
-            for lane in range(filled):
-                j = row[lane]
-                for k in range(3):
-                    center[j, k], linear[j, k] = scratch[CENTER + k, lane], scratch[LINEAR + k, lane]
-                    angular[j, k], turned[j, k] = scratch[ANGULAR + k, lane], scratch[TURNED + k, lane]
-                for k in range(4):
-                    rotation[j, k] = scratch[ROTATION + k, lane]
-                if len(arc):
-                    note_arc(
-                        j, lane, scratch[TIME, lane], bend, kept, center, rotation, linear, angular, acceleration,
-                        angular_acceleration, inverse_mass, inertia, principal_axes, pull, arc,
-                    )  # fmt: skip
-            filled = 0
 
 
 @woven
-def advance(lanes, bend):
-    """Advance the bodies in the lanes: half the turning kick, free rotation, the other half."""
-    t = load(lanes, TIME)
-    for k in range(3):
-        v, a = load(lanes, LINEAR + k), load(lanes, ACCELERATION + k)
-        w, b = load(lanes, ANGULAR + k), load(lanes, ANGULAR_ACCELERATION + k)
-        store(lanes, CENTER + k, load(lanes, CENTER + k) + (v * t + a * bend * t * t))
-        store(lanes, LINEAR + k, v + a * t)
-        w = w + b * bend * t
-        store(lanes, ANGULAR + k, w)
-        store(lanes, TURNED + k, load(lanes, TURNED + k) + w * t)
-    wx, wy, wz = load(lanes, ANGULAR), load(lanes, ANGULAR + 1), load(lanes, ANGULAR + 2)
-    ix, iy, iz = load(lanes, INERTIA), load(lanes, INERTIA + 1), load(lanes, INERTIA + 2)
-    qx, qy, qz, qw = (
-        load(lanes, ROTATION), load(lanes, ROTATION + 1), load(lanes, ROTATION + 2), load(lanes, ROTATION + 3)
-    )  # fmt: skip
+def advance_eight(
+    n, now, bend, near, one, three, four, rows, center, rotation, turned, linear, angular, time,
+    acceleration, angular_acceleration, inertia, principal_axes,
+):  # fmt: skip
+    """Advance the bodies of eight rows as `advance_body` does: half the turning kick, free rotation, the other half."""
+    t = now - take_one(time, rows, n, near, one)
+    v, a = take_three(linear, rows, n, near, three), take_three(acceleration, rows, n, near, three)
+    x, y, z = take_three(center, rows, n, near, three)
+    x, y, z = (
+        x + (v[0] * t + a[0] * bend * t * t),
+        y + (v[1] * t + a[1] * bend * t * t),
+        z + (v[2] * t + a[2] * bend * t * t),
+    )
+    give_three(center, rows, n, near, three, (x, y, z))
+    give_three(linear, rows, n, near, three, (v[0] + a[0] * t, v[1] + a[1] * t, v[2] + a[2] * t))
+    w, b = take_three(angular, rows, n, near, three), take_three(angular_acceleration, rows, n, near, three)
+    wx, wy, wz = w[0] + b[0] * bend * t, w[1] + b[1] * bend * t, w[2] + b[2] * bend * t
+    x, y, z = take_three(turned, rows, n, near, three)
+    give_three(turned, rows, n, near, three, (x + wx * t, y + wy * t, z + wz * t))
+    qx, qy, qz, qw = take_four(rotation, rows, n, near, four)
+    ix, iy, iz = take_three(inertia, rows, n, near, three)
     uneven = (ix - iy) * (ix - iy) + (iy - iz) * (iy - iz)
     uneven = choose(ix * iy * iz, uneven, spread(0.0))
     px, py, pz, pw = qx, qy, qz, qw
     if some(choose(uneven, spread(0.0), t)):
         px, py, pz, pw = spun_in_lanes(qx, qy, qz, qw, wx, wy, wz, t)
     if some(uneven):
-        ax, ay, az, aw = (
-            load(lanes, PRINCIPAL), load(lanes, PRINCIPAL + 1), load(lanes, PRINCIPAL + 2), load(lanes, PRINCIPAL + 3)
-        )  # fmt: skip
+        ax, ay, az, aw = take_four(principal_axes, rows, n, near, four)
         qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
-        one = spread(1.0)
-        ix, iy, iz = choose(uneven, ix, one), choose(uneven, iy, one), choose(uneven, iz, one)
+        unit = spread(1.0)
+        ix, iy, iz = choose(uneven, ix, unit), choose(uneven, iy, unit), choose(uneven, iz, unit)
         qx, qy, qz, qw, vx, vy, vz = turned_in_lanes(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t)
         qx, qy, qz, qw = product(qx, qy, qz, qw, -ax, -ay, -az, aw)
         px, py, pz, pw = choose(uneven, qx, px), choose(uneven, qy, py), choose(uneven, qz, pz), choose(uneven, qw, pw)
         wx, wy, wz = choose(uneven, vx, wx), choose(uneven, vy, wy), choose(uneven, vz, wz)
-    for k, q in enumerate((px, py, pz, pw)):
-        store(lanes, ROTATION + k, q)
-    for k, w in enumerate((wx, wy, wz)):
-        store(lanes, ANGULAR + k, w + load(lanes, ANGULAR_ACCELERATION + k) * (1.0 - bend) * t)
+    give_four(rotation, rows, n, near, four, (px, py, pz, pw))
+    rest = 1.0 - bend
+    w = (wx + b[0] * rest * t, wy + b[1] * rest * t, wz + b[2] * rest * t)
+    give_three(angular, rows, n, near, three, w)
+    give_one(time, rows, n, near, one, spread(now))
 
 
 @woven

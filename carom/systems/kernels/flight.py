@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
-from math import sqrt
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+import numpy as np
 
-# mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.bodies import turned_by
-from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lane_columns import (
+    give_four,
+    give_one,
+    give_three,
+    in_a_row,
+    take_four,
+    take_one,
+    take_six,
+    take_three,
+)
+from carom.systems.kernels.lanes import WIDTH, choose, larger, root, some, spread
 from carom.systems.kernels.spatial import exponential, product, turn
 
 EULER, SEMI_IMPLICIT, VERLET = 0, 1, 2
@@ -15,6 +26,7 @@ EULER, SEMI_IMPLICIT, VERLET = 0, 1, 2
 @kernel(
     "position", "rotation", "linear", "angular",
     "center", "start_center", "start_position", "start_rotation", "start_linear", "start_angular",
+    makes_arrays=True,
 )  # fmt: skip
 def predict_middle(
     rows, half, center_of_mass, freedom, last_acceleration, last_angular_acceleration,
@@ -27,68 +39,89 @@ def predict_middle(
     The middle velocity uses the acceleration of the substep before, which keeps velocity Verlet of second order also
     with forces that depend on velocity.
     """
-    for i in rows:
-        qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
-        cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
-        off_origin = cx != 0.0 or cy != 0.0 or cz != 0.0
-        offset = (0.0, 0.0, 0.0)
-        if off_origin:
-            ox, oy, oz = turn(qx, qy, qz, qw, cx, cy, cz)
-            offset = (ox, oy, oz)
-        for k in range(3):
-            if freedom[i, k] == 0.0:
-                linear[i, k] = 0.0
-            if freedom[i, 3 + k] == 0.0:
-                angular[i, k] = 0.0
-            start_position[i, k] = position[i, k]
-            start_linear[i, k] = linear[i, k]
-            start_angular[i, k] = angular[i, k]
-            center[i, k] = position[i, k] + offset[k]
-            start_center[i, k] = center[i, k]
-        for k in range(4):
-            start_rotation[i, k] = rotation[i, k]
-        if half == 0.0:
-            continue
-        # Straight on and back to length 1, which is a turn up to the third order.
-        nx, ny, nz, nw = product(
-            0.5 * half * angular[i, 0], 0.5 * half * angular[i, 1], 0.5 * half * angular[i, 2], 1.0, qx, qy, qz, qw
-        )
-        inverse = 1.0 / sqrt(nx * nx + ny * ny + nz * nz + nw * nw)
-        nx, ny, nz, nw = nx * inverse, ny * inverse, nz * inverse, nw * inverse
-        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3] = nx, ny, nz, nw
-        if off_origin:
-            ox, oy, oz = turn(nx, ny, nz, nw, cx, cy, cz)
-            offset = (ox, oy, oz)
-        for k in range(3):
-            position[i, k] = center[i, k] + half * linear[i, k] - offset[k]
-            linear[i, k] += half * last_acceleration[i, k]
-            angular[i, k] += half * last_angular_acceleration[i, k]
+    three, four, six, zero = np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6)), spread(0.0)
+    for n in range(0, len(rows), WIDTH):
+        near = in_a_row(rows, n)
+        q, c = take_four(rotation, rows, n, near, four), take_three(center_of_mass, rows, n, near, three)
+        free = take_six(freedom, rows, n, near, six)
+        v, w = take_three(linear, rows, n, near, three), take_three(angular, rows, n, near, three)
+        v = (choose(free[0], v[0], zero), choose(free[1], v[1], zero), choose(free[2], v[2], zero))
+        w = (choose(free[3], w[0], zero), choose(free[4], w[1], zero), choose(free[5], w[2], zero))
+        x, y, z = take_three(position, rows, n, near, three)
+        give_three(start_position, rows, n, near, three, (x, y, z))
+        give_four(start_rotation, rows, n, near, four, q)
+        give_three(start_linear, rows, n, near, three, v)
+        give_three(start_angular, rows, n, near, three, w)
+        ox, oy, oz = offset_of(q, c)
+        x, y, z = x + ox, y + oy, z + oz
+        give_three(center, rows, n, near, three, (x, y, z))
+        give_three(start_center, rows, n, near, three, (x, y, z))
+        if half != 0.0:
+            # Straight on and back to length 1, which is a turn up to the third order.
+            by = 0.5 * half
+            nx, ny, nz, nw = product(by * w[0], by * w[1], by * w[2], 1.0, q[0], q[1], q[2], q[3])
+            inverse = 1.0 / root(nx * nx + ny * ny + nz * nz + nw * nw)
+            q = (nx * inverse, ny * inverse, nz * inverse, nw * inverse)
+            give_four(rotation, rows, n, near, four, q)
+            ox, oy, oz = offset_of(q, c)
+            x, y, z = x + half * v[0] - ox, y + half * v[1] - oy, z + half * v[2] - oz
+            give_three(position, rows, n, near, three, (x, y, z))
+            a = take_three(last_acceleration, rows, n, near, three)
+            b = take_three(last_angular_acceleration, rows, n, near, three)
+            v = (v[0] + half * a[0], v[1] + half * a[1], v[2] + half * a[2])
+            w = (w[0] + half * b[0], w[1] + half * b[1], w[2] + half * b[2])
+        give_three(linear, rows, n, near, three, v)
+        give_three(angular, rows, n, near, three, w)
 
 
-@kernel("position", "rotation", "linear", "angular", "felt", "angular_acceleration", "time", "turned", "touching")
+@woven
+def offset_of(q, center_of_mass):
+    """Return where centres of mass are from the origins of eight bodies turned to q, in the world frame."""
+    x, y, z = center_of_mass
+    zero = spread(0.0)
+    off = larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z))
+    if not some(off):
+        return zero, zero, zero
+    x, y, z = turn(q[0], q[1], q[2], q[3], x, y, z)
+    return choose(off, x, zero), choose(off, y, zero), choose(off, z, zero)
+
+
+@kernel(
+    "position", "rotation", "linear", "angular", "felt", "angular_acceleration", "time", "turned", "touching",
+    makes_arrays=True,
+)  # fmt: skip
 def accelerate(
     rows, inverse_mass, inverse_inertia, principal_axes, freedom, force, torque, external_force, external_torque,
     start_position, start_rotation, start_linear, start_angular,
     position, rotation, linear, angular, felt, angular_acceleration, time, turned, touching,
 ):  # fmt: skip
     """Turn forces into accelerations at the middle of the substep and bring the bodies back to its start."""
-    for i in rows:
-        x, y, z = torque[i, 0], torque[i, 1], torque[i, 2]
-        x, y, z = x + external_torque[i, 0], y + external_torque[i, 1], z + external_torque[i, 2]
-        ax, ay, az = 0.0, 0.0, 0.0
-        if x != 0.0 or y != 0.0 or z != 0.0:
-            ax, ay, az = turned_by(i, x, y, z, inverse_inertia, principal_axes, freedom, rotation)
-        angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2] = ax, ay, az
-        for k in range(3):
-            felt[i, k] = (force[i, k] + external_force[i, k]) * inverse_mass[i] * freedom[i, k]
-            position[i, k] = start_position[i, k]
-            linear[i, k] = start_linear[i, k]
-            angular[i, k] = start_angular[i, k]
-            turned[i, k] = 0.0
-        for k in range(4):
-            rotation[i, k] = start_rotation[i, k]
-        time[i] = 0.0
-        touching[i] = False
+    one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
+    zero = spread(0.0)
+    for n in range(0, len(rows), WIDTH):
+        near = in_a_row(rows, n)
+        x, y, z = take_three(torque, rows, n, near, three)
+        ex, ey, ez = take_three(external_torque, rows, n, near, three)
+        x, y, z = x + ex, y + ey, z + ez
+        give_three(angular_acceleration, rows, n, near, three, (x, y, z))
+        if some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z))):
+            for i in rows[n : n + WIDTH]:
+                ax, ay, az = angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2]
+                if ax != 0.0 or ay != 0.0 or az != 0.0:
+                    ax, ay, az = turned_by(i, ax, ay, az, inverse_inertia, principal_axes, freedom, rotation)
+                angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2] = ax, ay, az
+        f, e = take_three(force, rows, n, near, three), take_three(external_force, rows, n, near, three)
+        m, free = take_one(inverse_mass, rows, n, near, one), take_six(freedom, rows, n, near, six)
+        x, y, z = (f[0] + e[0]) * m * free[0], (f[1] + e[1]) * m * free[1], (f[2] + e[2]) * m * free[2]
+        give_three(felt, rows, n, near, three, (x, y, z))
+        give_three(position, rows, n, near, three, take_three(start_position, rows, n, near, three))
+        give_four(rotation, rows, n, near, four, take_four(start_rotation, rows, n, near, four))
+        give_three(linear, rows, n, near, three, take_three(start_linear, rows, n, near, three))
+        give_three(angular, rows, n, near, three, take_three(start_angular, rows, n, near, three))
+        give_three(turned, rows, n, near, three, (zero, zero, zero))
+        give_one(time, rows, n, near, one, zero)
+        for i in rows[n : n + WIDTH]:
+            touching[i] = False
 
 
 @kernel(

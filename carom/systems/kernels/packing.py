@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+import numpy as np
+
 from carom.systems.kernels.freedom import held_inverse
-from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.lane_columns import in_a_row, take_four, take_one, take_six, take_three
 from carom.systems.kernels.lane_widths import BLOCK, BLOCKS
-from carom.systems.kernels.spatial import product
+from carom.systems.kernels.lanes import WIDTH, address, choose, larger, scatter, some, spread
+from carom.systems.kernels.spatial import product, turn
 
 # The blocks of a body's row. Velocity, and the way since contacts were measured: linear (3), a gap, angular (3), a gap;
 # before it sets out, where its centre is (3).
@@ -19,7 +23,7 @@ BODY_WIDTH, ANGULAR = BLOCKS * BLOCK, 4
 AT_WAY, AT_INVERSE, AT_MASS = WAY * BLOCK, INVERSE * BLOCK, MASS_AND_FELT * BLOCK
 
 
-@kernel("bodies")
+@kernel("bodies", makes_arrays=True)
 def pack_bodies(
     rows, center, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom, rotation, bodies
 ):
@@ -27,23 +31,60 @@ def pack_bodies(
     for k in range(BODY_WIDTH):
         bodies[-1, k] = 0.0
     bodies[-1, AT_WAY + BLOCK - 1] = 1.0
-    for i in rows:
-        ix, iy, iz = inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2]
-        qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
-        if ix != iy or iy != iz:  # else they do not count
-            ax, ay, az, aw = principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3]
-            qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
-        inverse = held_inverse(qx, qy, qz, qw, ix, iy, iz, freedom[i, 3], freedom[i, 4], freedom[i, 5])
-        for k, value in enumerate(inverse):
-            bodies[i, AT_INVERSE + k] = value
-        bodies[i, AT_INVERSE + 6] = max(ix, iy, iz)
-        bodies[i, AT_MASS + 6] = inverse_mass[i]
-        for k in range(3):
-            bodies[i, VELOCITY + k], bodies[i, VELOCITY + ANGULAR + k] = linear[i, k], angular[i, k]
-            bodies[i, AT_WAY + k] = center[i, k]
-            bodies[i, AT_MASS + k], bodies[i, AT_MASS + 3 + k] = inverse_mass[i] * freedom[i, k], felt[i, k]
-        for k in range(4):
-            bodies[i, AT_WAY + ANGULAR + k] = rotation[i, k]
+    index, packed, zero = np.empty((1, WIDTH), np.int64), address(bodies), spread(0.0)
+    one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
+    for n in range(0, len(rows), WIDTH):
+        near = in_a_row(rows, n)
+        for lane in range(WIDTH):  # the last again where there are fewer, as `take_one` reads them
+            index[0, lane] = rows[min(n + lane, len(rows) - 1)]
+        v, w = take_three(linear, rows, n, near, three), take_three(angular, rows, n, near, three)
+        scatter(packed, address(index), 0, VELOCITY, (v[0], v[1], v[2], zero, w[0], w[1], w[2], zero))
+        c, q = take_three(center, rows, n, near, three), take_four(rotation, rows, n, near, four)
+        scatter(packed, address(index), 0, POSE, (c[0], c[1], c[2], zero, q[0], q[1], q[2], q[3]))
+        m, free = take_one(inverse_mass, rows, n, near, one), take_six(freedom, rows, n, near, six)
+        f = take_three(felt, rows, n, near, three)
+        masses = (m * free[0], m * free[1], m * free[2], f[0], f[1], f[2], m, zero)
+        scatter(packed, address(index), 0, MASS_AND_FELT, masses)
+        ix, iy, iz = take_three(inverse_inertia, rows, n, near, three)
+        uneven = larger(larger(ix - iy, iy - ix), larger(iy - iz, iz - iy))
+        inverse = (ix * free[3], zero, zero, ix * free[4], zero, ix * free[5])
+        if some(uneven):
+            a = take_four(principal, rows, n, near, four)
+            inverse = inverse_of(q, a, ix, iy, iz, uneven, inverse)
+        xx, xy, xz, yy, yz, zz = inverse
+        scatter(packed, address(index), 0, INVERSE, (xx, xy, xz, yy, yz, zz, larger(larger(ix, iy), iz), zero))
+        if some(choose(uneven, 3.0 - (free[3] + free[4] + free[5]), zero)):
+            for i in index[0]:
+                pack_held(i, inverse_inertia, principal, freedom, rotation, bodies)
+
+
+@woven
+def inverse_of(q, axes, ix, iy, iz, uneven, even):
+    """Return the inverse inertia of eight bodies turned to q in the world, as `held_inverse`, where it is not even."""
+    qx, qy, qz, qw = product(q[0], q[1], q[2], q[3], axes[0], axes[1], axes[2], axes[3])
+    x, y, z = turn(-qx, -qy, -qz, qw, 1.0, 0.0, 0.0)
+    xx, xy, xz = turn(qx, qy, qz, qw, ix * x, iy * y, iz * z)
+    x, y, z = turn(-qx, -qy, -qz, qw, 0.0, 1.0, 0.0)
+    _, yy, yz = turn(qx, qy, qz, qw, ix * x, iy * y, iz * z)
+    x, y, z = turn(-qx, -qy, -qz, qw, 0.0, 0.0, 1.0)
+    _, _, zz = turn(qx, qy, qz, qw, ix * x, iy * y, iz * z)
+    return (
+        choose(uneven, xx, even[0]), choose(uneven, xy, even[1]), choose(uneven, xz, even[2]),
+        choose(uneven, yy, even[3]), choose(uneven, yz, even[4]), choose(uneven, zz, even[5]),
+    )  # fmt: skip
+
+
+@inlined
+def pack_held(i, inverse_inertia, principal, freedom, rotation, bodies):
+    """Write the inverse inertia of a body with locked axes of rotation."""
+    qx, qy, qz, qw = product(
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
+        principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
+    )  # fmt: skip
+    ix, iy, iz = inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2]
+    inverse = held_inverse(qx, qy, qz, qw, ix, iy, iz, freedom[i, 3], freedom[i, 4], freedom[i, 5])
+    for k, value in enumerate(inverse):
+        bodies[i, AT_INVERSE + k] = value
 
 
 @kernel("bodies")

@@ -8,7 +8,6 @@ from math import sqrt
 from carom.systems.constants import ROOT_GAP
 from carom.systems.kernels.kernel import kernel, woven
 
-
 WELL_WITHIN = 3.001  # a little more than 3, whatever rounding does
 
 

@@ -1,0 +1,161 @@
+"""Columns in lanes: eight rows of a column of one, three, four or six numbers at once, a lane each number."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call,attr-defined"
+import numba
+import numpy as np
+
+from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lanes import WIDTH, address
+
+if numba.config.DISABLE_JIT:
+
+    def _loading(width):
+        def load_rows(column, first):
+            return tuple(np.reshape(column, (-1, width))[first : first + WIDTH].T.copy())
+
+        return load_rows
+
+    def _storing(width):
+        def store_rows(column, first, lanes):
+            np.reshape(column, (-1, width))[first : first + WIDTH] = np.array(lanes).T
+
+        return store_rows
+
+else:
+    from llvmlite import ir
+    from numba.core import cgutils, types
+    from numba.extending import intrinsic
+
+    from carom.systems.kernels.lanes_compiled import INTEGER, LANE, VECTOR, WHOLE, _place
+
+    def _picked(builder, vectors, wanted):
+        """Return a vector of numbers, each ``wanted`` as which of the vectors it is in and where there."""
+        found = vectors[0]
+        for number, vector in enumerate(vectors):
+            mask = [WIDTH + at if of == number else lane for lane, (of, at) in enumerate(wanted)]
+            order = ir.Constant(ir.VectorType(INTEGER, WIDTH), mask)
+            found = builder.shuffle_vector(found, vector, order)
+        return found
+
+    def _places(builder, width, column, first):
+        begin = builder.mul(first, WHOLE(width))
+        return [_place(builder, column, builder.add(begin, WHOLE(WIDTH * part)), VECTOR) for part in range(width)]
+
+    def _loading(width):
+        @intrinsic
+        def load_rows(typing, column, first):
+            def lower(context, builder, sig, values):
+                vectors = [builder.load(place, align=8) for place in _places(builder, width, *values)]
+                at = [[divmod(width * lane + k, WIDTH) for lane in range(WIDTH)] for k in range(width)]
+                return context.make_tuple(builder, sig.return_type, [_picked(builder, vectors, w) for w in at])
+
+            return types.UniTuple(LANE, width)(types.int64, types.int64), lower
+
+        return load_rows
+
+    def _storing(width):
+        @intrinsic
+        def store_rows(typing, column, first, lanes):
+            def lower(context, builder, sig, values):
+                vectors = cgutils.unpack_tuple(builder, values[2], width)
+                for part, place in enumerate(_places(builder, width, *values[:2])):
+                    at = [divmod(WIDTH * part + lane, width) for lane in range(WIDTH)]
+                    builder.store(_picked(builder, vectors, [(k, row) for row, k in at]), place, align=8)
+                return context.get_dummy_value()
+
+            return types.void(types.int64, types.int64, types.UniTuple(LANE, width)), lower
+
+        return store_rows
+
+
+load_one, load_three, load_four, load_six = _loading(1), _loading(3), _loading(4), _loading(6)
+store_one, store_three, store_four = _storing(1), _storing(3), _storing(4)
+
+
+@woven
+def in_a_row(rows, n):
+    """Tell whether the eight rows from the n-th on are next to each other."""
+    return n + WIDTH <= len(rows) and rows[n + WIDTH - 1] - rows[n] == WIDTH - 1
+
+
+@woven
+def take_one(column, rows, n, side_by_side, room):
+    """Return the numbers of the eight rows from the n-th on, the last again where there are fewer.
+
+    Those that are not ``side_by_side`` are copied into the ``room`` of eight rows before.
+    """
+    if side_by_side:
+        return load_one(address(column), rows[n])[0]
+    for lane in range(WIDTH):
+        room[lane] = column[rows[min(n + lane, len(rows) - 1)]]
+    return load_one(address(room), 0)[0]
+
+
+@woven
+def take_three(column, rows, n, side_by_side, room):
+    """Return the three numbers of each row as `take_one` does."""
+    if side_by_side:
+        return load_three(address(column), rows[n])
+    for lane in range(WIDTH):
+        for k in range(3):
+            room[lane, k] = column[rows[min(n + lane, len(rows) - 1)], k]
+    return load_three(address(room), 0)
+
+
+@woven
+def take_four(column, rows, n, side_by_side, room):
+    """Return the four numbers of each row as `take_one` does."""
+    if side_by_side:
+        return load_four(address(column), rows[n])
+    for lane in range(WIDTH):
+        for k in range(4):
+            room[lane, k] = column[rows[min(n + lane, len(rows) - 1)], k]
+    return load_four(address(room), 0)
+
+
+@woven
+def take_six(column, rows, n, side_by_side, room):
+    """Return the six numbers of each row as `take_one` does."""
+    if side_by_side:
+        return load_six(address(column), rows[n])
+    for lane in range(WIDTH):
+        for k in range(6):
+            room[lane, k] = column[rows[min(n + lane, len(rows) - 1)], k]
+    return load_six(address(room), 0)
+
+
+@woven
+def give_one(column, rows, n, side_by_side, room, lane):
+    """Write what `take_one` returns."""
+    if side_by_side:
+        store_one(address(column), rows[n], (lane,))
+        return
+    store_one(address(room), 0, (lane,))
+    for row in range(n, min(n + WIDTH, len(rows))):
+        column[rows[row]] = room[row - n]
+
+
+@woven
+def give_three(column, rows, n, side_by_side, room, lanes):
+    """Write what `take_three` returns."""
+    if side_by_side:
+        store_three(address(column), rows[n], lanes)
+        return
+    store_three(address(room), 0, lanes)
+    for row in range(n, min(n + WIDTH, len(rows))):
+        for k in range(3):
+            column[rows[row], k] = room[row - n, k]
+
+
+@woven
+def give_four(column, rows, n, side_by_side, room, lanes):
+    """Write what `take_four` returns."""
+    if side_by_side:
+        store_four(address(column), rows[n], lanes)
+        return
+    store_four(address(room), 0, lanes)
+    for row in range(n, min(n + WIDTH, len(rows))):
+        for k in range(4):
+            column[rows[row], k] = room[row - n, k]
