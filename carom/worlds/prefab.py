@@ -69,7 +69,10 @@ class Prefabs:
 
     def _refuse_unknown(self, path: Path, stated: Any, chain: list[Path]) -> None:
         """Report parameters that an entity states and no prefab of it declares."""
-        declared = [name for _, base in chain for name in self.prefabs[str(base)].get("parameters") or ()]
+        said = [self.prefabs[str(base)].get("parameters") or {} for _, base in chain]
+        if not all(isinstance(parameters, dict) for parameters in said):
+            return  # told of the prefab itself
+        declared = [name for parameters in said for name in parameters]
         for name in stated if isinstance(stated, dict) else ():
             try:
                 known("parameter", name, declared)

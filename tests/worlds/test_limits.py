@@ -176,3 +176,12 @@ def test_jitter_is_a_distance() -> None:
         "w.yaml:2:25: entities.0.transform.jitter: must be at least 0 m; received -1",
         "w.yaml:2:64: entities.1.transform.jitter.1: must be at most 1e+100 m; received 1e+200",
     ]
+
+
+def test_parameters_that_are_none_are_told_of_the_prefab() -> None:
+    """And nothing of who states some to it."""
+    with pytest.raises(WorldError) as caught:
+        load_text("carom: 1\nprefabs: {a: {parameters: 3.5}}\nentities: [{prefab: a, parameters: {x: 1}}]\n", "w.yaml")
+    assert str(caught.value) == (
+        "w.yaml:2:15: prefabs.a.parameters: must be a mapping; received 3.5; accepted: keys with values"
+    )
