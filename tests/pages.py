@@ -8,6 +8,7 @@ import os
 import re
 import shlex
 import subprocess
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -95,7 +96,9 @@ def run_here(command: str) -> tuple[int, str]:
     """Run a command of carom in this process, any other by a shell; return its exit status and what it prints."""
     words = shlex.split(command)
     if words[0] != "carom":
-        return run_by_shell(command, Path.cwd(), dict(os.environ))
+        kept = {key: value for key, value in os.environ.items() if key != "PYTEST_XDIST_WORKER"}
+        paths = os.pathsep.join([str(Path(sys.executable).parent), kept["PATH"]])
+        return run_by_shell(command, Path.cwd(), {**kept, "PATH": paths, "PYTHONPATH": str(ROOT)})
     told = io.StringIO()
     paths = [sorted(map(str, Path().glob(word))) or [word] if "*" in word and "/" in word else [word] for word in words]
     with contextlib.redirect_stdout(told), contextlib.redirect_stderr(told):

@@ -21,6 +21,16 @@ def modules() -> list[str]:
     return sorted({*stated, *(module for code in shown() for module in imported(code))})
 
 
+def parts(module: str) -> list[str]:
+    """Return the modules that a package names in ``__all__`` and that have no page of their own."""
+    path = ROOT / Path(*module.split("."), "__init__.py")
+    text = path.read_text(encoding="utf-8") if path.is_file() else ""
+    found = re.search(r"^__all__ = (\[.*?\])", text, re.MULTILINE | re.DOTALL)
+    names = [f"{module}.{name}" for name in ast.literal_eval(found[1])] if found else []
+    files = [name for name in names if (ROOT / Path(*name.split("."))).with_suffix(".py").is_file()]
+    return [name for name in files if name not in modules()]
+
+
 def dotted(path: Path) -> str:
     """Return the name of the module at a path."""
     return ".".join(path.relative_to(ROOT).with_suffix("").parts)

@@ -32,7 +32,7 @@ def rows(figures: list[dict[str, Any]]) -> str:
             value = one["wall"] if one["by"] == "wall" else one["cpu"]
             measured.setdefault((what, one["unit"]), {})[engine] = f"{value:.3g}"
     engines = list(dict.fromkeys(engine for row in measured.values() for engine in row))
-    head = ["", *(engine or "carom" for engine in engines)]
+    head = ["", *engines]
     lines = [head, ["---"] * len(head)]
     lines += [[f"{what}, {unit}", *(row.get(each, "") for each in engines)] for (what, unit), row in measured.items()]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
@@ -41,9 +41,10 @@ def rows(figures: list[dict[str, Any]]) -> str:
 def parted(name: str) -> tuple[str, str]:
     """Return what was measured and by which engine: 'pyramid_40, carom, drift' is its drift, by carom."""
     parts = name.split(", ")
-    engine = next((part for part in parts if re.match(r"(carom|rapier3d|pybullet|mujoco|esper)\b", part)), "")
+    engine = next((part for part in parts if re.match(r"(carom|rapier3d|pybullet|mujoco|esper)\b", part)), "carom")
     return " ".join(part for part in parts if part != engine).replace("_", " "), engine
 
 
 if __name__ == "__main__":
-    PAGE.write_text(renewed(PAGE.read_text(encoding="utf-8"), json.load(sys.stdin)), encoding="utf-8")
+    told, _ = json.JSONDecoder().raw_decode(sys.stdin.read())  # PyBullet prints a line of its own behind it
+    PAGE.write_text(renewed(PAGE.read_text(encoding="utf-8"), told), encoding="utf-8")

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from posixpath import normpath, relpath
 
-from api import ROOT, modules
+from api import ROOT, modules, parts
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
@@ -14,6 +14,7 @@ from reference import commands, defaults, words
 
 LINK = re.compile(r"(\]\()(?!https?:|#)([^)#\s]+)")
 MARK = re.compile(r"^<!-- generated: (\w+) -->$", re.MULTILINE)
+DEEPER = "options: {heading_level: 3}"  # of a part of a package
 LANGUAGES = {".py": "python", ".toml": "toml", ".yaml": "yaml", ".yml": "yaml", ".md": "markdown"}
 
 
@@ -36,11 +37,12 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for module in modules():
         path = f"{module.replace('.', '/')}.py"
         path = path if (ROOT / path).is_file() else path.replace(".py", "/__init__.py")
-        add(f"api/{module}.md", f"# {module}\n\n[Source](../../{path})\n\n::: {module}\n")
+        further = "".join(f"\n## {part.rpartition('.')[2]}\n\n::: {part}\n    {DEEPER}\n" for part in parts(module))
+        add(f"api/{module}.md", f"# {module}\n\n[Source](../../{path})\n\n::: {module}\n{further}")
     for path in sorted({path for file in list(files) if file.is_documentation_page() for path in linked(file)}):
         text = (ROOT / path).read_text(encoding="utf-8")
         fence = LANGUAGES.get(Path(path).suffix, "text")
-        add(f"source/{path}.md", f"# {path}\n\n~~~~{fence}\n{text}~~~~\n")
+        add(f"source/{path}.md", f"---\nsearch: {{exclude: true}}\n---\n# {path}\n\n~~~~{fence}\n{text}~~~~\n")
     return files
 
 

@@ -93,6 +93,14 @@ def test_timings_are_medians_of_wall_and_cpu() -> None:
     assert 0.0 < spent.cpu < 10.0 * spent.wall
 
 
+def test_one_body_obeys_its_laws(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ours alone, where no other engine is: what the numbers of the docs say of it holds."""
+    monkeypatch.setattr("carom.tools.bench.laws.find_spec", lambda name: None)
+    assert main(["bench", "laws"]) == 0
+    told = capsys.readouterr().out.splitlines()[1:]
+    assert len(told) == 6 and all(line.startswith("holds") and ", carom " in line for line in told)
+
+
 def test_the_benches_of_this_issue_are_there() -> None:
     """Each file of the registry is importable and has figures."""
     from importlib import import_module

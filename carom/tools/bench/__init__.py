@@ -8,6 +8,7 @@ BENCHES = {  # name on the command line: module
     "break": "break_of_pool",
     "ecs": "table",
     "detect": "detect",
+    "laws": "laws",
     "contacts": "contacts",
     "joints": "joints",
     "motion": "motion",
