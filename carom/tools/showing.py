@@ -7,10 +7,12 @@ import time
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from carom.ecs.errors import CaromError
+from carom.tools.led_page import STEADY, led_pages
 from carom.tools.recorder.stream import FRAME
 from carom.tools.recording import Recording
 from carom.tools.viewer import PATIENCE, address, answers, free_port, start_viewer, viewer_binary
@@ -23,7 +25,6 @@ if TYPE_CHECKING:
 WIDTH, HEIGHT = 1600, 900  # px, of a picture of the viewer
 COLORS = 128  # of it: the viewer has few, and the file is a third as large
 SETTLED = 1.0  # s that a viewer takes to draw what it was led to
-STEADY = 3  # looks at a viewer in a row that find it at the frame: it moves on its own until it has loaded
 
 
 @dataclass(frozen=True)
@@ -103,13 +104,17 @@ def _look(url: str, path: Path, spot: Spot) -> ViewerClient:
 
 
 class Service:
-    """A recording for browsers of this machine: the command ``words`` serves it, at the address ``page``."""
+    """A recording for browsers of this machine: the command ``words`` serves it, at the address ``page``.
 
-    def __init__(self, path: Path) -> None:
+    With a spot that page leads there, and is served by `run` alone.
+    """
+
+    def __init__(self, path: Path, spot: Spot | None = None) -> None:
         data, self._port = free_port(), free_port()
+        self._spot, self._led = spot, free_port() if spot else self._port
         ports = "--port", str(data), "--web-viewer-port", str(self._port)
         self.words = [str(viewer_binary()), str(path), "--serve-web", "--bind", "127.0.0.1", *ports]
-        self.page = f"http://127.0.0.1:{self._port}/?url={quote(address(data), safe='')}"
+        self.page = f"http://127.0.0.1:{self._led}/?url={quote(address(data), safe='')}"
 
     def run(self) -> int:
         """Serve it until that is ended, tell the page as soon as it is there, and return the exit status."""
@@ -117,6 +122,9 @@ class Service:
         try:
             while process.poll() is None and not answers("127.0.0.1", self._port):
                 time.sleep(0.05)
+            if self._spot:
+                pages = led_pages(self._led, f"http://127.0.0.1:{self._port}", self._spot.frame, self._spot.selected)
+                Thread(target=pages.serve_forever, daemon=True).start()
             print(f"open {self.page} in a browser; end with Ctrl-C", flush=True)
             return process.wait()
         finally:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import signal
 import subprocess
@@ -19,6 +20,7 @@ from carom.systems.simulation import Simulation
 from carom.tools import viewer
 from carom.tools.cameras import Camera
 from carom.tools.cli import main
+from carom.tools.led_page import script
 from carom.tools.recorder import Recorder
 from carom.tools.showing import Spot, spot_in
 
@@ -72,7 +74,9 @@ def test_what_is_not_in_a_recording_is_told(recorded: Path, capsys: pytest.Captu
         "--frame 900": f"--frame: {recorded} holds no frame 900; accepted: 0 to 140",
         "--select blu": f"{unknown} 0; received 'blu'; accepted: {names}; did you mean 'blue'?",
         "--select green --frame 130": f"{unknown} 130; received 'green'; accepted: {later}",
-        "--web --frame 3": "--web: a browser opens a recording at its start; the other options need a window",
+        "--web --screenshot x.png": (
+            "--web: serves browsers, and --screenshot writes a picture without one; leave out either"
+        ),
     }.items():
         assert main(["view", str(recorded), *words.split()]) == 2
         assert capsys.readouterr().err == f"{told}\n"
@@ -126,6 +130,16 @@ def test_a_screenshot_needs_no_display(recorded: Path, tmp_path: Path, capsys: p
     assert out.stat().st_size < 150_000
 
 
+def test_pages_ask_their_viewer_in_the_words_of_rerun() -> None:
+    """These bytes are what Rerun 0.41 itself sends for the same; and a name ends no script."""
+    asked = [b"2\x0f\x12\x07\n\x05frame\x1a\x02\x08Z(\x01", b"Z\x1b\n\x19ui.expand_selection_panel"]
+    asked.append(b'"!\n\x1drecording://world/sphere/gree\x10\x01')
+    text = script(90, "/world/sphere/gree")
+    assert all(json.dumps(one.decode("latin-1")) in text for one in asked)
+    assert json.dumps("frame\x1a\x03\x08\xac\x02").strip('"') in script(300, "")
+    assert "\\u003c/script>" in script(1, "/world/</script>") and "world/</script>" not in script(1, "/world/</script>")
+
+
 def pale_rim(picture: np.ndarray, name: str) -> float:
     """Return which part of the circle just around a ball of pure hue is nearly white."""
     channel = list(COLORS).index(name)
@@ -144,9 +158,13 @@ def pale_rim(picture: np.ndarray, name: str) -> float:
 
 
 @pytest.mark.slow
-def test_a_browser_shows_it(recorded: Path, tmp_path: Path) -> None:
-    """Rerun's web viewer, served by carom on ports of its own, draws the three balls with WebGL in a real browser."""
-    words = [sys.executable, "-m", "carom.tools.cli", "view", "--web", str(recorded)]
+@pytest.mark.parametrize("spot", [[], ["--frame", "90", "--select", "green"]])
+def test_a_browser_shows_it(spot: list[str], recorded: Path, tmp_path: Path) -> None:
+    """Rerun's web viewer, served by carom on ports of its own, draws the three balls with WebGL in a real browser.
+
+    At the start on the left; in frame 90 in the middle, with a pale line around the one that is selected.
+    """
+    words = [sys.executable, "-m", "carom.tools.cli", "view", "--web", str(recorded), *spot]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as served:
         try:
             assert served.stdout
@@ -155,12 +173,17 @@ def test_a_browser_shows_it(recorded: Path, tmp_path: Path) -> None:
             with browser(tmp_path / "profile", GRAPHICS) as page:
                 page.open(told[1])
                 deadline = time.monotonic() + viewer.PATIENCE
-                counts = [0]
-                while min(counts) < 300:
-                    assert time.monotonic() < deadline, counts
+                counts, rim = [0], 0.0
+                while min(counts) < 300 or (spot and rim < 0.5):
+                    assert time.monotonic() < deadline, (counts, rim)
                     time.sleep(0.5)
-                    counts = [hued(page.picture(), name) for name in COLORS]
+                    picture = page.picture()
+                    counts = [hued(picture, name) for name in COLORS]
+                    rim = pale_rim(picture, "green") if min(counts) >= 300 else 0.0
             assert max(counts) < 2 * min(counts), "three balls of one size"
+            columns = np.nonzero((picture[:, :400, 0] > 80) & (picture[:, :400, 1:].max(axis=2) < 30))[1]
+            from_left = columns.min() / np.ptp(columns)  # of the red ball, in its diameters
+            assert from_left == pytest.approx(2.0 if spot else 0.8, abs=0.3)
         finally:
             served.send_signal(signal.SIGINT)
     assert served.returncode == 130

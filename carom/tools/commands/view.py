@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from carom.tools.commands.options import ending, print_json, whole_number
+
+if TYPE_CHECKING:
+    from carom.tools.showing import Spot
 
 
 def declare(parser: argparse.ArgumentParser) -> None:
@@ -31,14 +35,14 @@ def execute(arguments: argparse.Namespace) -> int:
     refuse_missing(path)
     nowhere = frame is None and name is None and arguments.screenshot is None
     spot = None if nowhere else spot_in(path, frame, name)
-    if arguments.web and spot:
-        raise CaromError("--web: a browser opens a recording at its start; the other options need a window")
+    if arguments.web and arguments.screenshot:
+        raise CaromError("--web: serves browsers, and --screenshot writes a picture without one; leave out either")
     if arguments.web:
-        service = Service(path)
-        if arguments.json:
-            print_json({"command": service.words, "page": service.page})
-            return 0
-        return service.run()
+        service = Service(path, spot)
+        if not arguments.json:
+            return service.run()
+        print_json(_told(path, spot) if spot else {"command": service.words, "page": service.page})
+        return 0
     if arguments.screenshot and spot:
         prepare_outputs([arguments.screenshot])
         picture(path, spot, arguments.screenshot)
@@ -47,6 +51,11 @@ def execute(arguments: argparse.Namespace) -> int:
     if not has_display():
         raise CaromError(f"no display to open a window on; serve it instead: carom view --web {path}")
     if arguments.json:
-        print_json({"file": str(path), "frame": spot and spot.frame, "selected": spot and spot.selected})
+        print_json(_told(path, spot))
         return 0
     return show(path, spot)
+
+
+def _told(path: Path, spot: Spot | None) -> dict[str, Any]:
+    """Return for programs what would be shown."""
+    return {"file": str(path), "frame": spot and spot.frame, "selected": spot and spot.selected}
