@@ -38,7 +38,10 @@ class Awake(Resource):
             self.bodies = np.nonzero(world.table(RigidBody).present[: world.used()])[0]
             self.found = world.structure
         asleep = world.table(Motion).arrays["asleep"][self.bodies]
-        self.rows, self.sleepers = self.bodies[~asleep], self.bodies[asleep]
+        if asleep.any():
+            self.rows, self.sleepers = self.bodies[~asleep], self.bodies[asleep]
+        else:
+            self.rows, self.sleepers = self.bodies.copy(), self.bodies[:0]
 
     def now(self, world: World) -> Integers:
         """Return the rows of bodies that do not sleep, also before the first step and right after commands."""
@@ -52,7 +55,8 @@ class Awake(Resource):
             return False
         motion, rows = world[Motion], self.rows
         moving = (world[RigidBody].inverse_mass, motion.linear, motion.angular)
-        return not any(values[rows].any() for values in moving)
+        # Most often the first of them moves.
+        return not any(values[part].any() for part in (rows[:1], rows) for values in moving)
 
     def look(self, world: World) -> Changes:
         """Return what has changed since the last look."""

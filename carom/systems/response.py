@@ -124,7 +124,8 @@ def hand_impulses_over(world: World, dt: float) -> None:
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""
     contact = world[Contact]
-    contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
+    if contact.count:
+        contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
     at, events, looks, stuck = 0.0, 0, 0, 0
     while True:
         before = at, events
