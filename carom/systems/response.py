@@ -22,7 +22,8 @@ from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
-from carom.systems.kernels.impacts import DONE, FRICTION, IMPULSE, NORMAL, POINT, SPEED, TIME, WORK, fly
+from carom.systems.kernels.impact_log import write_impacts
+from carom.systems.kernels.impacts import DONE, fly
 from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.reach import may_leave_reach
 from carom.systems.kernels.settling import finish_drift
@@ -179,13 +180,12 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
     world[Answered].impacts_cut += cut
     if count:
         impact = world[Impact]
-        new, pair, log = slice(impact.count, impact.count + count), pair[:count], log[:count]
-        world.resize(Impact, new.stop)
-        impact.a[new], impact.b[new] = contact.a[pair], contact.b[pair]
-        impact.time[new], impact.speed[new] = log[:, TIME], log[:, SPEED]
-        impact.impulse[new], impact.work[new] = log[:, IMPULSE], log[:, WORK]
-        for column, at_column in ((impact.point, POINT), (impact.normal, NORMAL), (impact.friction_impulse, FRICTION)):
-            column[new] = log[:, at_column : at_column + 3]
+        first = impact.count
+        world.resize(Impact, first + count)
+        write_impacts(
+            first, pair[:count], log[:count], contact.a, contact.b, impact.a, impact.b, impact.time, impact.speed,
+            impact.impulse, impact.work, impact.point, impact.normal, impact.friction_impulse,
+        )  # fmt: skip
     return now, reason, events
 
 

@@ -58,7 +58,8 @@ def wake_disturbed(world: World, dt: float) -> None:
     changes, turned = awake.look(world), _turned(world)
     if not changes and not awake.asked and not len(turned) and awake.idle:
         return
-    awake.find(world)
+    if changes or awake.strangers:
+        awake.find(world)
     ties, joined = world[Ties], Joint in changes.edited
     if joined or changes.structure or changes.restored:
         held = ties.bodies

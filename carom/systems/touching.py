@@ -11,7 +11,7 @@ from carom.ecs.relations.hit import Hit
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
 from carom.systems.awake import Awake, stirs
-from carom.systems.kernels.touching import find_struck, renew_touching
+from carom.systems.kernels.touching import find_hits, find_struck, renew_touching
 from carom.systems.settings import Settings, time_of
 
 
@@ -69,18 +69,15 @@ def tell_hits(world: World, dt: float) -> None:
     impact = world[Impact]
     if not impact.count:
         return
-    loud = np.nonzero(impact.speed[: impact.count] >= world[Settings].hit_speed)[0]
-    if not len(loud):
-        return
-    loud = loud[np.lexsort((impact.b[loud], impact.a[loud], impact.time[loud]))]
-    world.resize(Hit, len(loud))
-    hit = world[Hit]
-    for name in Impact.columns:
-        getattr(hit, name)[: len(loud)] = getattr(impact, name)[loud]
-    parties = np.stack([hit.a[: len(loud)], hit.b[: len(loud)]])
-    living, numbers = world.slots.live(parties), np.full(parties.shape, -1)
-    numbers[living] = world[Material].number[world.slots.rows_of_living(parties[living])]
-    hit.material_a[: len(loud)], hit.material_b[: len(loud)] = numbers
+    world.resize(Hit, impact.count)
+    hit, order = world[Hit], np.empty(impact.count, np.int64)
+    count = find_hits(
+        impact.count, world[Settings].hit_speed, impact.a, impact.b, impact.time, impact.speed,
+        world.handles(), world.slots.row_shift, world[Material].number, order, hit.material_a, hit.material_b,
+    )  # fmt: skip
+    world.resize(Hit, count)
+    for name in Impact.columns if count else ():
+        getattr(hit, name)[:count] = getattr(impact, name)[order[:count]]
 
 
 def touching_rows(contact: Contact) -> Integers:

@@ -50,6 +50,42 @@ def comes_before(x, y, at, o, struck_a, struck_b, struck_at):
     return at < struck_at[o]
 
 
+@kernel("order", "material_a", "material_b")
+def find_hits(
+    count, hit_speed, a, b, time, speed, handles, row_shift, number, order, material_a, material_b
+):  # fmt: skip
+    """Write which of ``count`` impacts are as fast as a hit, in order of time, then handles, and their materials.
+
+    A material is -1 of who lives no more. Return how many they are.
+    """
+    hits = 0
+    for k in range(count):
+        if not speed[k] >= hit_speed:
+            continue
+        o = hits
+        while o > 0 and is_earlier(k, order[o - 1], a, b, time):  # seldom: they are in order of time
+            order[o] = order[o - 1]
+            o -= 1
+        order[o] = k
+        hits += 1
+    for o in range(hits):
+        x, y = a[order[o]], b[order[o]]
+        i, j = row_of(x, row_shift), row_of(y, row_shift)
+        material_a[o] = number[i] if is_at(i, x, handles) else -1
+        material_b[o] = number[j] if is_at(j, y, handles) else -1
+    return hits
+
+
+@woven
+def is_earlier(k, o, a, b, time):
+    """Tell whether impact k comes before impact o: in order of time, then handles."""
+    if time[k] != time[o]:
+        return time[k] < time[o]
+    if a[k] != a[o]:
+        return a[k] < a[o]
+    return b[k] < b[o]
+
+
 @kernel("a", "b", "since", "begins", "ends")
 def renew_touching(
     points, contact_a, contact_b, row_a, row_b, impulse, depth,
