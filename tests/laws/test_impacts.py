@@ -184,7 +184,7 @@ def test_a_tumbling_solid_gains_no_energy_by_bouncing(
         collider=solid,
         body={"mass": 1.0},
         material=material,
-        transform={"position": (0.0, 1.5, 0.0), "rotation": (0.3, 0.2, 0.5, 0.786)},
+        transform={"position": (0.0, 1.5, 0.0), "rotation": (0.3, 0.2, 0.5, 0.787400787401181)},
         motion={"angular": (1.0, 2.0, 3.0)},
     )
     simulation.step()
