@@ -68,10 +68,17 @@ def faults_of_times(frames: Sequence[Words], place: tuple[str, ...]) -> Iterator
 
 
 def stated(keyframes: Words | Sequence[Words]) -> tuple[Sequence[Words], str, tuple[str, ...]]:
-    """Return the keyframes, how they repeat, and where they are stated among the words of an entity."""
+    """Return the keyframes, how they repeat, and where they are stated among the words of an entity.
+
+    A word of None is as good as none.
+    """
+    frames: Any = keyframes
+    repeat: str = REPEATS[0]
+    place: tuple[str, ...] = ("keyframes",)
     if isinstance(keyframes, Mapping):
-        return keyframes.get("frames", ()), keyframes.get("repeat", REPEATS[0]), ("keyframes", "frames")
-    return keyframes, REPEATS[0], ("keyframes",)
+        frames, repeat = keyframes.get("frames", ()), keyframes.get("repeat", REPEATS[0])
+        place = ("keyframes", "frames")
+    return [{key: value for key, value in frame.items() if value is not None} for frame in frames], repeat, place
 
 
 def poses(frames: Sequence[Words], transform: Words) -> tuple[Floats, Floats]:

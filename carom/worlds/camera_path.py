@@ -48,9 +48,9 @@ def faults_of_camera(camera: Camera) -> Iterator[WordFault]:
     yield from untimely
     if untimely:
         return
-    looks = any(frame["target"] is not None for frame in frames)
+    looks = any("target" in frame for frame in frames)
     for name in POINTS if looks else POINTS[:1]:
-        if frames[0][name] is None:
+        if name not in frames[0]:
             yield WordFault((*place, 0, name), "is missing; the first keyframe says where the path begins")
         elif repeat == "loop" and not np.array_equal(*_points(frames, name)[[0, -1]]):
             what = f"must have the {name} of the first, for the path to begin anew there; close it, or state ping_pong"
@@ -67,7 +67,7 @@ def curves_of(camera: Camera) -> dict[str, Curve]:
     """Return the ways along which a camera is led: of its position and, where keyframes state it, of its target."""
     frames, repeat, _ = _stated(camera)
     at = np.array([frame["at"] for frame in frames])
-    led = [name for name in POINTS if frames[0][name] is not None]
+    led = [name for name in POINTS if name in frames[0]]
     return {name: Curve(at, _points(frames, name), Repeat[repeat.upper()]) for name in led}
 
 
@@ -80,6 +80,5 @@ def _points(frames: Any, name: str) -> Floats:
     """Return the points (n, 3), m, of keyframes, each as in the one before where it states none."""
     found, now = np.zeros((len(frames), 3)), (0.0, 0.0, 0.0)
     for number, frame in enumerate(frames):
-        now = now if frame[name] is None else frame[name]
-        found[number] = now
+        found[number] = now = frame.get(name, now)
     return found

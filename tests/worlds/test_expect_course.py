@@ -104,3 +104,23 @@ def test_faults_are_told_where_they_stand(expectation: str, message: str) -> Non
     with pytest.raises(WorldError) as caught:
         load_text(WORLD + expectation)
     assert message in [line.partition(": ")[2] for line in str(caught.value).split("\n")]
+
+
+def test_who_comes_later_is_told_as_such() -> None:
+    """An expectation of a spawned entity says why it has no such name, whichever word names it."""
+    events = (
+        "events: [{at: 0.5 s, spawn: {name: hail, line: {count: 2, step: [1, 0, 0]}, collider: {point: {}}}}]\nexpect:"
+    )
+    text = (
+        WORLD.replace("expect:", events)
+        + "never: 'hail[1].position.y < 0'\n  - order: [{impact: ['hail[*]', floor]}, {impact: [ball, floor]}]"
+    )
+    with pytest.raises(WorldError) as caught:
+        load_text(text)
+    why = (
+        "accepted: floor, ball, gate, stone; it comes by an event, and expectations speak of who is there at the start"
+    )
+    assert [line.partition(": ")[2] for line in str(caught.value).split("\n")] == [
+        f"expect.0.never: unknown entity; received 'hail[1]'; {why}",
+        f"expect.1.order: unknown entity; received 'hail[*]'; {why}",
+    ]

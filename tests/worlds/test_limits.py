@@ -185,3 +185,24 @@ def test_parameters_that_are_none_are_told_of_the_prefab() -> None:
     assert str(caught.value) == (
         "w.yaml:2:15: prefabs.a.parameters: must be a mapping; received 3.5; accepted: keys with values"
     )
+
+
+def test_a_keyframe_with_a_faulty_expression_is_told_of_that_alone() -> None:
+    """Its word is then as good as left out."""
+    frames = "[{at: 0 s, position: [0, 0, 0]}, {at: 1 s, rotation: '${a}'}, {at: '${b}'}]"
+    text = f"carom: 1\nentities: [{{body: {{type: kinematic}}, keyframes: {frames}}}]\n"
+    with pytest.raises(WorldError) as caught:
+        load_text(
+            f"{text}cameras: {{a: {{keyframes: {frames.replace('rotation', 'position')}, target: [9, 9, 9]}}}}\n",
+            "w.yaml",
+        )
+    told = (
+        "unknown variable; received 'a'; accepted: none is defined",
+        "unknown variable; received 'b'; accepted: none is defined",
+    )
+    assert [line.partition(": ")[2] for line in str(caught.value).split("\n")] == [
+        f"entities.0.keyframes.1.rotation: {told[0]}",
+        f"entities.0.keyframes.2.at: {told[1]}",
+        f"cameras.a.keyframes.1.position: {told[0]}",
+        f"cameras.a.keyframes.2.at: {told[1]}",
+    ]
