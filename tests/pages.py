@@ -33,7 +33,7 @@ NOT_RUN = {
     'carom run dominoes --break "domino[*].position.y < 0.1 m" --pdb': "waits at a prompt: tests/tools/test_breaks.py",
     "carom run pool.yaml --watch --live": "goes on until Ctrl-C; tests/tools/test_watching.py saves and ends it",
     "carom import room.glb --units 0.01 --meshes parts --json": "takes a scene of yours and the extra authoring",
-    "carom bench contacts --json | python .ci/site/numbers.py": "takes minutes, and times nothing in a test",
+    "carom bench contacts --json | python .ci/site/figures.py": "takes minutes, and times nothing in a test",
     "carom accept carom-report.zip": "takes the report of a failed run in CI; tests/tools/test_accept.py has one",
 }
 

@@ -1,4 +1,4 @@
-"""Renew the tables of docs/numbers.md: ``carom bench contacts --json | python .ci/site/numbers.py``.
+"""Renew the tables of docs/numbers.md: ``carom bench contacts --json | python .ci/site/figures.py``.
 
 The figures of a bench stand between two marks that name it, a line for each thing measured, a column for each engine.
 """
