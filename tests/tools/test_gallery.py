@@ -7,8 +7,9 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
-from browser import browser
+from browser import Browser, browser
 from PIL import Image
 
 from carom.tools.cli import main
@@ -44,10 +45,18 @@ def test_a_browser_shows_a_card_with_film_law_and_expectations_for_each_world(
         assert shown.value("[...document.querySelectorAll('article')].map(e => e.id)") == told["worlds"]
         assert shown.value("[...document.images].map(e => e.naturalWidth)") == [WIDTH] * 3
         assert shown.value(ELSEWHERE) == 0
+        first = film_of(shown, "orbit")
+        assert any(not np.array_equal(first, film_of(shown, "orbit")) for _ in range(1000))  # it plays
         assert "leaves with e g t" in shown.value("document.querySelector('#bounce .seen pre').textContent")
         assert shown.value("document.querySelector('#bounce .held').textContent") == "19 of 19 expectations held"
         assert shown.value("document.querySelectorAll('#bounce td.held').length") == 19
         assert shown.value("document.querySelector('#bounce details').open") is False
+
+
+def film_of(shown: Browser, world: str) -> np.ndarray:
+    """Return what the browser shows of a world's film now."""
+    left, top, width, height = (round(side) for side in shown.box(f"#{world} img"))
+    return shown.picture()[top : top + height, left : left + width]
 
 
 def test_a_world_that_does_not_hold_says_so_at_once() -> None:
@@ -86,6 +95,6 @@ def test_unknown_worlds_and_groups_are_refused_before_anything_runs(
     assert main(["gallery", "--only", "impact", "orbit"]) == 2
     assert capsys.readouterr().err == (
         "--only: no group or world of the library; received impact; accepted: the groups contact, events, flight, "
-        "gravitation, impacts, joints, particles, and worlds; did you mean 'impacts'?\n"
+        "gravitation, impacts, joints, particles, space, and worlds; did you mean 'impacts'?\n"
     )
     assert not list(tmp_path.glob("*"))

@@ -87,6 +87,7 @@ def once(
     from carom.tools.auditing import Auditing
     from carom.tools.filming import Filming, photograph, shot_of
     from carom.tools.futures import Futures
+    from carom.tools.offscreen import backend
     from carom.tools.opening import Opening
     from carom.tools.outputs import prepare_outputs
     from carom.tools.pace import Pace
@@ -99,6 +100,7 @@ def once(
     print_warnings(loaded.warnings)
     shot = shot_of(loaded, arguments.camera, look(arguments, loaded))
     if arguments.film or arguments.picture:
+        backend()  # who cannot draw is told before the run
         print_warnings(vantage_warnings(shot, loaded.simulation))
     pace = Pace(factor("--speed", arguments.speed)) if arguments.speed else None
     futures = Futures([(name, world.simulation) for name, world in worlds]) if arguments.compare else None
