@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
@@ -44,7 +45,13 @@ def main(words: Sequence[str] | None = None) -> int:
     """Run one command; return 0 when done, 1 when a check failed, 2 for wrong usage or input, 130 after Ctrl-C."""
     arguments = parser().parse_args(words)
     try:
-        return int(arguments.execute(arguments))
+        status = int(arguments.execute(arguments))
+        sys.stdout.flush()
+        return status
+    except BrokenPipeError:
+        # Who reads, as `head` does, has enough; Python would complain when it empties what is left at the end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return INTERRUPTED

@@ -41,7 +41,7 @@ FRAMES = {  # of goldens: when there is most to see
     "lens": 60,
     "line_of_sight": 600,
     "mirror_image": 180,
-    "mirror_room": 120,
+    "mirror_room": 140,
     "newtons_cradle": 480,
     "orbit": 720,
     "parachute": 390,
@@ -62,6 +62,7 @@ FRAMES = {  # of goldens: when there is most to see
     "swing_in_steps": 30,
     "trap": 420,
     "tumbling": 720,
+    "valleys": 180,
     "vapour_trail": 108,
     "whip": 240,
 }

@@ -347,6 +347,17 @@ def test_explain_schema_and_worlds_print(capsys: pytest.CaptureFixture[str]) -> 
     assert listed["pong"]["group"] == "impacts" and listed["pong"]["title"] == "Pong"
 
 
+def test_who_reads_no_further_ends_a_command_quietly() -> None:
+    """As `carom schema | head` does, which reads less than a pipe holds of all that is printed."""
+    words = [sys.executable, "-m", "carom.tools.cli", "schema"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None and process.stderr is not None
+        assert process.stdout.read(1) == b"{"
+        process.stdout.close()
+        assert process.stderr.read() == b""
+    assert process.returncode == 0
+
+
 def test_help_names_every_command_and_imports_nothing_of_weight() -> None:
     """So that it comes at once."""
     code = (
