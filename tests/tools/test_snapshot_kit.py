@@ -12,6 +12,8 @@ import pytest
 
 from carom.ecs.component import Record
 from carom.systems.simulation import Simulation
+from carom.tools import viewer
+from carom.tools.cli import main
 from carom.tools.snapshot_kit.state import StateGolden, state_fault, state_golden, this_machine
 
 pytest_plugins = "pytester"
@@ -93,8 +95,10 @@ def test_a_missing_golden_fails_with_the_command_that_accepts(pytester: pytest.P
     assert not folder.exists()
 
 
-def test_a_body_moved_by_one_percent_fails_as_physics(kit: pytest.Pytester) -> None:
-    """The state tells which entity and column; the pictures are left to look at."""
+def test_a_body_moved_by_one_percent_fails_as_physics(
+    kit: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The state tells which entity and column; the pictures are left to look at, and the command opens it there."""
     edit(kit, "MOVED, LEFT, RIGHT = 1.0", "MOVED, LEFT, RIGHT = 1.01")
     result = kit.runpytest_inprocess()
     result.assert_outcomes(failed=1)
@@ -114,6 +118,12 @@ def test_a_body_moved_by_one_percent_fails_as_physics(kit: pytest.Pytester) -> N
     case = json.loads((left(kit) / "case.json").read_text())
     assert (case["entity"], case["column"], case["frame"]) == ("left", "transform.position", 10)
     assert case["expected"].startswith("[-0.5, ") and case["actual"].startswith("[-0.505, ")
+    (command,) = [line.partition(": carom ")[2] for line in result.outlines if line.startswith("  open it with")]
+    monkeypatch.setattr(viewer, "has_display", lambda: True)
+    capsys.readouterr()
+    assert main([*command.split(), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told == {"file": f"{shown(kit)}/recording.rrd", "frame": 10, "selected": "/world/sphere/left"}
 
 
 def test_swapped_colours_fail_as_rendering(kit: pytest.Pytester) -> None:
