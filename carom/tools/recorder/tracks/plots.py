@@ -14,7 +14,7 @@ from carom.tools.recorder.track import Track
 
 ENERGY, OVERLAP, COUNTS = "plots/energy", "plots/overlap", "plots/counts"
 PATHS = {ENERGY: QUANTITIES["energy"], OVERLAP: QUANTITIES["overlap"], COUNTS: QUANTITIES["counts"]}
-COLORS = {
+COLORS = {  # of all curves, in the order in which their numbers are read
     f"{ENERGY}/kinetic": (255, 170, 60),
     f"{ENERGY}/potential": (90, 160, 255),
     f"{ENERGY}/total": (240, 240, 240),
@@ -30,7 +30,7 @@ class Plots(Track):
     key: ClassVar[str] = "plots"
 
     def __init__(self) -> None:
-        self._pending: list[tuple[Stamp, dict[str, float]]] = []
+        self._pending: list[tuple[Stamp, tuple[float, ...]]] = []
 
     def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:
         """Write the colours of the curves."""
@@ -47,9 +47,8 @@ class Plots(Track):
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
         """Keep the numbers of this frame."""
-        world = simulation.world
-        values = {f"{path}/{name}": value for path in PATHS for name, value in PATHS[path].read(world).items()}
-        self._pending.append((stamp, values))
+        read = [quantity.read(simulation.world) for quantity in PATHS.values()]
+        self._pending.append((stamp, tuple(value for values in read for value in values.values())))
 
     def write(self, stream: Stream) -> None:
         """Write the kept numbers, one block per curve."""
@@ -57,7 +56,7 @@ class Plots(Track):
 
         if not self._pending:
             return
-        stamps = [stamp for stamp, _ in self._pending]
-        for path in COLORS:
-            stream.rows(path, stamps, rerun.Scalars.columns(scalars=[values[path] for _, values in self._pending]))
+        stamps, values = zip(*self._pending, strict=True)
+        for path, curve in zip(COLORS, zip(*values, strict=True), strict=True):
+            stream.rows(path, stamps, rerun.Scalars.columns(scalars=curve))
         self._pending = []
