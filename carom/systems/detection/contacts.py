@@ -21,9 +21,10 @@ from carom.systems.detection.narrow import Found
 from carom.systems.detection.recycling import measure_what_moved
 from carom.systems.detection.seams import without_seams
 from carom.systems.detection.sensors import Sensing, without_sensors
-from carom.systems.kernels.contacts import complete_contacts, renew_contacts
+from carom.systems.kernels.contacts import complete_contacts
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.recycling import seat_contacts
+from carom.systems.kernels.renewal import renew_contacts
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries

@@ -1,0 +1,119 @@
+"""Renewal: contacts found take the places of those before, and keep what they held."""
+
+from __future__ import annotations
+
+import numpy as np
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import SAME_POINT
+from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.recycling import first_of_pair, smaller_reach
+
+
+@woven
+def are_the_same(c, end, o, until, found_feature, feature):
+    """Tell whether a pair has the points that it had, each once."""
+    same = until - o == end - c
+    for k in range(end - c if same else 0):
+        same &= feature[o + k] == found_feature[c + k] and (k == 0 or feature[o + k] > feature[o + k - 1])
+    return same
+
+
+@inlined
+def match_points(begin, end, o, until, near, feature, point, found_feature, found_point, match, taken):
+    """Write which contact, o to ``until``, each of a pair found is: that of its feature, else the nearest left over."""
+    for new in range(begin, end):
+        for old in range(o, until):
+            if feature[old] == found_feature[new]:
+                match[new], taken[old] = old, True
+    for new in range(begin, end):
+        nearest = near**2
+        for old in range(o, until if match[new] < 0 else o):
+            away = 0.0
+            for k in range(3):
+                away += (point[old, k] - found_point[new, k]) ** 2
+            if not taken[old] and away < nearest:
+                match[new], nearest = old, away
+        if match[new] >= 0:
+            taken[match[new]] = True
+
+
+@kernel(
+    "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
+    "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
+    "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form",
+    makes_arrays=True,
+)  # fmt: skip
+def renew_contacts(
+    old_count, handles, row_shift, bound_half, bound_radius,
+    found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, recycled,
+    a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
+    warm_normal, warm_friction, warm_rolling, impulse, friction_impulse, strikes, plastic,
+    seat_a, seat_b, lean_a, lean_b, seat_depth, form,
+):  # fmt: skip
+    """Replace the contacts by those found, keeping what a contact of the same colliders and feature held.
+
+    Both lists are sorted by rows and feature, so that one pass matches them. Where corners and edges change places
+    under bodies that hardly move, a point of another feature within SAME_POINT takes over what the old one held. Where
+    on the two shapes they were found goes with those recycled only: others are `seat_contacts` to say.
+    """
+    count = len(found_a)
+    match, taken = np.full(count, -1), np.zeros(old_count, np.bool_)
+    o, c = 0, 0
+    while c < count:
+        x, y = found_a[c], found_b[c]
+        end = c + 1
+        while end < count and found_a[end] == x and found_b[end] == y:
+            end += 1
+        o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
+        until = o
+        while until < old_count and a[until] == handles[x] and b[until] == handles[y]:
+            until += 1
+        if are_the_same(c, end, o, until, found_feature, feature):
+            for k in range(end - c):
+                match[c + k] = o + k
+        else:
+            match_points(
+                c, end, o, until, SAME_POINT * smaller_reach(x, y, bound_half, bound_radius),
+                feature, point, found_feature, found_point, match, taken,
+            )  # fmt: skip
+        o, c = until, end
+    # Rows that stay where they are keep what they hold; what others held is put aside before it is written over.
+    moves = np.empty(count, np.int64)
+    moving = 0
+    for c in range(count):
+        if match[c] != c:
+            moves[moving] = c
+            moving += 1
+    kept, counted = np.zeros((moving, 25)), np.zeros((moving, 3), np.int64)
+    for m in range(moving):
+        o = match[moves[m]]
+        if o >= 0:
+            counted[m, 0], counted[m, 1], counted[m, 2] = resting[o], strikes[o], plastic[o]
+            kept[m, 0], kept[m, 7] = warm_normal[o], impulse[o]
+            for k in range(3):
+                kept[m, 1 + k], kept[m, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
+                kept[m, 8 + k] = friction_impulse[o, k]
+            if recycled[moves[m]]:
+                kept[m, 11], kept[m, 12] = seat_depth[o], form[o]
+                for k in range(3):
+                    kept[m, 13 + k], kept[m, 16 + k] = seat_a[o, k], seat_b[o, k]
+                    kept[m, 19 + k], kept[m, 22 + k] = lean_a[o, k], lean_b[o, k]
+    for m in range(moving):
+        c = moves[m]
+        a[c], b[c] = handles[found_a[c]], handles[found_b[c]]
+        resting[c], strikes[c], plastic[c] = counted[m, 0] != 0, counted[m, 1], counted[m, 2]
+        warm_normal[c], impulse[c] = kept[m, 0], kept[m, 7]
+        for k in range(3):
+            warm_friction[c, k], warm_rolling[c, k] = kept[m, 1 + k], kept[m, 4 + k]
+            friction_impulse[c, k] = kept[m, 8 + k]
+        if recycled[c]:
+            seat_depth[c], form[c] = kept[m, 11], kept[m, 12]
+            for k in range(3):
+                seat_a[c, k], seat_b[c, k] = kept[m, 13 + k], kept[m, 16 + k]
+                lean_a[c, k], lean_b[c, k] = kept[m, 19 + k], kept[m, 22 + k]
+    for c in range(count):
+        row_a[c], row_b[c], feature[c], by_fcl[c] = found_a[c], found_b[c], found_feature[c], found_by_fcl[c]
+        depth[c] = found_depth[c]
+        for k in range(3):
+            normal[c, k], point[c, k] = found_normal[c, k], found_point[c, k]
