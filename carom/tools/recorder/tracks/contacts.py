@@ -40,6 +40,7 @@ class Contacts(RowTrack):
     def __init__(self) -> None:
         super().__init__()
         self._structure = -1
+        self._nothing: Columns = {}
         self._unseen = np.zeros(0, np.int64)
 
     def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:
@@ -71,9 +72,14 @@ class Contacts(RowTrack):
                 pose.position, pose.rotation, world[RigidBody].center_of_mass, motion.linear, motion.angular,
                 sides, numbers, vectors, speeds,
             )  # fmt: skip
+        if not found and self._nothing:
+            return self._nothing  # the same in all such frames, of which many may wait to be written
         columns = *sides, *numbers, *vectors, speeds
         names = "a", "b", "depth", "impulse", "point", "normal", "speed"
-        return {name: column[:found] for name, column in zip(names, columns, strict=True)}
+        rows = {name: column[:found] for name, column in zip(names, columns, strict=True)}
+        if not found:
+            self._nothing = rows
+        return rows
 
     def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
         """Return the points."""
