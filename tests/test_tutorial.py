@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from pages import ROOT, blocks, like, run_by_shell
 
 PAGE = ROOT / "docs" / "tutorial.md"
@@ -16,6 +17,7 @@ OFFLINE = {"PIP_NO_DEPS": "1", "PIP_NO_BUILD_ISOLATION": "0", "PIP_NO_INDEX": "1
 PROGRAMS = {"carom": "carom.tools.cli", "pytest": "pytest -p no:hypothesispytest", "pip": "pip"}
 
 
+@pytest.mark.slow
 def test_the_tutorial_ends_where_it_says(tmp_path: Path) -> None:
     """In an environment of its own, into which `pip install -e .` may write."""
     environment, folder = surroundings(tmp_path / "venv"), tmp_path / "empty"
