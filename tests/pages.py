@@ -27,6 +27,7 @@ NOT_RUN = {
     "carom view rec.rrd": "opens a window and stays",
     "carom view rec.rrd --frame 90 --select cue": "opens a window and stays",
     "carom view rec.rrd --web": "serves until Ctrl-C; tests/tools/test_view.py opens its page in a browser",
+    "carom view rec.rrd --web --frame 90 --select cue": "serves until Ctrl-C, as the one above",
     "carom run billiards --live --speed 1x": "opens a window",
     "carom run billiards --live --speed 0.25x --record rec.rrd": "opens a window",
     "carom run billiards --viewer rerun+http://127.0.0.1:9876/proxy": "needs a viewer, as tests/tools/test_live.py has",
