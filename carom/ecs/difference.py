@@ -52,8 +52,9 @@ class Difference:
 def first_difference(a: World | Snapshot, b: World | Snapshot) -> Difference | None:
     """Return the first difference between the states of two worlds or snapshots, None when every bit is the same.
 
-    The order is: frame, who lives, for each component by name who has it and then what differs in the lowest row, the
-    relations likewise, resources, handles given back. Entities are compared by handle, whatever their rows.
+    The order is: frame, who lives, for each component by name who has it and then what differs in the lowest row, those
+    without state last, the relations likewise, resources, handles given back. Entities are compared by handle, whatever
+    their rows.
     """
     one, other = (look_at(state) if isinstance(state, World) else state for state in (a, b))
     return next(differences(one, other), None)
@@ -80,7 +81,7 @@ def differences(a: Snapshot, b: Snapshot) -> Iterator[Difference]:
     yield from _only_one(a, b, here, there, "", "lives")
     if not np.array_equal(here, there):
         yield Difference("the same entities stand in another order", frame)
-    for kind in sorted({*a.tables, *b.tables}, key=lambda kind: (not issubclass(kind, Component), kind.key)):
+    for kind in sorted({*a.tables, *b.tables}, key=_order):
         yield from _of_component(a, b, kind) if issubclass(kind, Component) else _of_relation(a, b, kind)
     for resource in sorted({*a.resources, *b.resources}, key=lambda kind: kind.__name__):
         held, other = a.resources.get(resource), b.resources.get(resource)
@@ -94,6 +95,12 @@ def differences(a: Snapshot, b: Snapshot) -> Iterator[Difference]:
         first, second = given_back[:, index].tolist()
         what = f"times that id {index} was given back: {first} in the first and {second} in the second"
         yield Difference(what, frame, first, second)
+
+
+def _order(kind: type[Record]) -> tuple[bool, bool, str]:
+    """Return what kinds are sorted by: what follows from state says less than the state it follows from."""
+    state = any(column.role == "state" for column in kind.columns.values())
+    return not issubclass(kind, Component), bool(kind.columns) and not state, kind.key
 
 
 def _of_component(a: Snapshot, b: Snapshot, kind: type[Record]) -> Iterator[Difference]:

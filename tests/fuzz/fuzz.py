@@ -41,9 +41,6 @@ def work(connection: Connection) -> None:
             taken = resource.getrusage(resource.RUSAGE_SELF)
             most = int(taken.ru_utime + taken.ru_stime) + SECONDS
             resource.setrlimit(resource.RLIMIT_CPU, (most, resource.RLIM_INFINITY))
-            for path in Path(folder).glob("*.yaml"):
-                if path.is_file():
-                    path.unlink()
             connection.send((case, *attempt(case, Path(folder))))
 
 

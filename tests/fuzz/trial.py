@@ -24,8 +24,11 @@ class FindingError(Exception):
 
 
 def trial(case: int, folder: Path) -> str:
-    """Hand a mutant in, in an empty folder; return how it ended, or raise FindingError, or what carom let through."""
+    """Hand a mutant in, alone in a folder; return how it ended, or raise FindingError, or what carom let through."""
     files = mutant(case)
+    for path in folder.glob("*.yaml"):
+        if path.is_file():
+            path.unlink()
     for name, data in files.items():
         (folder / name).write_bytes(data)
     (folder / "folder.yaml").mkdir(exist_ok=True)

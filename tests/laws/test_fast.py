@@ -80,7 +80,7 @@ def test_balls_that_only_turn_and_points_need_nobody_to_look() -> None:
         simulation = Simulation(gravity=(0.0, 0.0, 0.0))
         simulation.add(collider=sheet(), material=SMOOTH)
         simulation.add(
-            collider=collider, body={"mass": 1.0, "inertia": 1.0}, material=SMOOTH,
+            collider=collider, body={"mass": 1.0, "inertia": (1.0, 1.0, 1.0)}, material=SMOOTH,
             transform={"position": (-0.11 if "sphere" in collider else -0.0101, 0.03, 0.02)},
             motion={"linear": (0.0, 0.01, 0.0), "angular": (200.0, 200.0, 100.0)},
         )  # fmt: skip

@@ -333,3 +333,11 @@ def test_fcl_can_build_it(key: str, margin: float) -> None:
         assert np.linalg.norm(shape.normal) == pytest.approx(1.0, rel=1e-15)
     placed = fcl.CollisionObject(shape.fcl_geometry(margin), fcl.Transform())
     assert fcl.collide(placed, ball, fcl.CollisionRequest(), fcl.CollisionResult()) >= 1
+
+
+@pytest.mark.parametrize("size", [5e-324, 1e-200, 1e-3, 1.0, 1e200, 1e307])
+def test_a_plane_takes_a_normal_of_any_length(size: float) -> None:
+    """Also where its square is no number of its own."""
+    assert Plane((0.0, size, 0.0)).normal == (0.0, 1.0, 0.0)
+    if size >= 1e-200:
+        assert Plane((3.0 * size, 0.0, -4.0 * size)).normal == pytest.approx((0.6, 0.0, -0.8), abs=1e-15)

@@ -20,7 +20,13 @@ def scene() -> Simulation:
     simulation = Simulation(dt=1 / 60)
     simulation.layers({"toys": None})
     simulation.add(name="ground", collider={"plane": {}})
-    simulation.add(name="lift", collider=BALL, body={"type": "kinematic"}, transform={"position": (-5.0, 3.0, 0.0)})
+    simulation.add(
+        name="lift",
+        collider=BALL,
+        body={"type": "kinematic"},
+        transform={"position": (-5.0, 3.0, 0.0)},
+        visual={"color": (0.8, 0.8, 0.8)},
+    )
     for name, x, mass in (("one", 0.0, 1.0), ("other", 0.999, 1.0), ("alone", 5.0, 2.0)):
         place = {"position": (x, 0.5, 0.0)}
         simulation.add(

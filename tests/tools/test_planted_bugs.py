@@ -232,7 +232,9 @@ def test_break_names_a_nan_from_a_zero_normal(
     plant(monkeypatch, zero_normal)
     assert main(["run", "planted.yaml", "--break", "not finite"]) == 1
     pair = "Contact.normal of entity 'floor and crate' is [nan, nan, nan]"
-    assert capsys.readouterr().err == f"frame {FIRST}: {pair}, written by system 'find_contacts'\n"
+    command = "carom run planted.yaml --break 'not finite' --pdb"
+    told = f"frame {FIRST}: {pair}, written by system 'find_contacts'\nopen it with: {command}\n"
+    assert capsys.readouterr().err == told
 
 
 def test_break_names_who_was_given_energy(

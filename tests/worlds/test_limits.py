@@ -206,3 +206,10 @@ def test_a_keyframe_with_a_faulty_expression_is_told_of_that_alone() -> None:
         f"cameras.a.keyframes.1.position: {told[0]}",
         f"cameras.a.keyframes.2.at: {told[1]}",
     ]
+
+
+def test_a_ring_starts_within_a_few_turns() -> None:
+    """An angle so large that its sine has no digit left is no angle."""
+    with pytest.raises(WorldError) as told:
+        load_text("carom: 1\nentities: [{name: a, ring: {count: 2, radius: 1, start: -3e9}}]\n", "w.yaml")
+    assert str(told.value) == "w.yaml:2:50: entities.0.ring.start: must be at least -1e+06 rad; received -3000000000.0"

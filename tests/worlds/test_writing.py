@@ -195,7 +195,10 @@ def test_what_words_were_changed_after_writing_is_not_undone(tmp_path: Path) -> 
     write_world(simulation, tmp_path / "w.yaml")
     text = (tmp_path / "w.yaml").read_text(encoding="utf-8")
     line = next(number for number, line in enumerate(text.split("\n"), 1) if line == "state:")
-    changed = load_text(re.sub(r"(transform: {position: \[[^,]+), [^,]+,", r"\1, 7,", text, count=1), "w.yaml")
+    changed = load_text(
+        re.sub(r"(name: ball.*?transform: {position: \[[^,]+), [^,]+,", r"\1, 7,", text, count=1, flags=re.DOTALL),
+        "w.yaml",
+    )
     assert changed.simulation["ball"].transform.position[1] == 7.0
     assert changed.simulation.frame == 0
     assert changed.warnings == [f"w.yaml:{line}:1: state: {LEFT_OUT}"]

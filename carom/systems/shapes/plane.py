@@ -31,9 +31,14 @@ class Plane(Shape):
     def __post_init__(self) -> None:
         """Normalise the normal; raise DeclarationError for a zero one."""
         super().__post_init__()
-        length = math.sqrt(sum(c * c for c in self.normal))
+        normal = self.normal
+        if not 0.0 < math.sqrt(sum(c * c for c in normal)) < math.inf:  # squares no float holds
+            largest = max(map(abs, normal))
+            normal = tuple(c / largest for c in normal)
+        length = math.sqrt(sum(c * c for c in normal))
         if abs(length - 1.0) > NORMAL_LENGTH:
-            object.__setattr__(self, "normal", tuple(c / length for c in self.normal))
+            normal = tuple(c / length for c in normal)
+        object.__setattr__(self, "normal", normal)
 
     def faults(self) -> list[tuple[str, str]]:
         """Return a fault for a normal without direction."""

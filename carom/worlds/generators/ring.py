@@ -13,6 +13,8 @@ from carom.worlds.generators.generator import Copies, Generator, Setting, number
 from carom.worlds.generators.words import Count, Edge
 from carom.worlds.values import Flag, In
 
+FARTHEST_START = 1e6  # rad; the sine of far larger angles has no digit worth having
+
 
 class Ring(Generator):
     """Copies of an entity on a level circle about where it is, called like ``seat[3]``."""
@@ -20,7 +22,9 @@ class Ring(Generator):
     key: ClassVar[str] = "ring"
     count: Count = Field(description="how many")
     radius: Edge = Field(description="of the circle (m)")
-    start: Annotated[float, In("rad")] = Field(0.0, description="where the first is; 0 is +x, anticlockwise from above")
+    start: Annotated[float, In("rad", least=-FARTHEST_START, most=FARTHEST_START)] = Field(
+        0.0, description="where the first is; 0 is +x, anticlockwise from above"
+    )
     turned: Flag = Field(True, description="whether each is turned with its place, or all are alike")
 
     def amount(self) -> int:
