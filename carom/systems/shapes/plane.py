@@ -31,7 +31,7 @@ class Plane(Shape):
     def __post_init__(self) -> None:
         """Normalise the normal; raise DeclarationError for a zero one."""
         super().__post_init__()
-        normal = self.normal
+        normal: tuple[float, ...] = self.normal
         if not 0.0 < math.sqrt(sum(c * c for c in normal)) < math.inf:  # squares no float holds
             largest = max(map(abs, normal))
             normal = tuple(c / largest for c in normal)
