@@ -13,7 +13,7 @@ from carom.ecs.component import Component
 from carom.ecs.components.rigid_body import BodyType
 from carom.ecs.errors import DeclarationError
 from carom.systems.mass import PASSED_ON
-from carom.systems.materials import COMBINE_QUANTITIES
+from carom.systems.materials import COMBINE_QUANTITIES, COMBINE_RULES, MATERIAL_COLUMNS
 from carom.systems.parameters import WordFault, number_fault, unknown_keys
 from carom.systems.shapes import SHAPES
 from carom.systems.shapes.stating import shape_faults
@@ -22,12 +22,11 @@ from carom.systems.surfaces import COLLIDER_COLUMNS
 Path = tuple[str, ...]
 BODY_TYPES = [kind.name.lower() for kind in BodyType]
 NEARLY_ONE = 1e-6  # how far from 1 the length of a rotation may be
-SURFACE = [name for name in Material.columns if name != "number" and not name.endswith("_combine")]
 COLUMNS: dict[str, tuple[type[Component], Iterable[str]]] = {  # of each section, the words that are columns
     "transform": (Transform, ("position", "rotation")),
     "motion": (Motion, ("linear", "angular")),
     "body": (RigidBody, ("mass", "inertia", "principal_axes", "center_of_mass", *PASSED_ON)),
-    "material": (Material, SURFACE),
+    "material": (Material, MATERIAL_COLUMNS),
     "collider": (Collider, COLLIDER_COLUMNS),
     "visual": (Visual, ("position", "rotation", "color", "visible")),
 }
@@ -36,6 +35,8 @@ FURTHER: dict[str, tuple[str, ...]] = {  # and those that are not
     "collider": ("shape", "layer", "collides_with", "on_enter"),
     "visual": ("shape",),
 }
+
+OTHERWISE: dict[str, type] = {"material": str, "visual": bool}  # what a section may be beside a mapping
 
 
 def refuse_words(words: Mapping[str, Any]) -> None:
@@ -48,7 +49,7 @@ def faults(words: Mapping[str, Any]) -> Iterator[WordFault]:
     """Yield what is wrong with each section that is stated."""
     for section, (kind, names) in COLUMNS.items():
         stated = words.get(section)
-        if stated is None or (section == "material" and isinstance(stated, str)) or isinstance(stated, bool):
+        if stated is None or isinstance(stated, OTHERWISE.get(section, ())):
             continue
         shapes = tuple(SHAPES) if section in ("collider", "visual") else ()
         known = (*shapes, *names, *FURTHER.get(section, ()))
@@ -73,6 +74,9 @@ def _column(path: Path, column: Column, value: Any) -> Iterator[WordFault]:
         return
     if path[0] == "material" and path[1] in COMBINE_QUANTITIES and isinstance(value, Mapping):
         yield from unknown_keys(path, value, ("value", "combine"))
+        if value.get("combine") not in COMBINE_RULES:
+            received = repr(value["combine"]) if "combine" in value else "none"
+            yield WordFault((*path, "combine"), "unknown word", received, ", ".join(COMBINE_RULES))
         path, value = (*path, "value"), value.get("value")
     width = column.shape[-1] if column.shape else None
     if path[-1] == "color" and np.shape(value)[-1:] == (3,):

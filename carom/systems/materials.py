@@ -14,6 +14,8 @@ from carom.ecs.errors import DeclarationError
 
 Words = Mapping[str, Any]
 COMBINE_QUANTITIES = ("friction", "restitution")
+COMBINE_RULES = [rule.name.lower() for rule in Combine if rule is not Combine.DEFAULT]
+MATERIAL_COLUMNS = [name for name in Material.columns if name != "number" and not name.endswith("_combine")]
 
 
 class Materials(Resource):

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 import numpy as np
 from pydantic import Field, TypeAdapter, create_model
 
-from carom.ecs import Combine, Material
+from carom.ecs import Material
 from carom.ecs.column import Column
 from carom.ecs.component import Component
 from carom.ecs.errors import DeclarationError
@@ -17,7 +17,7 @@ from carom.systems.actions import ACTIONS, Spawn
 from carom.systems.extensions import origin
 from carom.systems.forces import LAWS
 from carom.systems.joints import JOINTS
-from carom.systems.materials import COMBINE_QUANTITIES
+from carom.systems.materials import COMBINE_QUANTITIES, COMBINE_RULES, MATERIAL_COLUMNS
 from carom.systems.own_components import components_of_files
 from carom.systems.settings import MOST_SUBSTEPS, MOST_THREADS, Settings
 from carom.systems.shapes import SHAPES
@@ -210,9 +210,8 @@ def setting_types() -> dict[str, TypeAdapter[Any]]:
 
 def material_model() -> type[Words]:
     """Return the model of a material: its columns, where those that combine may say how."""
-    rule = word_of(*(rule.name.lower() for rule in Combine if rule is not Combine.DEFAULT))
-    names = [name for name in Material.columns if name != "number" and not name.endswith("_combine")]
-    fields = column_fields(Material, *names)
+    rule = word_of(*COMBINE_RULES)
+    fields = column_fields(Material, *MATERIAL_COLUMNS)
     for name in COMBINE_QUANTITIES:
         plain, field = fields[name]
         words: Fields = {"value": (plain, ...), "combine": (rule, ...)}

@@ -50,11 +50,27 @@ ENTITIES: dict[str, tuple[dict[str, Any], str]] = {
         {"transform": {"rotation": (0.0, 0.0, 0.0, 2.0)}},
         "transform.rotation: must be a unit quaternion xyzw, received one of length 2",
     ),
-    "a rule": (
-        {"collider": BALL, "material": {"restitution": {"value": 2.0, "combin": "max"}}},
+    "what is no mapping but a flag, and a colour": (
+        {"collider": True, "body": True, "visual": {"color": (5.0, 0.0, 0.0)}},
         (
+            "body: must be a mapping; received True; accepted: mass, inertia, principal_axes, center_of_mass, gravity_scale, linear_damping, angular_damping, continuous, sleeps, type, locked; "
+            "collider: must be a mapping; received True; accepted: box, capsule, cone, convex, cylinder, ellipsoid, mesh, height_field, plane, point, sphere, position, rotation, sensor, surface_velocity, shape, layer, collides_with, on_enter; "
+            "visual.color: must be finite and at least 0 and at most 1, received 5"
+        ),
+    ),
+    "a rule": (
+        {
+            "collider": BALL,
+            "material": {
+                "restitution": {"value": 2.0, "combin": "max"},
+                "friction": {"value": 0.5, "combine": "least"},
+            },
+        },
+        (
+            "material.friction.combine: unknown word; received 'least'; accepted: average, sqrt, min, multiply, max; "
             "material.restitution.combin: unknown key; received 'combin'; accepted: value, combine; "
-            "did you mean 'combine'?; material.restitution.value: must be finite and at least 0 and at most 1, received 2"
+            "did you mean 'combine'?; material.restitution.combine: unknown word; received none; accepted: average, sqrt, min, multiply, max; "
+            "material.restitution.value: must be finite and at least 0 and at most 1, received 2"
         ),
     ),
 }

@@ -36,4 +36,6 @@ class Material(Component):
     number: Integers = column(
         unit="1", doc="number among the named materials, -1 for one without a name", dtype="int64", default=-1
     )
-    color: Floats = column(4, unit="1", doc="colour, red green blue alpha in 0..1", default=(0.8, 0.8, 0.8, 1.0))
+    color: Floats = column(
+        4, unit="1", doc="colour, red green blue alpha in 0..1", default=(0.8, 0.8, 0.8, 1.0), least=0.0, most=1.0
+    )

@@ -13,5 +13,7 @@ class Visual(Component):
     geometry: Integers = column(unit="1", doc="number in the table of meshes, -1 for none", dtype="int64", default=-1)
     position: Floats = column(3, unit="m", doc="position of the shape in the frame of its entity")
     rotation: Floats = column(4, unit="1", doc="unit quaternion xyzw, shape to entity", default=(0.0, 0.0, 0.0, 1.0))
-    color: Floats = column(4, unit="1", doc="colour, red green blue alpha in 0..1", default=(0.8, 0.8, 0.8, 1.0))
+    color: Floats = column(
+        4, unit="1", doc="colour, red green blue alpha in 0..1", default=(0.8, 0.8, 0.8, 1.0), least=0.0, most=1.0
+    )
     visible: Booleans = column(unit="1", doc="drawn at all", dtype="bool", default=True)

@@ -9,7 +9,7 @@ from statistics import median
 
 from carom.tools.bench.contact_scenes import Scene
 from carom.tools.bench.engines import ENGINES, Engine
-from carom.tools.bench.measure import By, Figure, Timing, figure, timed
+from carom.tools.bench.measure import By, Figure, Timing, timed
 
 OURS = "carom"
 TURN = 10  # steps of one engine before it is another's turn: the first of them find a cold cache
@@ -26,12 +26,14 @@ def race(
     found = {engine: make(scene, threads) for engine, make in there.items()}
     taken = dict(zip(found, stepped(list(found.values()), scene.steps), strict=True))
     ours = taken[OURS]
+    by: By = "cpu" if threads == 1 else "wall"
     for engine, theirs in taken.items():
-        yield figure(f"{name}, {engine}", "ms a step", theirs, inf, 1e3)
+        yield Figure(
+            f"{name}, {engine}", "ms a step", 1e3 * theirs.wall, 1e3 * theirs.cpu, inf, by, repeats=theirs.repeats
+        )
         if engine != OURS:
             wall, cpu = ours.wall / theirs.wall, ours.cpu / theirs.cpu
             bound = ratio if engine in peers else inf
-            by: By = "cpu" if threads == 1 else "wall"
             yield Figure(f"{name}, {OURS} by {engine}", "x", wall, cpu, bound, by, repeats=ours.repeats)
     return found
 

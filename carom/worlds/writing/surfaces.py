@@ -7,7 +7,7 @@ from typing import Any
 from carom.ecs import Collider, Combine, Material, RigidBody, Visual
 from carom.ecs.component import Component
 from carom.systems.layers import Layers
-from carom.systems.materials import COMBINE_QUANTITIES, Materials, material_of
+from carom.systems.materials import COMBINE_QUANTITIES, MATERIAL_COLUMNS, Materials, material_of
 from carom.systems.parameters import same
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import BY_NUMBER
@@ -18,7 +18,6 @@ from carom.worlds.writing.sections import layer_names
 
 POSE = ("position", "rotation")
 SHAPE_COLUMNS = ("shape", "size", "geometry")
-MATERIAL_COLUMNS = [name for name in Material.columns if name != "number" and not name.endswith("_combine")]
 
 
 class Surfaces:
