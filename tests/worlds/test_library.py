@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 from collections.abc import Callable
 
 import numpy as np
@@ -21,6 +23,14 @@ def test_a_world_of_the_library_is_a_lesson(name: str) -> None:
     assert [group for group, names in library.groups().items() if name in names] != ["library"]
     assert loaded.name and loaded.description and loaded.expectations
     assert len(library.lesson(loaded.source_text).splitlines()) >= 3
+
+
+def test_the_library_is_listed_without_a_solver() -> None:
+    """So that `carom worlds` answers at once: no world is built, and nothing is imported that could build one."""
+    code = "import sys; from carom.tools.cli import main; main(['worlds']); sys.exit('numba' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert len(done.stdout.splitlines()) == len(library.names()) + len(library.groups())
 
 
 @pytest.mark.slow
