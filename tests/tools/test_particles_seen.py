@@ -52,7 +52,7 @@ def hanging(draw: str, **words: Any) -> Simulation:
 
 
 def test_a_recording_holds_every_particle_of_every_frame(tmp_path: Path) -> None:
-    """Who it is, where, how large and of which colour; frames without any show none."""
+    """Who it is, where, of which colour, and as large as it covers what is behind it; frames without any show none."""
     simulation = emitting(
         dt=1 / 60, rate=90.0, start=0.1, duration=0.4, life=(0.1, 0.3), speed=2.0, cone=1.0,
         size=0.1, end_size=0.3, color=(1.0, 0.5, 0.0), end_color=(0.0, 0.5, 1.0, 0.0),
@@ -78,8 +78,9 @@ def test_a_recording_holds_every_particle_of_every_frame(tmp_path: Path) -> None
         assert len(cloud) == (1 if len(places) else 0)
         for look in cloud:
             radii, colors = (column.values[column.frames.index(frame)] for column in looks.values())
-            assert (radii == (0.5 * look.diameters).astype(np.float32)).all()
-            assert (np.stack([colors >> shift & 255 for shift in (24, 16, 8, 0)], axis=1) == shades(look.colors)).all()
+            assert (radii == (0.5 * look.diameters * np.sqrt(look.colors[:, 3])).astype(np.float32)).all()
+            opaque = look.colors * (1.0, 1.0, 1.0, 0.0) + (0.0, 0.0, 0.0, 1.0)
+            assert (np.stack([colors >> shift & 255 for shift in (24, 16, 8, 0)], axis=1) == shades(opaque)).all()
     assert seen > 400
 
 

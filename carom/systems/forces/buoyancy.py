@@ -64,6 +64,11 @@ class Buoyancy(Law):
         centers[wet] = moment[rows[wet]] / volume[rows[wet], None]
         return centers
 
+    def flow(self, world: World, points: Floats) -> Floats:
+        """Return the current, which is below the surface alone."""
+        surface = Surface.at(world, self.level)
+        return np.where((points @ np.array(surface.up) <= surface.height)[:, None], self.current, 0.0)
+
     def bears(self, world: World, rows: Integers) -> Booleans:
         """Tell whom it holds up: who is in it, where it is still, and balanced as forces of the last substep were."""
         if any(self.current):

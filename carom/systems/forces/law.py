@@ -31,6 +31,7 @@ class Law:
 
     key: ClassVar[str] = ""
     conservative: ClassVar[bool] = False  # it has a potential energy, see `energy`
+    moves_medium: ClassVar[bool] = False  # it adds to the velocity of the medium, to which all drags are relative
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
@@ -63,6 +64,10 @@ class Law:
     def points(self, world: World, rows: Integers) -> Floats:
         """Return where it acts on bodies (n, 3), m, world frame, for who looks on: at their centres of mass."""
         return centers_of_mass(world, rows)
+
+    def flow(self, world: World, points: Floats) -> Floats:
+        """Return the velocity (n, 3) in m/s of a medium of its own at points (n, 3) in m, for who looks on."""
+        return np.zeros_like(points)
 
     def bears(self, world: World, rows: Integers) -> Booleans:
         """Tell which bodies (n,) it holds up by itself, so that they may fall asleep though they touch nothing."""

@@ -23,6 +23,11 @@ class BoxRegion(Stated):
         """Tell which points (n, 3) in m are inside."""
         return np.asarray((np.abs(points - self.position) <= 0.5 * np.array(self.size)).all(axis=1))
 
+    @property
+    def half(self) -> Floats:
+        """Half its size (3,), m."""
+        return 0.5 * np.array(self.size)
+
 
 @dataclass(frozen=True)
 class SphereRegion(Stated):
@@ -35,6 +40,11 @@ class SphereRegion(Stated):
         """Tell which points (n, 3) in m are inside."""
         away = points - self.position
         return np.asarray((away * away).sum(axis=1) <= self.radius * self.radius)
+
+    @property
+    def half(self) -> Floats:
+        """Half the edges (3,), m, of the box around it."""
+        return np.full(3, self.radius)
 
 
 @dataclass(frozen=True)
@@ -51,6 +61,15 @@ class Region(Stated):
 
     def contains(self, points: Floats) -> Booleans:
         """Tell which points (n, 3) in m, world frame, are in it; of each the answer depends on nothing but itself."""
+        return self._shape.contains(points)
+
+    def bounds(self) -> tuple[Floats, Floats]:
+        """Return the lower and the upper corner (3,) of the box around it, m."""
+        middle = np.array(self._shape.position)
+        return middle - self._shape.half, middle + self._shape.half
+
+    @property
+    def _shape(self) -> BoxRegion | SphereRegion:
         shape = self.box or self.sphere
         assert shape is not None, "faults() finds regions without a shape"
-        return shape.contains(points)
+        return shape

@@ -18,6 +18,7 @@ class Vortex(Law):
     """
 
     key: ClassVar[str] = "vortex"
+    moves_medium: ClassVar[bool] = True
     circulation: float = parameter(unit="m2/s", doc="circulation C about the axis, right-handed")
     position: tuple[float, float, float] = vector(unit="m", doc="a point of the axis", default=(0.0, 0.0, 0.0))
     axis: tuple[float, float, float] = vector(unit="1", doc="along the axis", default=(0.0, 1.0, 0.0))

@@ -23,6 +23,7 @@ class Wind(Law):
     """
 
     key: ClassVar[str] = "wind"
+    moves_medium: ClassVar[bool] = True
     velocity: tuple[float, float, float] = vector(unit="m/s", doc="velocity of the air")
     gust: float = parameter(unit="m/s", doc="standard deviation of gusts along each axis", default=0.0, least=0.0)
     gust_time: float = parameter(unit="s", doc="time over which gusts are alike", default=1.0, above=0.0)

@@ -1,53 +1,30 @@
 """Fields: forces on particles, by the very systems that apply them to bodies.
 
-A chunk of particles stands in a small world of its own as bodies; there the force systems of the step run. So a law
-has one formula, and a user's Python function acts on particles as it is. Where only gravity, even winds and drags act,
-which are the same for all particles of an emitter, nobody needs to stand anywhere.
+A chunk of particles stands in as bodies; there a user's Python function acts on particles as it is, too. Where only
+gravity, even winds and drags act, which are the same for all particles of an emitter, nobody needs to stand anywhere.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from carom.ecs import Component, Force, Motion, RigidBody, System, Transform, World
-from carom.ecs.column import Floats, Integers
+from carom.ecs import Motion, RigidBody, System, Transform, World
+from carom.ecs.column import Floats
 from carom.ecs.component import Resource
 from carom.ecs.components.emitter import Emitter
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.particle import Particle
-from carom.systems.awake import Awake
-from carom.systems.forces.attraction import apply_attraction
-from carom.systems.forces.constant_push import apply_constant_push
-from carom.systems.forces.drag import LinearDrag, QuadraticDrag, apply_linear_drag, apply_quadratic_drag
-from carom.systems.forces.gravity import apply_gravity
-from carom.systems.forces.gravity_well import apply_gravity_well
-from carom.systems.forces.law import Forces, Law, choose_bodies
+from carom.systems.forces.drag import LinearDrag, QuadraticDrag
+from carom.systems.forces.law import Law
 from carom.systems.forces.reach import Reach
-from carom.systems.forces.vortex import apply_vortex
-from carom.systems.forces.wind import Wind, apply_wind
-from carom.systems.integration import clear_forces
+from carom.systems.forces.stand_in import NOWHERE, StandIn, felt_laws
+from carom.systems.forces.wind import Wind
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.particle_arcs import ARC_ROWS, CHUNK, lay_arcs
-from carom.systems.progress import Progress
 from carom.systems.settings import Settings
-
-STAND_AS = (Transform, Motion, RigidBody, Force, Flight)
-#: What acts on particles, in the order of the step; the others need to know how a body is turned, or who else is there.
-FIELDS = (
-    choose_bodies,
-    clear_forces,
-    apply_wind,
-    apply_vortex,
-    apply_gravity,
-    apply_gravity_well,
-    apply_attraction,
-    apply_linear_drag,
-    apply_quadratic_drag,
-    apply_constant_push,
-)
 
 
 class Even(NamedTuple):
@@ -57,26 +34,6 @@ class Even(NamedTuple):
     drag: float
     pace: float
     flow: Floats
-
-
-class StandIn(World):
-    """A world of a chunk of bodies, of which the first ``shown`` are there."""
-
-    def __init__(self) -> None:
-        super().__init__(capacity=CHUNK)
-        self.spawn_many(CHUNK, *(kind() for kind in STAND_AS))
-        self.shown = CHUNK
-        self._numbers = np.arange(CHUNK)
-        for resource in (Progress(), Awake()):
-            self.add(resource)
-
-    def row_numbers(self, *kinds: type[Component], **options: Any) -> Integers:
-        """Return the rows of the particles that stand here, none for what particles do not have."""
-        return self._numbers[: self.shown if set(kinds) <= set(STAND_AS) else 0]
-
-    def rows(self, *kinds: type[Component], **options: Any) -> slice:
-        """Return the same as a slice."""
-        return slice(0, len(self.row_numbers(*kinds)))
 
 
 class Fields(Resource):
@@ -107,22 +64,13 @@ class Fields(Resource):
 
     def lay(self, world: World, emitter: int, row: int, first: int, times: Floats, dt: float, arcs: Floats) -> None:
         """Lay the arcs of a chunk of particles, rows from ``first`` on, that fly for ``times`` (n,), s."""
-        stand = self._stand = self._stand or StandIn()
+        stand = self._stand = self._stand or StandIn(CHUNK)
         count, clock = len(times), (world.frame - 1) * dt
         self._place(world, stand, row, first, times)
-        laws = Forces()
-        for law, there in _laws(world, emitter, clock + 0.5 * dt):
-            laws.add(law, there)
-        stand.add(laws)
-        stand.add(world[Settings])
-        stand[Progress].clock = clock
-        stand[Awake].rows, stand[Awake].found = stand.row_numbers(), stand.structure
-        with stand.faces(None):
-            for system in (*FIELDS, *self.functions):
-                system(stand, dt)
-            force = stand[Force]
-            mass = float(world[Emitter].mass[row])
-            lay_arcs(times, 1.0 / mass, force.force[:count], force.drag[:count], force.drag_flow[:count], arcs)
+        laws = _laws(world, emitter, clock + 0.5 * dt)
+        force = stand.feel(laws, world[Settings], clock, dt, self.functions)
+        mass = float(world[Emitter].mass[row])
+        lay_arcs(times, 1.0 / mass, force.force[:count], force.drag[:count], force.drag_flow[:count], arcs)
 
     def _place(self, world: World, stand: StandIn, row: int, first: int, times: Floats) -> None:
         """Let particles stand as bodies where they will be in the middle of their flight, as fast as gravity makes."""
@@ -140,17 +88,15 @@ class Fields(Resource):
 
 
 EVEN = (Wind, LinearDrag, QuadraticDrag)
-NOWHERE = Reach(entities=())
 
 
 def _laws(world: World, emitter: int, time: float) -> Iterator[tuple[Law, Reach]]:
-    """Yield every law with where it acts on the particles of an emitter at a time (s).
+    """Yield the laws as they act on the particles of an emitter at a time (s).
 
-    Those of no entities in particular do, and those of the emitter; particles are on no layer. Also those that act
-    nowhere are told, so that each is the same in number as for bodies, which gusts depend on.
+    Those of no entities in particular do, and those of the emitter; particles are on no layer.
     """
-    for entries in world[Forces].entries.values():
-        for law, reach in entries:
-            named = reach.entities is None or emitter in reach.entities
-            acts = named and reach.layers is None and reach.acts_at(time)
-            yield law, Reach(region=reach.region) if acts else NOWHERE
+
+    def felt(law: Law, reach: Reach) -> bool:
+        return (reach.entities is None or emitter in reach.entities) and reach.layers is None
+
+    return felt_laws(world, time, felt)

@@ -1,4 +1,7 @@
-"""Particles: all of them as one batch of points, in their colours and sizes."""
+"""Particles: all of them as one batch of points, in their colours and sizes.
+
+Rerun's points let nothing through, so those that would cover what is behind them by a share cover that share of it.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +60,7 @@ class Particles(RowTrack):
         radii = [
             np.full(len(cloud.places), -0.5 * POINT_WIDTH)  # px
             if cloud.drawn == Drawn.POINTS
-            else 0.5 * cloud.diameters
+            else 0.5 * cloud.diameters * np.sqrt(cloud.colors[:, 3])
             for cloud in seen
         ]
         return {
@@ -65,7 +68,7 @@ class Particles(RowTrack):
             "number": np.concatenate([particle.number[cloud.piece.rows] for cloud in seen]),
             "position": np.concatenate([cloud.places for cloud in seen]).astype(np.float32),
             "radius": np.concatenate(radii).astype(np.float32),
-            "color": np.rint(255.0 * np.concatenate([cloud.colors for cloud in seen])).astype(np.uint8),
+            "color": np.rint(255.0 * np.concatenate([cloud.colors[:, :3] for cloud in seen])).astype(np.uint8),
         }
 
     def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
@@ -79,6 +82,6 @@ class Particles(RowTrack):
 
 
 def _nothing() -> Columns:
-    shapes = {"emitter": (0,), "number": (0,), "position": (0, 3), "radius": (0,), "color": (0, 4)}
+    shapes = {"emitter": (0,), "number": (0,), "position": (0, 3), "radius": (0,), "color": (0, 3)}
     kinds = {"emitter": np.int64, "number": np.int64, "color": np.uint8}
     return {name: np.zeros(shape, kinds.get(name, np.float32)) for name, shape in shapes.items()}
