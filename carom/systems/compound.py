@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from carom.ecs import Collider, Material, Parent, RigidBody, Transform, World
+from carom.ecs import Collider, Material, Parent, RigidBody, Transform, Visual, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
@@ -93,21 +93,26 @@ def part_at(world: World, row: int, body: int) -> Part:
     return Part(solid, density, position, rotation)
 
 
-def shape_at(world: World, row: int) -> Shape:
-    """Return the shape of a collider."""
-    collider = world[Collider]
-    number = int(collider.geometry[row])
+def shape_at(world: World, row: int, kind: type[Collider | Visual] = Collider) -> Shape:
+    """Return the shape of a collider, or of a visual."""
+    shaped = world[kind]
+    number = int(shaped.geometry[row])
     geometry = world[Geometries].items[number] if number >= 0 else None
-    return BY_NUMBER[int(collider.shape[row])].from_size(collider.size[row], geometry)
+    return BY_NUMBER[int(shaped.shape[row])].from_size(shaped.size[row], geometry)
+
+
+def bound_centers(world: World, rows: Integers) -> Floats:
+    """Return the middles (n, 3), m, world frame, of the bounds of colliders (rows)."""
+    transform = world[Transform]
+    middle = quaternion.rotate(transform.rotation[rows], world[Collider].bound_center[rows])
+    return np.asarray(transform.position[rows] + middle)
 
 
 def reaches(world: World) -> Floats:
     """Return for each row in use how far (m) the colliders of that body reach from its centre of mass; 0 for none."""
-    belongs, collider, transform = bodies_of(world), world[Collider], world[Transform]
-    rows = world.row_numbers(Collider, Transform)
+    belongs, rows = bodies_of(world), world.row_numbers(Collider, Transform)
     rows = rows[belongs[rows] >= 0]
-    middle = transform.position[rows] + quaternion.rotate(transform.rotation[rows], collider.bound_center[rows])
-    away = np.linalg.norm(middle - centers_of_mass(world, belongs[rows]), axis=1)
+    away = np.linalg.norm(bound_centers(world, rows) - centers_of_mass(world, belongs[rows]), axis=1)
     found = np.zeros(len(belongs))
     np.maximum.at(found, belongs[rows], away + bounding_radii(world, rows))
     return found

@@ -26,14 +26,19 @@ def sleep_states(world: World, bodies: Integers) -> Integers:
     return np.where(bodies < 0, 0, moving)
 
 
+def surface_speeds(world: World, rows: Integers) -> Floats:
+    """Return how fast (m/s) the fastest point of each body (rows) is, as falling asleep counts it."""
+    body, motion = world[RigidBody], world[Motion]
+    speed: Floats = np.zeros(len(body.mass))
+    find_surface_speeds(rows, body.inverse_mass, body.inertia, motion.linear, motion.angular, speed)
+    return np.asarray(speed[rows])
+
+
 def most_restless(world: World, rows: Integers, island: Integers) -> Integers:
     """Return for each body (rows) who of its island has been still for the shortest time, the fastest of several.
 
     ``island`` (n,) is any number that those of an island share.
     """
-    body, motion = world[RigidBody], world[Motion]
-    speed: Floats = np.zeros(len(body.mass))
-    find_surface_speeds(rows, body.inverse_mass, body.inertia, motion.linear, motion.angular, speed)
-    order = np.lexsort((-speed[rows], motion.still[rows], island))
+    order = np.lexsort((-surface_speeds(world, rows), world[Motion].still[rows], island))
     islands, first = np.unique(island[order], return_index=True)
     return np.asarray(rows[order[first]][np.searchsorted(islands, island)])

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, World
-from carom.ecs.column import Floats, Integers
+from carom.ecs.column import Integers
 from carom.ecs.relations.contact import Contact
 from carom.systems.compound import bodies_of
 from carom.systems.constants import SLEEP_SPEED, SLEEP_TIME
 from carom.systems.forces.law import Forces
 from carom.systems.forces.springs import bodies_on_springs
-from carom.systems.kernels.islands import find_surface_speeds
 from carom.systems.links import islands, links
 from carom.systems.settings import Settings, time_of
+from carom.systems.sleep_state import surface_speeds
 
 if TYPE_CHECKING:
     from carom.systems.simulation import Simulation
@@ -41,17 +41,16 @@ def why_awake(of: World | Simulation, entity: int | str) -> str:
         return f"{name} is awake since nobody falls asleep in this world: sleeping is off"
     island = _island_of(world, row)
     others = "" if len(island) == 1 else f", in its island of {len(island)} bodies"
-    speed: Floats = np.zeros(len(body.mass))
-    find_surface_speeds(island, body.inverse_mass, body.inertia, motion.linear, motion.angular, speed)
-    fastest = island[np.argmax(speed[island])]
+    speed = surface_speeds(world, island)
+    fastest, quickest = island[np.argmax(speed)], speed.max()
 
     def told(who: int, reason: str) -> str:
         if who == row:
             return f"{name} is awake since it {reason}"
         return f"{name} is awake since '{world.name(world.entity(who))}'{others}, {reason}"
 
-    if speed[fastest] > SLEEP_SPEED:
-        return told(fastest, f"moves at {speed[fastest]:.3g} m/s; at {SLEEP_SPEED:g} m/s or less it may fall asleep")
+    if quickest > SLEEP_SPEED:
+        return told(fastest, f"moves at {quickest:.3g} m/s; at {SLEEP_SPEED:g} m/s or less it may fall asleep")
     for restless in island[~body.sleeps[island]]:
         return told(restless, "may not fall asleep: its body says so (sleeps)")
     for law, rows in world[Forces].at(world, time_of(world)).restless(world):

@@ -8,13 +8,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from carom.ecs import Difference, Transform, Visual, World, first_difference
+from carom.ecs import Difference, Transform, World, first_difference
 from carom.systems.observer import Observer
 from carom.tools.interrupt import deferred_interrupt
 from carom.tools.recorder import about
 from carom.tools.recording import Recording
 from carom.tools.replay import Replay
 from carom.tools.session import progress_bar
+from carom.tools.visible import visible_rows
 from carom.worlds.builder import LoadedWorld
 
 
@@ -143,8 +144,7 @@ class Tracer:
 
 def elsewhere(recording: Recording, world: World) -> str | None:
     """Return somebody visible whose pose is not as recorded, or who is on one side only; None for nobody."""
-    rows = world.row_numbers(Visual, Transform)
-    rows = rows[world[Visual].visible[rows]]
+    rows = visible_rows(world)
     poses = recording.poses(world.frame)
     if "only" in recording.static.get(f"/{about.PATH}", {}):  # some were chosen, and others not recorded
         rows = rows[np.isin(world.entities(rows), list(poses))]

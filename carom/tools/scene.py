@@ -10,13 +10,14 @@ import numpy as np
 from carom.ecs import Transform, Visual, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial import quaternion
-from carom.systems.shapes import BY_NUMBER
+from carom.systems.compound import shape_at
 from carom.systems.shapes.finish import Finish
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import Surface
 from carom.tools.batch import Batch
 from carom.tools.coloring import Coloring
 from carom.tools.particles import particle_batches
+from carom.tools.visible import visible_rows
 
 SPREAD = 100.0  # an endless surface is drawn this many times as wide as its sample, so that its edge lies in the haze
 
@@ -50,9 +51,7 @@ class Scene:
         """
         world = self._world
         visual, transform = world[Visual], world[Transform] if transform is None else transform
-        rows = world.row_numbers(Visual, Transform)
-        rows = rows[visual.visible[rows]]
-        solids = particle_batches(world)
+        rows, solids = visible_rows(world), particle_batches(world)
         if not len(rows):
             return solids
         rotation = transform.rotation[rows]
@@ -78,7 +77,7 @@ class Scene:
             visual = self._world[Visual]
             number = int(visual.geometry[row])
             geometry = self._world[Geometries].items[number] if number >= 0 else None
-            shape = BY_NUMBER[int(visual.shape[row])].from_size(visual.size[row], geometry)
+            shape = shape_at(self._world, row, Visual)
             surface = shape.surface()
             if math.isinf(max(shape.bounds().half)):
                 found = [endless(surface.vertices, surface.faces)]

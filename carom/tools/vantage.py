@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from carom.ecs import Transform, Visual
 from carom.systems.simulation import Simulation
 from carom.tools.filming import Shot
 from carom.tools.rigs import Rig
+from carom.tools.visible import visible_rows
 
 
 def vantage_warnings(shot: Shot, simulation: Simulation) -> list[str]:
     """Return a line for a camera inside of bodies, and one where nothing is there to be seen, as the world is now."""
     world, found = simulation.world, []
-    rows = world.row_numbers(Visual, Transform)
-    rows = rows[world[Visual].visible[rows]]
+    rows = visible_rows(world)
     camera = shot.camera(world)
     around = [entity for entity in simulation.space.point_inside(camera.position).tolist() if world.row(entity) in rows]
     if around:

@@ -14,9 +14,8 @@ from carom.worlds.errors import Path, WordError, shown
 from carom.worlds.names import known
 from carom.worlds.rotation import Direction
 from carom.worlds.source import Source
-from carom.worlds.values import In, Vector3, Words, either, word_of
+from carom.worlds.values import In, Lengths, Words, either, word_of
 
-Lengths = Annotated[Vector3, In("m")]
 Angle = Annotated[float, In("rad")]
 Elevation = Annotated[float, In("rad", least=-math.pi / 2.0, most=math.pi / 2.0)]
 Place: Any = either(Lengths, str, str)  # a point, or the origin of the entity of that name

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from pydantic import Field
@@ -14,12 +14,11 @@ from carom.systems.curves import Curve
 from carom.systems.parameters import WordFault
 from carom.systems.paths import REPEATS, faults_of_times, stated
 from carom.worlds.sections import Time
-from carom.worlds.values import In, Vector3, Words, either, word_of
+from carom.worlds.values import Lengths, Words, either, word_of
 
 if TYPE_CHECKING:
     from carom.worlds.camera import Camera
 
-Lengths = Annotated[Vector3, In("m")]
 POINTS = ("position", "target")
 
 

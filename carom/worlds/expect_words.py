@@ -7,8 +7,8 @@ from typing import Annotated, Any
 from pydantic import ConfigDict, Field, model_validator
 
 from carom.worlds.errors import WordError
-from carom.worlds.sections import Count, Time
-from carom.worlds.values import In, Words, either
+from carom.worlds.sections import Time
+from carom.worlds.values import Count, In, Words, either
 
 Span = Annotated[tuple[float, float], In("m")]
 

@@ -15,10 +15,9 @@ from carom.systems.shapes.noise import MOST_OCTAVES
 from carom.systems.shapes.shape import Shape
 from carom.worlds.errors import WordError
 from carom.worlds.files import WorldFiles, joined
-from carom.worlds.values import FileName, In, Vector3, Whole, Words, either, word_of
+from carom.worlds.values import FileName, In, Length, Vector3, Whole, Words, either, word_of
 
 Scale = Annotated[float, In("1", above=0.0)]
-Length = Annotated[float, In("m")]
 Spacing = Annotated[float, In("m", above=0.0)]
 Spacings = Annotated[tuple[float, float], In("m", above=0.0)]
 Points = list[Annotated[Vector3, In("m")]]

@@ -9,6 +9,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import CaromError
 from carom.ecs.hierarchy import compose
 from carom.ecs.spatial import quaternion
+from carom.systems.compound import bound_centers
 from carom.worlds.amounts import few_enough
 from carom.worlds.populate import Populator
 from carom.worlds.unfold import Item
@@ -43,9 +44,7 @@ def boxes(world: World, rows: Integers) -> tuple[Floats, Floats]:
 
     Those of shapes without end are infinite.
     """
-    transform, collider = world[Transform], world[Collider]
-    turn = transform.rotation[rows]
-    middle = transform.position[rows] + quaternion.rotate(turn, collider.bound_center[rows])
+    collider, middle, turn = world[Collider], bound_centers(world, rows), world[Transform].rotation[rows]
     with np.errstate(invalid="ignore"):
         half = (np.abs(quaternion.matrix(turn)) * collider.bound_half[rows][:, None, :]).sum(axis=-1)
     half = np.where(np.isfinite(half), half, np.inf) + collider.bound_radius[rows][:, None]

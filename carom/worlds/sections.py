@@ -12,11 +12,8 @@ from carom.worlds.errors import WordError, shown
 from carom.worlds.rotation import RotationWord
 from carom.worlds.run import MOST_FRAMES
 from carom.worlds.units import read_quantity
-from carom.worlds.values import Flag, In, Vector3, Whole, Words, word_of
+from carom.worlds.values import Count, Flag, In, Lengths, Whole, Words, word_of
 
-Length = Annotated[float, In("m")]
-Lengths = Annotated[Vector3, In("m")]
-Count = Annotated[int, Whole(1)]
 DETAILS = ("light", "full", "solver")  # how much a recording holds, each with all of those before it
 WORLD, NOBODY = "world", "nobody"  # what may hold the end of a chain beside entities
 LayersMet = Annotated[list[str] | Literal["all"], WrapValidator(lambda value, handler: _layers_met(value))]

@@ -150,6 +150,11 @@ class Whole:
         return _or_expression({"type": "integer", **bounds})
 
 
+Count = Annotated[int, Whole(1)]
+Length = Annotated[float, In("m")]
+Lengths = Annotated[Vector3, In("m")]
+
+
 @dataclass(frozen=True)
 class Text:
     """Marks a text of at most ``longest`` characters."""

@@ -7,10 +7,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from carom.ecs import Transform, Visual
 from carom.ecs.components.name import Name
 from carom.tools.marks import Labels, Mark, tinted
 from carom.tools.overlays.overlay import Overlay, Seen
+from carom.tools.visible import visible_rows
 
 COLOR = (1.0, 1.0, 1.0)
 
@@ -23,8 +23,7 @@ class NameLabels(Overlay):
     def marks(self, seen: Seen) -> Sequence[Mark]:
         """Return the names of everything that has one and is visible."""
         world = seen.world
-        rows = world.row_numbers(Name, Transform, Visual)
-        rows = rows[world[Visual].visible[rows]]
+        rows = visible_rows(world, Name)
         positions = seen.transform.position[rows]
         away = ((positions - seen.view.camera.position) ** 2).sum(axis=1)
         order = np.argsort(away, kind="stable")

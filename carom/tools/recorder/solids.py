@@ -12,6 +12,7 @@ import numpy.typing as npt
 from carom.ecs import Collider, Transform, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial import quaternion
+from carom.systems.compound import bound_centers
 from carom.systems.shapes import BY_NUMBER, Shape
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
@@ -59,10 +60,7 @@ def _from_one_end(world: World, rows: Integers) -> Fields:
 
 
 def _bounding(world: World, rows: Integers) -> Fields:
-    transform, collider = world[Transform], world[Collider]
-    turned = transform.rotation[rows]
-    center = transform.position[rows] + quaternion.rotate(turned, collider.bound_center[rows])
-    return {"centers": center, "quaternions": turned}
+    return {"centers": bound_centers(world, rows), "quaternions": world[Transform].rotation[rows]}
 
 
 def _bounds(world: World, rows: Integers) -> Fields:

@@ -9,8 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from carom.worlds.generators.generator import Copies, Generator, Setting, numbered
-from carom.worlds.generators.words import Count, Length, Lengths
-from carom.worlds.values import either
+from carom.worlds.values import Count, Length, Lengths, either
 
 
 class Grid(Generator):

@@ -9,8 +9,8 @@ from pydantic import Field
 
 from carom.ecs.errors import DeclarationError
 from carom.worlds.generators.generator import Copies, Generator, Setting, turns
-from carom.worlds.generators.words import Count, Gap
-from carom.worlds.values import In
+from carom.worlds.generators.words import Gap
+from carom.worlds.values import Count, In
 
 
 class Heap(Generator):

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from carom.worlds.generators.generator import Copies, Generator, Setting, numbered
-from carom.worlds.generators.words import Count, Lengths
+from carom.worlds.values import Count, Lengths
 
 
 class Line(Generator):

@@ -11,8 +11,8 @@ from carom.ecs.column import Floats
 from carom.ecs.errors import DeclarationError
 from carom.worlds.errors import WordError
 from carom.worlds.generators.generator import Copies, Generator, Setting, numbered, turns
-from carom.worlds.generators.words import Count, Edge, Edges, Gap
-from carom.worlds.values import Flag
+from carom.worlds.generators.words import Edge, Edges, Gap
+from carom.worlds.values import Count, Flag
 
 TRIES = 50  # places drawn for each copy before those left are given up
 

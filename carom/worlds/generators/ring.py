@@ -10,8 +10,8 @@ from pydantic import Field
 
 from carom.ecs.spatial import angles, quaternion
 from carom.worlds.generators.generator import Copies, Generator, Setting, numbered
-from carom.worlds.generators.words import Count, Edge
-from carom.worlds.values import Flag, In
+from carom.worlds.generators.words import Edge
+from carom.worlds.values import Count, Flag, In
 
 FARTHEST_START = 1e6  # rad; the sine of far larger angles has no digit worth having
 

@@ -8,7 +8,8 @@ import numpy as np
 from pydantic import Field
 
 from carom.worlds.generators.generator import Copies, Generator, Setting, numbered
-from carom.worlds.generators.words import Count, Gap
+from carom.worlds.generators.words import Gap
+from carom.worlds.values import Count
 
 
 class Stack(Generator):

@@ -16,7 +16,6 @@ from carom.ecs.spatial import quaternion
 from carom.systems.joints.frames import shortest_turn
 from carom.worlds.importing.model import SLIDE, Connection, Freedom, Inertia, Link, Model, Piece, Pose
 
-HANDS = ("right", "left")
 UPRIGHT = {  # the rotation that takes an axis to y
     "x": ((0.0, -1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
     "y": ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),

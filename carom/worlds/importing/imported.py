@@ -18,7 +18,6 @@ from carom.worlds.importing.meshes import Meshes
 from carom.worlds.importing.report import Report
 from carom.worlds.importing.writing import text_of
 
-TOUCHING = ("hull", "parts", "none")  # how meshes touch
 FORMATS = "<robot> of URDF or <mujoco> of MJCF"
 SCENES = (".gltf", ".glb")
 NAMED = (*ENDINGS, ".xml", ".mjcf", ".bin", ".png", ".jpg", ".jpeg")  # files that models name

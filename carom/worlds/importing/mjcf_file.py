@@ -101,7 +101,6 @@ class Compiler:
         self.limits_by_range = words.get("autolimits", "true") == "true"
         self.from_geoms = words.get("inertiafromgeom", "auto")
         self.meshes = words.get("meshdir", words.get("assetdir", ""))
-        self.textures = words.get("texturedir", words.get("assetdir", ""))
 
     def angle(self, value: float) -> float:
         """Return an angle in rad."""

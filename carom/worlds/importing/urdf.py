@@ -17,7 +17,6 @@ from carom.worlds.importing.urdf_links import LAYER, LinkReader, origin_of
 UP = "z"
 JOINTS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 KNOWN = ("link", "joint", "material")
-BASES = ("auto", "fixed", "free")
 FORWARD = (1.0, 0.0, 0.0)
 
 

@@ -12,14 +12,15 @@ import numpy.typing as npt
 
 from carom.ecs import Transform, Visual, World
 from carom.ecs.column import Booleans, Floats, Integers
+from carom.systems.compound import shape_at
 from carom.systems.kernels.observing import note_poses
-from carom.systems.shapes import BY_NUMBER, Shape
-from carom.systems.shapes.geometry import Geometries
+from carom.systems.shapes import Shape
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.choice import Choice
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.surfaces import mesh_of
 from carom.tools.recorder.track import Track
+from carom.tools.visible import visible_rows
 
 ROOT = "world"
 LOOK = ("shape", "size", "geometry", "position", "rotation")
@@ -85,8 +86,7 @@ class Bodies(Track):
 
     def seen(self, world: World) -> Integers:
         """Return the rows of all who are drawn."""
-        rows = world.row_numbers(Visual, Transform)
-        rows = rows[world[Visual].visible[rows]]
+        rows = visible_rows(world)
         return rows if self.only is None else rows[self.only.rows(world)[rows]]
 
     def colors(self, world: World, rows: Integers) -> Floats:
@@ -137,9 +137,10 @@ class Bodies(Track):
         for look, alike in members.items():
             entities = world.entities(np.array(alike))
             names = world.names_told(entities)
-            path = self._paths.setdefault(look, self._path(_shape(world, alike[0]), names[0], bool(alone[alike[0]])))
+            shape = shape_at(world, alike[0], Visual)
+            path = self._paths.setdefault(look, self._path(shape, names[0], bool(alone[alike[0]])))
             if look not in before:
-                drawn = _shape(world, alike[0]), visual.position[alike[0]], visual.rotation[alike[0]]
+                drawn = shape, visual.position[alike[0]], visual.rotation[alike[0]]
                 stream.row(path, stamp, mesh_of(*drawn, colors[np.searchsorted(rows, alike[0])]))
             if look not in before or not np.array_equal(before[look].entities, entities):
                 stream.row(path, stamp, rerun.AnyValues(**{self._whose: entities}, name=names))
@@ -177,10 +178,3 @@ def write_poses(kept: Sequence[Noted], groups: Sequence[Group], rows: Callable[.
             turns = np.stack([poses.turns[group.span] for _, poses, _ in held])
             columns = rerun.InstancePoses3D.columns(translations=places, quaternions=turns)
             rows(group.path, [stamp for stamp, _, _ in held], columns)
-
-
-def _shape(world: World, row: int) -> Shape:
-    visual = world[Visual]
-    number = int(visual.geometry[row])
-    geometry = world[Geometries].items[number] if number >= 0 else None
-    return BY_NUMBER[int(visual.shape[row])].from_size(visual.size[row], geometry)
