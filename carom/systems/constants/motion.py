@@ -1,0 +1,39 @@
+"""Motion: who is fast, who falls asleep, and how bodies turn."""
+
+# Part of a body's smallest half extent by which it may move within a step before it is looked after on its way. Larger:
+# thin bodies pass through thin walls. Smaller: slow bodies cost as much as fast ones.
+FAST = 0.5
+
+# m. Half extent that smaller bodies, points among them, are taken to have. Larger: small ones pass through thin walls.
+# Smaller: points are looked after at any speed, and looked at again and again.
+LEAST_FAST = 1e-3
+
+# Part of a body's smallest half extent up to which a contact found on the way is trusted to say when the gap closes.
+# Larger: it is followed past edges that are not there. Smaller: more looks.
+TRUST = 0.25
+
+# Part of that at which a body on its way is near enough for its contact to be found. Smaller: more steps to come there.
+MEET = 0.25
+
+# Steps towards a meeting, and detections in the middle of a substep for those who are fast. Fewer: bodies that tumble
+# past others are given up before they meet; those are counted.
+MOST_LOOKS = 64
+
+# m/s. A body no point of which is faster may fall asleep, with its island. Larger: what rolls out slowly stops short.
+# Smaller: tall piles, of which cubes tremble by a tenth of this, stay awake longer.
+SLEEP_SPEED = 0.03
+
+# s. For how long. Shorter: what turns round, as a pendulum does at its end, is caught there.
+SLEEP_TIME = 0.5
+
+# Part of what a medium bears. A body that touches nothing falls asleep in it when the forces on it are less than this
+# off balance. Larger: bodies stop above or below where they float, and heeled. Smaller: they stay awake for longer.
+AFLOAT = 2e-4
+
+# rad. Closest to zero a squared angle may come before the quaternion exponential uses its limit.
+SMALL_ANGLE = 1e-12
+
+# Part of itself, one in this many, by which a step is due early in real time, so that 100 steps of 0.01 s fit into 1 s
+# although the float 0.01 is more than a hundredth; never seen, 16 ns at 60 Hz. Larger: sums of rounded numbers such as
+# 1/144 s may end a step short.
+EARLY = 2**20

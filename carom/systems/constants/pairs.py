@@ -1,0 +1,29 @@
+"""Finding pairs: bounds, the grid and the tree over them."""
+
+# m. Bounds reach this much further than the motion foreseen, so that small pushes do not ask for a new detection; and
+# where everybody moves, by up to this part of their size, for those who are struck. Larger: more pairs to look at.
+# Smaller: more detections in the middle of a step, twice as many in falling piles.
+REACH_SLACK, REACH_STIRRED = 3e-3, 0.125
+
+# Factor on the motion foreseen within a step. Below 1 a falling body leaves its bounds in every step.
+REACH_FACTOR = 1.25
+
+# Part of a bound's smallest half extent by which the pair cache sees it wider. Larger: more pairs are kept in vain, as
+# the cube of it. Smaller: bodies leave their fat bounds sooner and are looked up anew.
+FAT = 0.05
+
+# Sizes that may share a grid, in quarters of a power of two: within a factor of four. More: small bodies crowd in cells
+# made for large ones. Fewer: more bodies are in the tree, which is slower.
+SIZE_CLASS = 8
+
+# Part by which a cell of the grid is larger than the largest bounds in it, and how many cells may be along an axis. The
+# rounding of a cell's number, a few times 2**-53 of it, must be less, or neighbours would be overlooked.
+CELL_SLACK = 2.0**-20
+MOST_CELLS_ALONG = 2.0**30
+
+# Part of all rows that may have left their place in grid and tree before both are built anew, which costs as much as
+# looking up about a fifth of the rows.
+MOST_ASTRAY = 0.125
+
+# Rows that may in any case, since testing these one by one costs a tenth of building anything.
+FEW_ASTRAY = 64

@@ -1,0 +1,42 @@
+"""Resting contacts and joints: what is kept from step to step, how they yield, and how often they are swept."""
+
+# Part of the smaller shape's longest half extent. A point this near to one of the step before, which is no more, takes
+# over its impulses. Larger: impulses of points far off turn bodies for a substep. Smaller: where corners change places,
+# edge on edge or among the four of five that are kept, bodies are let go for a substep, and piles tremble for good.
+SAME_POINT = 1.0
+
+# Part of the smaller shape's longest half extent by which points may slip or sink, and turn in radians, before a pair
+# is measured anew. Larger: contacts are where the shapes no longer are. Smaller: piles are measured at every tremble,
+# and tremble.
+RECYCLED_SLIP, RECYCLED_TURN = 1e-3, 2e-3
+
+# Points of a manifold; a pair with more on one plane has several.
+MANIFOLD_POINTS = 4
+
+# Hz and damping ratio of the spring by which contacts of two moving bodies yield. Stiffer: pyramids flutter (from 60 Hz
+# on). Softer: ten cubes of one size sink by 25 mm instead of 11 (30 Hz). A heavy body sinks into light ones.
+CONTACT_FREQUENCY, CONTACT_DAMPING = 45.0, 10.0
+
+# Part of the overlap with what cannot move that leaves in a substep; such contacts do not yield, so that what lies on
+# the ground lies where it should. Larger: bodies under a pile tremble. Smaller: it takes longer.
+RIGID_RATE = 0.05
+
+# Part of what a joint is off by that goes in a substep; and part of the mass, and of the impulse of the substep before,
+# that counts meanwhile. Smaller: joints under heavy loads stretch, and pendulums lose energy. Larger: straight chains
+# of light links with a heavy end, which a sweep solves in part only, tear themselves apart.
+JOINT_RATE, JOINT_HARDNESS = 0.7, 0.85
+
+# m/s, rad/s. What reaches the limit of a joint more slowly does not bounce. Larger: soft bounces end too early.
+# Smaller: what lies at its limit trembles.
+BOUNCE_SPEED = 0.01
+
+# m/s. Overlap leaves no faster: what begins deep inside another would be shot out.
+PUSH_SPEED = 3.0
+
+# Sweeps of the resting stage: over the points of a manifold, over all manifolds after the drift, and over friction and
+# rolling of a manifold that resists rolling. One sweep over points lets stacks drift by centimetres; one after the
+# drift leaves 3 mm/s in a pyramid; with fewer over rolling a ball takes more substeps to stop than theory does.
+POINT_SWEEPS, RELAX_SWEEPS, ROLL_SWEEPS = 2, 2, 8
+
+# Squared part of the most that friction and rolling may be, by which a sweep changes what is found: rounding.
+ROLLING_SOLVED = 1e-28
