@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from carom.ecs import RigidBody, World
-from carom.ecs.column import Floats
+from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import CaromError, did_you_mean
 from carom.ecs.spatial import quaternion
 from carom.systems.simulation import Simulation
@@ -65,17 +65,24 @@ def _assign_column(simulation: Simulation, target: str, operator: str, text: str
     if column.role not in ("state", "input") or place.name.startswith("inverse_"):
         what = f"{place.kind.__name__}.{place.name} follows from other columns"
         raise WordError(what, received=repr(target), accepted="columns that a step does not compute anew")
+    if not term.there(world).all():
+        raise WordError(term.absence(world), received=repr(target), accepted="who is there")
     before = term.read(world)
     after = _changed(before, operator, _value(text, "1" if operator in ("*", "/") else term.unit, simulation))
     for value in np.unique(after).tolist():
         read_quantity(value, term.unit, **column.bounds)
     _write(world, term, place, after)
-    simulation.wake(*term.entities)
+    simulation.wake(*world.entities(_rows(term, world)))
+
+
+def _rows(term: Term, world: World) -> Integers:
+    assert term.cast is not None, "a column is of somebody"
+    return term.cast.rows(world)
 
 
 def _write(world: World, term: Term, place: Place, values: Floats) -> None:
     """Write values (entities, size) into a column, and what goes with them."""
-    rows = np.array([world.row(entity) for entity in term.entities], np.int64)
+    rows = _rows(term, world)
     with world.edit(place.kind) as table:
         column = getattr(table, place.name)
         if isinstance(table, RigidBody) and place.name == "mass":  # of the same shape
@@ -153,6 +160,8 @@ def _look_up(simulation: Simulation, name: str) -> object:
         term = read_term(name, simulation.world)
         if len(term.names) > 1:
             raise WordError("is of several entities", received=repr(name), accepted="the name of one")
+        if not term.there(simulation.world).all():
+            raise WordError(term.absence(simulation.world), received=repr(name), accepted="who is there")
         values, unit = term.read(simulation.world)[0], term.unit
     made = [quantity(float(value), parse_unit(unit).dimension) for value in values]
     return made[0] if len(made) == 1 else made

@@ -45,11 +45,11 @@ class Holds:
 
     def met(self, world: World) -> Met | None:
         """Evaluate it for each entity it speaks of."""
-        holds = self.condition.evaluate(world).holds
-        if not holds.any():
+        there, holds, _ = self.condition.evaluate(world)
+        if not (holds & there).any():
             return None
-        index = int(holds.argmax())
-        return Met(self.condition.values(world, index), self.condition.entities(index))
+        index = int((holds & there).argmax())
+        return Met(self.condition.values(world, index), tuple(map(world.find, self.condition.of(index))))
 
 
 @dataclass

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
 
-from carom.ecs import Entity, World
+from carom.ecs import World
 from carom.ecs.column import Booleans, Floats
 from carom.worlds.errors import WordError
 from carom.worlds.parsing import Parser
@@ -30,32 +31,49 @@ FORM = "comparisons such as 'left.position.y < 0', 'speed(left) > 3 m/s', joined
 
 
 class Verdict(NamedTuple):
-    """Whether a condition holds for each entity it speaks of, and by how much (positive where it holds)."""
+    """For each entity a condition speaks of: whether it is there, whether it holds, by how much (positive if so)."""
+
+    there: Booleans
+    holds: Booleans
+    margin: Floats
+
+
+class Compared(NamedTuple):
+    """Whether a part of a condition holds for each, and by how much."""
 
     holds: Booleans
     margin: Floats
 
 
-Evaluate = Callable[[World], Verdict]
+Evaluate = Callable[[World], Compared]
 
 
 @dataclass(frozen=True)
 class Condition:
-    """A parsed condition; where its terms are of several entities it is one condition for each."""
+    """A parsed condition; where its terms are of several entities it is one condition for each.
+
+    It is asked of those of whom all of its terms are there.
+    """
 
     text: str
     terms: tuple[Term, ...]
-    evaluate: Evaluate
+    compare: Evaluate
 
     @property
     def looks(self) -> bool:
         """Whether it asks for pictures."""
         return any(term.looks for term in self.terms)
 
-    def entities(self, index: int) -> tuple[Entity, ...]:
+    def evaluate(self, world: World) -> Verdict:
+        """Return what holds now."""
+        there = reduce(np.logical_and, (term.there(world) for term in self.terms))
+        holds, margin = self.compare(world)
+        return Verdict(np.broadcast_to(there, holds.shape), holds, margin)
+
+    def of(self, index: int) -> tuple[str, ...]:
         """Return whom its terms are of where it speaks of one of the entities."""
-        of = (term.entities[index % len(term.entities)] for term in self.terms if term.entities)
-        return tuple(dict.fromkeys(of))
+        names = (term.of(index % len(term.names)) for term in self.terms)
+        return tuple(dict.fromkeys(name for name in names if name))
 
     def values(self, world: World, index: int) -> str:
         """Return what its terms are for one of the entities."""
@@ -64,6 +82,11 @@ class Condition:
             at = min(index, len(term.names) - 1)
             shown.append(f"{term.names[at]} = {float(term.read(world)[at, 0]):.9g} {term.unit}")
         return ", ".join(shown)
+
+    def absence(self, world: World, index: int | None = None) -> str:
+        """Say who of all of whom it speaks, or of whom one of its values is, is not there."""
+        told = (term.absence(world, index) for term in self.terms)
+        return ", ".join(dict.fromkeys(filter(None, told)))
 
 
 def read_condition(text: str, world: World) -> Condition:
@@ -105,7 +128,7 @@ class _Conditions(Parser):
         while self.take("not"):
             turned = not turned
         inner = self.comparison(depth)
-        return (lambda world: Verdict(~(found := inner(world)).holds, -found.margin)) if turned else inner
+        return (lambda world: Compared(~(found := inner(world)).holds, -found.margin)) if turned else inner
 
     def comparison(self, depth: int) -> Evaluate:
         if self.take("("):
@@ -148,20 +171,20 @@ class _Conditions(Parser):
 
 
 def _compared(left: Callable[[World], Floats], mark: str, right: Callable[[World], Floats]) -> Evaluate:
-    def evaluate(world: World) -> Verdict:
+    def evaluate(world: World) -> Compared:
         a, b = left(world), right(world)
         room = b - a if mark in ("<", "<=") else a - b if mark in (">", ">=") else np.abs(a - b)
-        return Verdict(COMPARE[mark](a, b), -room if mark == "==" else room)
+        return Compared(COMPARE[mark](a, b), -room if mark == "==" else room)
 
     return evaluate
 
 
 def _joined(parts: list[Evaluate], holds: np.ufunc, margin: np.ufunc) -> Evaluate:
-    def evaluate(world: World) -> Verdict:
+    def evaluate(world: World) -> Compared:
         found = [part(world) for part in parts]
         total = found[0]
         for verdict in found[1:]:
-            total = Verdict(holds(total.holds, verdict.holds), margin(total.margin, verdict.margin))
+            total = Compared(holds(total.holds, verdict.holds), margin(total.margin, verdict.margin))
         return total
 
     return evaluate

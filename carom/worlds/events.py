@@ -8,6 +8,7 @@ from carom.ecs.errors import DeclarationError
 from carom.systems.actions import Action, Spawn
 from carom.systems.events import Event, Events, read_event
 from carom.systems.parameters import WordFault
+from carom.worlds.comers import all_names
 from carom.worlds.crowd import Form, Member, put_together
 from carom.worlds.errors import Path, WordError
 from carom.worlds.groups import WORLD
@@ -71,14 +72,12 @@ def _spawn(intake: Intake, path: Path, words: Any) -> Spawn | None:
 
 def _check_names(source: Source, intake: Intake, path: Path, action: Action) -> None:
     """Report names of nobody who is there or comes later, and of those to whom the action means nothing."""
-    world, later = intake.simulation.world, list[str]()
-    for event in world[Events].entries:
-        later += getattr(event.action, "names", None) or ()
-    here = set(world.names())
+    world = intake.simulation.world
+    names, here = all_names(world), set(world.names())
     for number, pattern in enumerate(action.entities):
         place = (*path, number) if source.written((*path, number)) else (*path, "entities", number)
         try:
-            found = matching(pattern, [*world.names(), *later])
+            found = matching(pattern, names)
         except WordError as fault:
             source.report_value(place, fault)
             continue

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from carom.ecs import World
-from carom.systems.events import Events
 from carom.systems.simulation import Simulation
 from carom.worlds.condition import read_condition
 from carom.worlds.errors import Path, WordError
@@ -16,7 +14,6 @@ from carom.worlds.expect_moment import frame_of, read_event
 from carom.worlds.expect_pictures import Visible
 from carom.worlds.expect_values import read_values
 from carom.worlds.expectation import Expectation, Outcome
-from carom.worlds.names import fitting
 from carom.worlds.source import Source
 
 __all__ = ["Expectation", "Outcome", "read_expectations"]
@@ -24,33 +21,19 @@ RUN = (*QUANTITIES, "penetration", "bounds", "never", "always", "eventually", "s
 
 
 def read_expectations(source: Source, simulation: Simulation, items: list[Any]) -> list[Expectation]:
-    """Return the expectations of checked words (None: already reported); report names the world does not have."""
+    """Return the expectations of checked words (None: already reported); report names of nobody."""
     found: list[Expectation] = []
     for index, words in enumerate(items):
         if words is not None:
             path = ("expect", index)
-            read = _read(_Telling(source, simulation.world), simulation, path, words)
+            read = _read(source, simulation, path, words)
             for expectation in read:
                 expectation.file = source.written_at(path)
             found += read
     return found
 
 
-class _Telling:
-    """Reports what is wrong with expectations, and of whom they cannot speak although he comes."""
-
-    def __init__(self, source: Source, world: World) -> None:
-        self.source, self.world = source, world
-
-    def of(self, path: Path, fault: WordError) -> None:
-        """Report a value that could not be read."""
-        later = [name for event in self.world[Events].entries for name in getattr(event.action, "names", None) or ()]
-        if fault.name and fitting(fault.name, later):
-            fault.hint = "it comes by an event, and expectations speak of who is there at the start"
-        self.source.report_value(path, fault)
-
-
-def _read(telling: _Telling, simulation: Simulation, path: Path, words: Any) -> list[Expectation]:
+def _read(source: Source, simulation: Simulation, path: Path, words: Any) -> list[Expectation]:
     values = dict(words.__pydantic_extra__ or {})
     moments = [key for key in ("at", "when") if getattr(words, key) is not None]
     laws = [key for key in RUN if getattr(words, key) is not None]
@@ -58,29 +41,29 @@ def _read(telling: _Telling, simulation: Simulation, path: Path, words: Any) -> 
     if len(moments) > 1 or (moments and not asked) or (values and not moments) or not (laws or asked):
         accepted = f"{', '.join(RUN)}, visible; or at or when, with values such as ball.position: {{is, within}}"
         received = ", ".join((*moments, *values)) or "none"
-        telling.source.report(path, "must state a law, or a moment with values", received=received, accepted=accepted)
+        source.report(path, "must state a law, or a moment with values", received=received, accepted=accepted)
         return []
     found: list[Expectation] = []
     for key in laws:
         try:
             found.append(_of_run(simulation, key, getattr(words, key)))
         except WordError as fault:
-            telling.of((*path, key), fault)
+            source.report_value((*path, key), fault)
     moment: dict[str, Any] = {}
     for key in moments:
         try:
             moment = _moment(simulation, key, getattr(words, key))
         except WordError as fault:
-            telling.of((*path, key), fault)
+            source.report_value((*path, key), fault)
             return found
     if words.visible is not None:
         try:
             found.append(Visible(words.visible, simulation.world, **moment))
         except WordError as fault:
-            telling.of((*path, "visible"), fault)
+            source.report_value((*path, "visible"), fault)
     for name, item in read_values(values, simulation.world, **moment):
         if isinstance(item, WordError):
-            telling.of((*path, name), item)
+            source.report_value((*path, name), item)
         else:
             found.append(item)
     return found

@@ -11,7 +11,7 @@ from carom.ecs.column import Integers
 from carom.systems.compound import bodies_of
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import WordError
-from carom.worlds.expect_course import handles
+from carom.worlds.expect_course import among
 from carom.worlds.expectation import Expectation
 from carom.worlds.measuring import boxes
 
@@ -30,7 +30,7 @@ class Bounds(Expectation):
                 raise WordError(f"{axis} must go from low to high", received=f"[{low:g}, {high:g}]")
         self.low = np.array([stated.get(axis, (-np.inf,))[0] for axis in AXES])
         self.high = np.array([stated.get(axis, (np.inf,))[-1] for axis in AXES])
-        self.among = handles(words.entities, world)
+        self.among = among(words.entities, world)
         text = ", ".join(f"{axis} in [{low:g}, {high:g}] m" for axis, (low, high) in stated.items())
         super().__init__(f"bounds: {text}", text)
         self.least = np.inf
@@ -49,12 +49,17 @@ class Bounds(Expectation):
         room = np.concatenate([low - self.low, self.high - high], axis=1)
         index, side = np.unravel_index(int(np.argmin(room)), room.shape)
         axis, place = AXES[side % 3], float((low if side < 3 else high)[index, side % 3])
-        owner = world.entity(int(owners[index]))
-        received = f"{world.name(owner) or f'entity {owner}'} reaches {axis} = {place:.6g} m"
+        owner = world.name(world.entity(int(owners[index])))
+        received = f"{owner} reaches {axis} = {place:.6g} m"
         if room[index, side] < self.least:
             self.least, self.worst = float(room[index, side]), received
         if not room[index, side] >= 0.0:
             self.fail(simulation, received, [owner])
+
+    def end(self, simulation: Simulation) -> None:
+        """Fail where nobody came of whom it speaks."""
+        if self.among is not None and not self.among.came.any():
+            self.fail(simulation, f"never asked, since {self.among.absence(simulation.world)}")
 
     def _colliders(self, world: World) -> tuple[Integers, Integers]:
         """Return the colliders (rows) of whom it speaks, by default of all bodies, each with the body it belongs to."""
@@ -63,5 +68,6 @@ class Bounds(Expectation):
         if self.among is None:
             spoken = world.table(RigidBody).present[owners]
         else:
-            spoken = np.isin(world.entities(owners), self.among) | np.isin(world.entities(rows), self.among)
+            meant = self.among.rows(world)
+            spoken = np.isin(owners, meant) | np.isin(rows, meant)
         return rows[spoken], owners[spoken]

@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 
 from carom.ecs import World
-from carom.ecs.column import Booleans, Integers
+from carom.ecs.column import Booleans
 from carom.systems.bodies import dynamic_rows
 from carom.systems.simulation import Simulation
+from carom.worlds.cast import Cast, cast_of
 from carom.worlds.condition import Condition
 from carom.worlds.errors import WordError
 from carom.worlds.expect_moment import Event, frame_of, read_event
 from carom.worlds.expect_words import SettledWords
 from carom.worlds.expectation import Expectation
-from carom.worlds.names import matching
 from carom.worlds.run import speeds
 
 
@@ -43,7 +43,8 @@ class Eventually(Expectation):
         """Note for whom it holds, and how near the others came."""
         if self.settled:
             return
-        holds, margin = self.condition.evaluate(simulation.world)
+        there, holds, margin = self.condition.evaluate(simulation.world)
+        holds, margin = holds & there, np.where(there, margin, -np.inf)
         if self.held_by is None:
             self.held_by, self.nearest, self.said = (
                 np.zeros_like(holds),
@@ -59,8 +60,10 @@ class Eventually(Expectation):
         """Fail where it has never held."""
         missing = [] if self.held_by is None else np.nonzero(~self.held_by)[0].tolist()
         if missing:
-            entities = self.condition.entities(missing[0])
-            self.fail(simulation, f"nearest {self.said[missing[0]]} by the end of the run", entities)
+            index, world = missing[0], simulation.world
+            absent = f"never asked, since {self.condition.absence(world, index)}"
+            said = f"nearest {self.said[index]} by the end of the run" if self.said[index] else absent
+            self.fail(simulation, said, self.condition.of(index))
 
 
 class Settled(Expectation):
@@ -69,7 +72,7 @@ class Settled(Expectation):
     def __init__(self, stated: float | SettledWords, simulation: Simulation) -> None:
         words = stated if isinstance(stated, SettledWords) else SettledWords.model_validate({"time": stated})
         self.frame, self.speed = frame_of(words.time, simulation.settings.dt), words.speed
-        self.among = handles(words.entities, simulation.world)
+        self.among = among(words.entities, simulation.world)
         whom = "" if words.entities is None else f" of {', '.join(words.entities)}"
         super().__init__(
             f"settles_by: {words.time:g} s{whom}", f"no speed over {words.speed:g} m/s from frame {self.frame}"
@@ -85,22 +88,24 @@ class Settled(Expectation):
         world = simulation.world
         rows = dynamic_rows(world) if simulation.frame >= self.frame else np.zeros(0, np.int64)
         if self.among is not None:
-            rows = rows[np.isin(world.entities(rows), self.among)]
+            rows = rows[np.isin(rows, self.among.rows(world))]
         if not len(rows):
             return
         found = speeds(world, rows)
         index = int(np.argmax(found))
-        entity = world.entity(int(rows[index]))
-        received = f"{found[index]:.3g} m/s, {world.name(entity) or f'entity {entity}'}"
+        name = world.name(world.entity(int(rows[index])))
+        received = f"{found[index]:.3g} m/s, {name}"
         if found[index] > self.fastest:
             self.fastest, self.worst = float(found[index]), received
         if not found[index] <= self.speed:
-            self.fail(simulation, received, [entity])
+            self.fail(simulation, received, [name])
 
     def end(self, simulation: Simulation) -> None:
-        """Fail where the time never came."""
+        """Fail where the time, or whoever it speaks of, never came."""
         if simulation.frame < self.frame:
             self.fail(simulation, f"the run ended at frame {simulation.frame}, before frame {self.frame}")
+        if self.among is not None and not self.among.came.any():
+            self.fail(simulation, f"never asked, since {self.among.absence(simulation.world)}")
 
 
 class Order(Expectation):
@@ -137,8 +142,6 @@ class Order(Expectation):
                 self.fail(simulation, f"no {event.text} by the end of the run")
 
 
-def handles(patterns: Sequence[str] | None, world: World) -> Integers | None:
-    """Return whom names or patterns mean, None for everybody; raise WordError for a name that nobody has."""
-    if patterns is None:
-        return None
-    return np.array([world.find(name) for pattern in patterns for name in matching(pattern, world.names())])
+def among(patterns: Sequence[str] | None, world: World) -> Cast | None:
+    """Return whom names or patterns mean, None for everybody; raise WordError for a name that nobody will have."""
+    return None if patterns is None else cast_of(patterns, world)

@@ -122,12 +122,12 @@ class Penetration(Expectation):
             return
         row = int(np.argmax(contacts.depth[: contacts.count]))
         depth = float(contacts.depth[row])
-        both = int(contacts.a[row]), int(contacts.b[row])
-        pair = " and ".join(map(world.name, both))
+        names = [world.name(int(side[row])) for side in (contacts.a, contacts.b)]
+        pair = " and ".join(names)
         if depth > self.deepest:
             self.deepest, self.worst = depth, f"{depth:.3g} m between {pair}"
         if not (depth < self.bound if self.strict else depth <= self.bound):
-            self.fail(simulation, f"{depth:.3g} m between {pair}", both)
+            self.fail(simulation, f"{depth:.3g} m between {pair}", names)
 
 
 class Throughout(Expectation):
@@ -136,7 +136,7 @@ class Throughout(Expectation):
     def __init__(self, key: str, condition: Condition) -> None:
         self.wanted, self.condition, self.looks = key == "always", condition, condition.looks
         super().__init__(f"{key}: {condition.text}", f"{key} {condition.text}")
-        self.least = np.inf
+        self.least, self.asked = np.inf, False
 
     def begin(self, simulation: Simulation) -> None:
         """See the world before its first step."""
@@ -144,12 +144,18 @@ class Throughout(Expectation):
 
     def observe(self, simulation: Simulation) -> None:
         """Evaluate the condition for each entity it speaks of."""
-        holds, margin = self.condition.evaluate(simulation.world)
-        room = margin if self.wanted else -margin
+        there, holds, margin = self.condition.evaluate(simulation.world)
+        self.asked |= bool(there.any())
+        room = np.where(there, margin if self.wanted else -margin, np.inf)
         index = int(np.argmin(room))
         if room[index] < self.least:
             self.least, self.worst = float(room[index]), self.condition.values(simulation.world, index)
-        failing = np.nonzero(holds != self.wanted)[0]
+        failing = np.nonzero(there & (holds != self.wanted))[0]
         if len(failing):
             index = int(failing[0])
-            self.fail(simulation, self.condition.values(simulation.world, index), self.condition.entities(index))
+            self.fail(simulation, self.condition.values(simulation.world, index), self.condition.of(index))
+
+    def end(self, simulation: Simulation) -> None:
+        """Fail where nobody came of whom it speaks."""
+        if not self.asked:
+            self.fail(simulation, f"never asked, since {self.condition.absence(simulation.world)}")

@@ -6,16 +6,17 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any
 
-from carom.ecs import Collider, World
+from carom.ecs import World
 from carom.ecs.component import Relation
 from carom.ecs.components.joint import Joint
 from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.joint_break import JointBreak
 from carom.systems.simulation import Simulation
+from carom.worlds.cast import Cast, cast_of
+from carom.worlds.comers import comers, kinds_of, senses
 from carom.worlds.errors import WordError
 from carom.worlds.expectation import Expectation
-from carom.worlds.names import matching
 from carom.worlds.run import MOST_FRAMES
 
 PARTIES: dict[type[Relation], tuple[str, ...]] = {
@@ -31,12 +32,14 @@ class Event:
     """A row of an event table: which one of those whose parties are of these groups of entities."""
 
     kind: type[Relation]
-    groups: tuple[frozenset[int], ...]
+    groups: tuple[Cast, ...]
     nth: int
     text: str
 
     def matching_rows(self, world: World) -> list[int]:
         """Return the rows of the last step that are such events; impacts count whichever of the two is named first."""
+        for group in self.groups:
+            group.rows(world)  # who has come
         parties = [self.parties(world, row) for row in range(world[self.kind].count)]
         swap = self.kind is Impact
         return [row for row, some in enumerate(parties) if self._fits(some) or (swap and self._fits(some[::-1]))]
@@ -46,31 +49,31 @@ class Event:
         return tuple(int(getattr(world[self.kind], name)[row]) for name in PARTIES[self.kind])
 
     def _fits(self, parties: tuple[int, ...]) -> bool:
-        return all(party in group for party, group in zip(parties, self.groups, strict=True))
+        return all(party in group.known for party, group in zip(parties, self.groups, strict=True))
 
 
 def read_event(words: Any, world: World) -> Event:
     """Return the event of ``{impact: [a, b], nth}``, ``enter`` or ``exit: [sensor, entity]``, ``break: joint``.
 
-    Raises WordError for names that the world does not have, and for who is no sensor or joint.
+    Raises WordError for names that the world neither has nor will have, and for who is no sensor or joint.
     """
     ((kind, stated),) = ((kind, said) for kind in PARTIES if (said := getattr(words, kind.key)) is not None)
     patterns = (stated,) if isinstance(stated, str) else stated
-    groups = [frozenset(int(world.find(name)) for name in matching(pattern, world.names())) for pattern in patterns]
-    of = sorted(groups[0])
+    groups, coming = [cast_of([pattern], world) for pattern in patterns], comers(world)
+    of = groups[0].names
     if kind in (Enter, Exit):
-        sensors = world[Collider].sensor
-        _refuse(world, "sensor", "a collider with sensor: true", [one for one in of if not sensors[world.row(one)]])
+        others = [name for name in of if not senses(name, world, coming)]
+        _refuse("sensor", "a collider with sensor: true", others)
     if kind is JointBreak:
-        joints = world.table(Joint).present
-        _refuse(world, "joint", "an entity with joint", [one for one in of if not joints[world.row(one)]])
+        others = [name for name in of if Joint not in kinds_of(name, world, coming)]
+        _refuse("joint", "an entity with joint", others)
     name = "break" if kind is JointBreak else kind.key
     return Event(kind, tuple(groups), words.nth, f"{name} {words.nth} of {' and '.join(patterns)}")
 
 
-def _refuse(world: World, what: str, accepted: str, others: list[int]) -> None:
+def _refuse(what: str, accepted: str, others: list[str]) -> None:
     if others:
-        raise WordError(f"is no {what}", received=repr(world.name(others[0])), accepted=accepted)
+        raise WordError(f"is no {what}", received=repr(others[0]), accepted=accepted)
 
 
 class AtMoment(Expectation, ABC):

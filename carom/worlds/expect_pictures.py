@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
+
 from carom.ecs import World
 from carom.systems.simulation import Simulation
 from carom.worlds.condition import COMPARE, read_condition
@@ -32,8 +34,12 @@ class Visible(AtMoment):
 
     def compare(self, simulation: Simulation, row: int | None) -> None:
         """Look at the picture of now."""
-        holds, margin = self.condition.evaluate(simulation.world)
-        index = int(margin.argmin())
+        there, holds, margin = self.condition.evaluate(simulation.world)
+        if not there.any():
+            self.worst = self.condition.absence(simulation.world)
+            self.fail(simulation, self.worst)
+            return
+        index = int(np.argmin(np.where(there, margin, np.inf)))
         self.worst = self.condition.values(simulation.world, index)
-        if not holds.all():
-            self.fail(simulation, self.worst, self.condition.entities(index))
+        if not holds[there].all():
+            self.fail(simulation, self.worst, self.condition.of(index))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -82,21 +82,24 @@ class Values(AtMoment):
 
     def compare(self, simulation: Simulation, row: int | None) -> None:
         """Compare the values with the target; a row is that of the event."""
-        world = simulation.world
-        entities: Sequence[int] = ()
-        if self.term is not None:
-            values, names, entities = self.term.read(world), self.term.names, self.term.entities
-        else:
+        world, of = simulation.world, tuple[str, ...]()
+        if self.term is None:
             assert self.when is not None and row is not None
-            values, names = np.reshape(getattr(world[self.when.kind], self.column)[row], (1, -1)), (self.column,)
-            entities = self.when.parties(world, row)
-        errors = self.target.errors(values)
-        index = int(np.argmax(errors))
-        self.worst = f"{names[index]} = {numbers(values[index])} {self.target.unit}, off by {errors[index]:.3g}"
-        if not errors[index] <= self.target.within:
-            self.found = np.atleast_1d(values[index])
-            one = entities[index : index + 1] if self.term is not None else entities
-            self.fail(simulation, self.worst, one)
+            name, value = self.column, np.ravel(getattr(world[self.when.kind], self.column)[row])
+            of = tuple(map(world.name, self.when.parties(world, row)))
+        elif (there := self.term.there(world)).any():
+            values = self.term.read(world)
+            index = int(np.argmax(np.where(there, self.target.errors(values), -np.inf)))
+            name, value, of = self.term.names[index], values[index], tuple(filter(None, [self.term.of(index)]))
+        else:
+            self.worst = self.term.absence(world)
+            self.fail(simulation, self.worst)
+            return
+        error = float(self.target.errors(value[None])[0])
+        self.worst = f"{name} = {numbers(value)} {self.target.unit}, off by {error:.3g}"
+        if not error <= self.target.within:
+            self.found = value
+            self.fail(simulation, self.worst, of)
 
     def fails_like(self, other: Expectation) -> bool:
         """Tell whether both have failed of the same, by values that are the same as far as this can tell."""

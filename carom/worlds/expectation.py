@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from carom.systems.simulation import Simulation
@@ -60,11 +60,11 @@ class Expectation:
     def end(self, simulation: Simulation) -> None:
         """See the end of the run."""
 
-    def fail(self, simulation: Simulation, received: str, entities: Sequence[int] = ()) -> None:
-        """Note a failure, of these entities (handles) where it is of some; the first one counts."""
+    def fail(self, simulation: Simulation, received: str, entities: Iterable[str] = ()) -> None:
+        """Note a failure, of these entities (names) where it is of some; the first one counts."""
         if self.failure is None:
             self.failure = (received, simulation.frame, simulation.time)
-            self.entities = tuple(dict.fromkeys(map(simulation.world.name, entities)))
+            self.entities = tuple(dict.fromkeys(entities))
 
     @property
     def held(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import dist
+from typing import NamedTuple
 
 import numpy as np
 
@@ -55,6 +56,16 @@ def _sees(world: World, rows: Integers) -> float:
     return float(not reach or not Space(world).cast_rays_any(first, second - first, reach, without=pair)[0])
 
 
+class OfAll(NamedTuple):
+    """A function of several together, of those among them that are ``bodies``; of ``nobody`` it may be a value too."""
+
+    unit: str
+    size: int
+    measure: Callable[[World, Integers], Floats]
+    bodies: bool = True
+    nobody: bool = False
+
+
 CALLS: dict[str, tuple[str, str, Callable[[World, Integers], Floats]]] = {  # unit, a column who is asked must have
     "speed": ("m/s", "linear", _speed),
     "spin": ("rad/s", "linear", _spin),
@@ -62,5 +73,8 @@ CALLS: dict[str, tuple[str, str, Callable[[World, Integers], Floats]]] = {  # un
     "load": ("N", "break_force", _load),
     "error": ("m", "position", errors),
 }
-OF_ALL: dict[str, Callable[[World, Integers], Floats]] = {"center_of_mass": _center_of_mass}  # a place (3,), m
+OF_ALL = {
+    "center_of_mass": OfAll("m", 3, _center_of_mass),
+    "count": OfAll("1", 1, lambda world, rows: np.array([float(len(rows))]), bodies=False, nobody=True),
+}
 PAIRS: dict[str, tuple[str, Callable[[World, Integers], float]]] = {"distance": ("m", _distance), "sees": ("1", _sees)}

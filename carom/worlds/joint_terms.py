@@ -17,10 +17,10 @@ READINGS = {
 }
 
 
-def readings(world: World, entity: int) -> list[str]:
-    """Return the words that an entity has as a joint: of what it measures along and about."""
-    row = world.row(entity)
-    if not world.table(Joint).present[row]:
+def readings(world: World, name: str) -> list[str]:
+    """Return the words that an entity has as a joint: of what it measures along and about. No joint comes later."""
+    entity = world.names_now().entities.get(name)
+    if entity is None or not world.table(Joint).present[row := world.row(entity)]:
         return []
     joint = world[Joint]
     if joint.along[row] == LINE:
@@ -28,6 +28,6 @@ def readings(world: World, entity: int) -> list[str]:
     return ["angle", "distance", "swing" if joint.about[row] == SWING_TWIST else "second_angle"]
 
 
-def spelled_out(world: World, entity: int, steps: list[str]) -> list[str]:
+def spelled_out(world: World, name: str, steps: list[str]) -> list[str]:
     """Return the column and the way that a word of a joint stands for; other steps as they are."""
-    return list(READINGS[steps[0]]) if steps[0] in readings(world, entity) and len(steps) == 1 else steps
+    return list(READINGS[steps[0]]) if steps[0] in readings(world, name) and len(steps) == 1 else steps

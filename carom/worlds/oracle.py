@@ -60,12 +60,12 @@ def errors(world: World, rows: Integers) -> Floats:
     return np.asarray(np.linalg.norm(away, axis=1))
 
 
-def check_foretold(world: World, entity: int) -> None:
+def check_foretold(world: World, name: str) -> None:
     """Raise WordError for an entity without a closed form."""
-    forms = world[Oracle].forms if Oracle in world else {}
-    if entity not in forms:
-        accepted = ", ".join(world.name(one) for one in forms) or "an entity of the section oracle"
-        raise WordError(f"oracle says nothing of {world.name(entity)}", accepted=accepted)
+    told = [world.name(entity) for entity in world[Oracle].forms] if Oracle in world else []
+    if name not in told:
+        accepted = ", ".join(told) or "an entity of the section oracle"
+        raise WordError(f"oracle says nothing of {name}", accepted=accepted)
 
 
 def read_oracle(source: Source, world: World, stated: Mapping[str, Any], look_up: LookUp) -> Oracle:

@@ -8,7 +8,6 @@ import numpy as np
 
 from carom.ecs import World
 from carom.ecs.column import Floats
-from carom.ecs.components.emitter import Emitter
 from carom.ecs.errors import did_you_mean
 from carom.ecs.relations.particle import Particle
 from carom.systems.particles.pieces import piece_of
@@ -26,11 +25,6 @@ MEASURES: dict[str, tuple[str, int, Measure]] = {  # unit, size, and how it is f
     "velocity": ("m/s", 3, lambda place, velocity: velocity.mean(axis=0)),
     "speed": ("m/s", 1, lambda place, velocity: np.sqrt((velocity**2).sum(axis=1)).mean(keepdims=True)),
 }
-
-
-def emits(world: World, entity: int) -> bool:
-    """Tell whether an entity is an emitter."""
-    return bool(world.table(Emitter).present[world.row(entity)])
 
 
 def particle_measure(text: str, steps: list[str]) -> tuple[str, int, Callable[[World, int], Floats]]:

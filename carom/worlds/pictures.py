@@ -9,6 +9,7 @@ from carom.ecs import Entity, Visual, World
 from carom.ecs.component import Resource
 from carom.ecs.errors import CaromError
 from carom.systems.compound import bodies_of
+from carom.worlds.comers import comers, kinds_of
 from carom.worlds.errors import WordError
 from carom.worlds.names import known
 
@@ -65,12 +66,11 @@ def read_camera(world: World, name: str | None) -> None:
         pictures.asked.append(name)
 
 
-def check_drawn(world: World, entities: Iterable[Entity]) -> None:
-    """Raise WordError for an entity of which nothing is drawn."""
-    owners = bodies_of(world)
-    for entity in entities:
-        rows = world.row_numbers(Visual)
-        if not ((rows == world.row(entity)) | (owners[rows] == world.row(entity))).any():
-            raise WordError(
-                f"nothing is drawn of {world.name(entity)}", accepted="an entity with a collider or a visual"
-            )
+def check_drawn(world: World, names: Iterable[str]) -> None:
+    """Raise WordError for an entity of which nothing is drawn, now or once it comes."""
+    coming, rows = comers(world), world.row_numbers(Visual)
+    seen = {*rows.tolist(), *bodies_of(world)[rows].tolist()}
+    for name in names:
+        entity = world.names_now().entities.get(name)
+        if not (Visual in kinds_of(name, world, coming) or (entity is not None and world.row(entity) in seen)):
+            raise WordError(f"nothing is drawn of {name}", accepted="an entity with a collider or a visual")

@@ -1,4 +1,4 @@
-"""A term: a value that can be asked of a world, and whose rows it is read from."""
+"""A term: a value that can be asked of a world, and of whom it is."""
 
 from __future__ import annotations
 
@@ -8,11 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from carom.ecs import Component, Entity, World
-from carom.ecs.column import Floats, Integers
+from carom.ecs import Component, World
+from carom.ecs.column import Booleans, Floats
+from carom.worlds.cast import Cast
 
 AXES = ("x", "y", "z", "w")
 Read = Callable[[World], Floats]
+ALWAYS: Booleans = np.ones(1, np.bool_)
 
 
 class Place(NamedTuple):
@@ -27,8 +29,8 @@ class Place(NamedTuple):
 class Term:
     """A value of one or several entities; ``read`` returns it for each, shape (entities, size), in ``unit``.
 
-    ``entities`` are whom its values are of, where each is of one; ``looks`` is whether it is asked of a picture;
-    ``place`` is the column that it reads, where it reads one.
+    ``cast`` is whom it is of, and ``there`` tells which of its values there are to be read now, where that is not
+    always so; ``looks`` is whether it is asked of a picture; ``place`` is the column that it reads, where it reads one.
     """
 
     text: str
@@ -36,21 +38,17 @@ class Term:
     size: int
     names: tuple[str, ...]
     read: Read
-    entities: tuple[Entity, ...] = ()
+    cast: Cast | None = None
+    there: Callable[[World], Booleans] = lambda world: ALWAYS
     looks: bool = False
     place: Place | None = None
 
+    def of(self, index: int) -> str:
+        """Return of whom one of its values is; nothing where it is of several."""
+        return self.cast.names[index] if self.cast is not None and len(self.cast.names) == len(self.names) else ""
 
-class Rows:
-    """The rows of entities, looked up again only where rows may have changed."""
-
-    def __init__(self, entities: list[Entity]) -> None:
-        self._entities, self._seen = entities, (-1, -1)
-        self._rows: Integers = np.zeros(0, np.int64)
-
-    def __call__(self, world: World) -> Integers:
-        """Return them as they are now; raise EntityError for one who is gone."""
-        if self._seen != (world.structure, world.restored):
-            self._rows = np.array([world.row(entity) for entity in self._entities], np.int64)
-            self._seen = (world.structure, world.restored)
-        return self._rows
+    def absence(self, world: World, index: int | None = None) -> str:
+        """Say who of all of whom it is, or of whom one of its values is, is not there."""
+        if self.cast is None:
+            return ""
+        return self.cast.absence(world, index if len(self.cast.names) == len(self.names) else None)

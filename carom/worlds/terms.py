@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 
 from carom.ecs import World
-from carom.worlds.call_terms import call_term, place_of_all
+from carom.worlds.call_terms import call_term, term_of_all
 from carom.worlds.column_terms import column_term
+from carom.worlds.comers import all_names
 from carom.worlds.errors import WordError
 from carom.worlds.functions import CALLS, OF_ALL, PAIRS
 from carom.worlds.names import fitting, matching
@@ -21,13 +22,13 @@ TERM_PATTERN = rf"\w+\s*\([^()]*\)(?:\.[xyz])?|{NAME_PATTERN}"
 
 
 def read_term(text: str, world: World) -> Term:
-    """Return the term a text states; raise WordError for what the world does not have."""
+    """Return the term a text states; raise WordError for what the world neither has nor will have."""
     text = text.strip()
     call, dots = CALL_TERM.fullmatch(text), [dot.start() for dot in DOT.finditer(text)]
     if call is not None:
         patterns = re.findall(NAME_PATTERN, call[2])
         if call[1] in OF_ALL:
-            return place_of_all(text, call[1], patterns, call[3], world)
+            return term_of_all(text, call[1], patterns, call[3], world)
         if call[3] is None or call[1] not in (*CALLS, *PAIRS, *QUESTIONS):
             return call_term(text, call[1], patterns, world)
     if COLUMN_TERM.fullmatch(text) is None or not dots:
@@ -35,6 +36,6 @@ def read_term(text: str, world: World) -> Term:
         calls += [f"{name}(entity, entity)" for name in PAIRS]
         accepted = f"<entity>.<column>, {', '.join(calls[:-1])} or {calls[-1]}"
         raise WordError("is no value of the world", received=repr(text), accepted=accepted)
-    there = world.names()
+    there = all_names(world)
     end = next((dot for dot in reversed(dots) if fitting(text[:dot], there)), dots[0])
     return column_term(text, end, matching(text[:end], there), world)

@@ -69,8 +69,8 @@ def test_what_is_no_quantity_is_told() -> None:
     assert str(caught.value) == (
         "bounce.yaml: plots: is no value of the world; received 'enrgy'; accepted: energy, momentum, overlap, counts, "
         "<entity>.<column>, speed(entity), spin(entity), kinetic_energy(entity), load(entity), "
-        "error(entity), center_of_mass(entity, ...), distance(entity, entity) or sees(entity, entity); "
-        "did you mean 'energy'?"
+        "error(entity), center_of_mass(entity, ...), count(entity, ...), distance(entity, entity) or "
+        "sees(entity, entity); did you mean 'energy'?"
     )
     with pytest.raises(WordError):
         quantity("speed(nobody)", loaded.simulation.world)
@@ -94,6 +94,20 @@ def test_a_straight_line_is_straight_and_ends_in_the_corner() -> None:
     assert (x.min() - left, right - x.max()) == (pytest.approx(0, abs=2), pytest.approx(0, abs=2))
 
 
+def test_a_curve_begins_when_somebody_comes() -> None:
+    """Who comes by an event has no speed before; the curve is in the second half."""
+    simulation = falling()
+    simulation.event(0.5, spawn={"name": "late", "body": {"mass": 1.0, "inertia": (1.0, 1.0, 1.0)}})
+    plot = Plot(quantity("speed(late)", simulation.world))
+    for _ in range(60):
+        simulation.step()
+        plot.watch(simulation.world)
+    picture = plotted(simulation, plot).astype(int)
+    _, x = np.nonzero((np.abs(picture[..., :3] - np.rint(255.0 * COLORS[0])) < 40).all(axis=2))
+    frame = np.nonzero((picture[..., :3] == (100, 106, 116)).all(axis=2))[1]
+    assert x.min() == pytest.approx(0.5 * (frame.min() + frame.max()), abs=6)
+
+
 def test_scales_end_at_round_numbers_around_zero() -> None:
     """Whatever the values, zero is within; of nothing but zeros the scale is 0 to 1."""
     for values, wanted in (
@@ -101,6 +115,8 @@ def test_scales_end_at_round_numbers_around_zero() -> None:
         ([-0.3, 7.0], (-0.5, 10.0)),
         ([-3.0], (-5.0, 0.0)),
         ([0.0], (0.0, 1.0)),
+        ([np.nan, 3.0, np.nan], (0.0, 5.0)),
+        ([np.nan], (0.0, 1.0)),
     ):
         assert ends(np.array([values])) == pytest.approx(wanted)
 

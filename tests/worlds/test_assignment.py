@@ -105,7 +105,7 @@ MESSAGES = {
     "speed(crate) = 3": "--set: speed(crate) = 3: is no column of numbers; received 'speed(crate)'; accepted: 'crate.material.friction *= 0.5', 'rain[*].linear.y = 3 m/s', 'gravity.y = -1.62' and the like",
     "crate.type = 1": "--set: crate.type = 1: is no column of numbers; received 'crate.type'; accepted: 'crate.material.friction *= 0.5', 'rain[*].linear.y = 3 m/s', 'gravity.y = -1.62' and the like",
     "crate.linear.x = rain[*].linear.x": "--set: crate.linear.x = rain[*].linear.x: is no expression at '[*].linear.x'; received 'rain[*].linear.x'; accepted: numbers with units, variables, + - * / ** ( ), pi, sqrt, abs, min, max, round, sin, cos, tan, exp",
-    "crate.linear.x = import(os)": "--set: crate.linear.x = import(os): is no value of the world; received 'os'; accepted: <entity>.<column>, speed(entity), spin(entity), kinetic_energy(entity), load(entity), error(entity), center_of_mass(entity, ...), distance(entity, entity) or sees(entity, entity)",
+    "crate.linear.x = import(os)": "--set: crate.linear.x = import(os): is no value of the world; received 'os'; accepted: <entity>.<column>, speed(entity), spin(entity), kinetic_energy(entity), load(entity), error(entity), center_of_mass(entity, ...), count(entity, ...), distance(entity, entity) or sees(entity, entity)",
     "dt = 0": "--set: dt = 0: must be above 0 s; received 0.0",
     "dt = 7 ms": "--set: dt = 7 ms: is between two steps; received 1 s; accepted: a multiple of dt = 0.007 s, such as 1.001 s",
     "gravity.w = 1": "--set: gravity.w = 1: gravity has no w; received 'gravity.w'; accepted: x, y, z",

@@ -272,7 +272,7 @@ expect:
             ("always: unknown function; received \"__import__('os')\"; accepted: speed(entity), spin(entity), "
             "kinetic_energy(entity), load(entity), error(entity), distance(entity, entity), sees(entity, entity), visible(entity, camera), "
             "visible_share(entity, camera), overlap(entity, entity, camera), left_of(entity, entity, camera), "
-            "above(entity, entity, camera), center_of_mass(entity, ...)"),
+            "above(entity, entity, camera), center_of_mass(entity, ...), count(entity, ...)"),
         ),
         (
             "{always: ball.position.y + 1 > 0}",

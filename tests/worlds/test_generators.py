@@ -124,6 +124,13 @@ def test_how_many_found_no_room_is_told() -> None:
     ]
 
 
+def test_a_heap_over_a_vast_area_is_one_layer() -> None:
+    """However many copies would fit in it beside each other, and even where their number is beyond all bounds."""
+    for area in ("[1e30, 1e300]", "[2 m, 1e19 m]"):
+        simulation = load(f"heap: {{count: 3, area: {area}}}").simulation
+        assert positions(simulation)[:, 1] == pytest.approx(np.full(3, positions(simulation)[0, 1]))
+
+
 def test_a_group_is_copied_with_all_its_members() -> None:
     """A ring of carts has each turned as one."""
     text = "carom: 1\nentities:\n  - name: seat\n    ring: {count: 2, radius: 3}\n    entities: [{name: leg, collider: {sphere: {radius: 0.1}}, transform: {position: [1, 0, 0]}}]\n"

@@ -40,7 +40,6 @@ IMMATERIAL = {
         leaning_tower gravity
         leaning_tower prefabs.plank.body.mass""",
     "nothing in it falls": "vapour_trail gravity",
-    "it is only seen": "parachute events.0.spawn.body.mass",
     "it pulls others by less than is expected of their places": """
         solar_system entities.mercury.body.mass
         solar_system entities.venus.body.mass

@@ -60,7 +60,9 @@ class Plot(Overlay):
         across = (times - times[0]) / max(times[-1] - times[0], 1e-9)
         for number, curve in enumerate(values.T):
             points = np.column_stack([left + across * (right - left), top + (high - curve) * upward])
-            panel.curve(thinned(points), COLORS[number % len(COLORS)])
+            points = points[~np.isnan(curve)]  # who is not there has no value
+            if len(points):
+                panel.curve(thinned(points), COLORS[number % len(COLORS)])
         return [Inset(panel.pixels(), "top left")]
 
     def _write_names(self, panel: Panel, size: int) -> int:
@@ -79,8 +81,8 @@ class Plot(Overlay):
 
 
 def ends(values: Floats) -> tuple[float, float]:
-    """Return round numbers around values and zero; around zeros alone 0 and 1."""
-    low, high = float(values.min()), float(values.max())
+    """Return round numbers around values and zero; around zeros alone, or no numbers, 0 and 1."""
+    low, high = float(np.nanmin(values, initial=0.0)), float(np.nanmax(values, initial=0.0))
     lowest, highest = -next_round(-low) if low < 0.0 else 0.0, next_round(high) if high > 0.0 else 0.0
     return (lowest, highest) if lowest < highest else (0.0, 1.0)
 

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import Field
 
 from carom.ecs.errors import DeclarationError
-from carom.worlds.generators.generator import Copies, Generator, Setting, turns
+from carom.worlds.generators.generator import MOST_COPIES, Copies, Generator, Setting, turns
 from carom.worlds.generators.words import Gap
 from carom.worlds.values import Count, In
 
@@ -31,7 +31,7 @@ class Heap(Generator):
     def lay(self, setting: Setting) -> Copies:
         """Return the copies, the lowest layer first: none reaches into the cell of another."""
         edge = 2.0 * setting.radius(self.key) + self.gap
-        wide, deep = (int(length / edge) for length in self.area)
+        wide, deep = (int(min(length / edge, MOST_COPIES)) for length in self.area)  # however vast the area
         if not wide * deep:
             raise DeclarationError(f"heap.area: leaves no room for a copy, which needs {edge:.3g} m each way")
         number = np.arange(self.count)
