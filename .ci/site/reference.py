@@ -56,8 +56,7 @@ def words() -> str:
 
 def title(name: str) -> str:
     """Return what a definition is called on the page: two of one name are told apart by where they are from."""
-    plain = name.rpartition("__")[0].rpartition("__")[2] or name if name.startswith("carom__") else name
-    return plain.removesuffix("Words")
+    return name.rpartition("__")[2].removesuffix("Words")
 
 
 def properties(part: dict[str, Any]) -> str:

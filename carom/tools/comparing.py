@@ -9,7 +9,7 @@ from carom.ecs.errors import CaromError
 from carom.worlds.builder import LoadedWorld, load_world
 from carom.worlds.check import check
 from carom.worlds.errors import WordError, WorldError
-from carom.worlds.generated import setting_types
+from carom.worlds.generated.settings import setting_types
 from carom.worlds.names import known
 from carom.worlds.reader import read
 from carom.worlds.source import Source

@@ -18,7 +18,7 @@ from carom.worlds.check import check
 from carom.worlds.errors import WordError
 from carom.worlds.expect_moment import frame_of
 from carom.worlds.expression import evaluate
-from carom.worlds.generated import SETTING_UNITS, setting_types
+from carom.worlds.generated.settings import SETTING_UNITS, setting_types
 from carom.worlds.quantity import quantity
 from carom.worlds.source import Source
 from carom.worlds.term import AXES, Place, Term

@@ -14,7 +14,7 @@ from carom.systems.own_components import components_of_files
 from carom.systems.parameters import WordFault
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import Path, WordError
-from carom.worlds.generated import holds_entities
+from carom.worlds.generated.columns import holds_entities
 from carom.worlds.groups import Group
 from carom.worlds.names import known
 from carom.worlds.source import Source

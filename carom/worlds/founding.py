@@ -8,7 +8,7 @@ from typing import Any
 from carom.ecs.errors import DeclarationError
 from carom.systems.settings import Random, Settings
 from carom.systems.simulation import Simulation
-from carom.worlds.generated import STEP_WORDS
+from carom.worlds.generated.settings import STEP_WORDS
 from carom.worlds.source import Source
 
 STANDARD_GRAVITY = {"y": (0.0, -9.81, 0.0), "z": (0.0, 0.0, -9.81)}

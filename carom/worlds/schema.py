@@ -18,18 +18,16 @@ from carom.systems.particles.words import EmitterWords
 from carom.systems.surfaces import COLLIDER_COLUMNS
 from carom.worlds.camera import Camera
 from carom.worlds.expect_words import Expect
-from carom.worlds.generated import (
+from carom.worlds.generated.columns import column_fields, material_model, own_fields
+from carom.worlds.generated.parameters import (
     action_fields,
-    column_fields,
     generator_fields,
     joint_fields,
     law_fields,
-    material_model,
-    own_fields,
     parameter_model,
-    setting_fields,
     shape_fields,
 )
+from carom.worlds.generated.settings import setting_fields
 from carom.worlds.generators.words import Gap, Gaps
 from carom.worlds.sections import (
     ChainWords,

@@ -10,7 +10,7 @@ import pytest
 from pydantic import ValidationError, create_model
 
 from carom.ecs import Component, World, column
-from carom.worlds.generated import column_fields
+from carom.worlds.generated.columns import column_fields
 from carom.worlds.values import Words
 
 

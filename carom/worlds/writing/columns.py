@@ -11,7 +11,7 @@ import numpy as np
 from carom.ecs import World
 from carom.ecs.component import Component
 from carom.systems.parameters import same
-from carom.worlds.generated import holds_entities
+from carom.worlds.generated.columns import holds_entities
 from carom.worlds.writing.names import Callings
 
 Words = dict[str, Any]

@@ -16,7 +16,7 @@ from carom.systems.layers import EVERYTHING, Layers
 from carom.systems.materials import Materials
 from carom.systems.parameters import same, words_of
 from carom.systems.settings import Random, Settings
-from carom.worlds.generated import STEP_WORDS
+from carom.worlds.generated.settings import STEP_WORDS
 from carom.worlds.writing.columns import Words, color_words, plain
 from carom.worlds.writing.names import Callings
 
