@@ -11,10 +11,9 @@ from carom.ecs import Collider, Material, Motion, RigidBody, Transform, Visual
 from carom.ecs.column import Column
 from carom.ecs.component import Component
 from carom.ecs.components.rigid_body import BodyType
-from carom.ecs.errors import DeclarationError
 from carom.systems.mass import PASSED_ON
 from carom.systems.materials import COMBINE_QUANTITIES, COMBINE_RULES, MATERIAL_COLUMNS
-from carom.systems.parameters import WordFault, number_fault, unknown_keys
+from carom.systems.parameters import WordFault, number_fault, refusal, unknown_keys
 from carom.systems.shapes import SHAPES
 from carom.systems.shapes.stating import shape_faults
 from carom.systems.surfaces import COLLIDER_COLUMNS
@@ -42,7 +41,7 @@ OTHERWISE: dict[str, type] = {"material": str, "visual": bool}  # what a section
 def refuse_words(words: Mapping[str, Any]) -> None:
     """Raise DeclarationError for all that is wrong with an entity; numbers may have a row for each of many."""
     if found := list(faults(words)):
-        raise DeclarationError("; ".join(map(str, found)))
+        raise refusal(found)
 
 
 def faults(words: Mapping[str, Any]) -> Iterator[WordFault]:

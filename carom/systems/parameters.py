@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from carom.ecs.errors import did_you_mean
+from carom.ecs.errors import DeclarationError, did_you_mean
 
 
 class WordFault(NamedTuple):
@@ -28,6 +28,11 @@ class WordFault(NamedTuple):
         parts += [f"accepted: {self.accepted}"] if self.accepted else []
         parts += [self.hint] if self.hint else []
         return ": ".join(filter(None, (".".join(map(str, self.steps)), "; ".join(parts))))
+
+
+def refusal(faults: Iterable[WordFault]) -> DeclarationError:
+    """Return the error that tells all of these faults."""
+    return DeclarationError("; ".join(map(str, faults)))
 
 
 def unknown_keys(steps: tuple[str, ...], stated: Iterable[Any], known: Iterable[str]) -> Iterator[WordFault]:

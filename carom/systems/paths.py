@@ -14,7 +14,7 @@ from carom.ecs.errors import DeclarationError
 from carom.ecs.relations.keyframe import Keyframe
 from carom.ecs.spatial import quaternion
 from carom.systems.keyframes import poses_at
-from carom.systems.parameters import WordFault
+from carom.systems.parameters import WordFault, refusal
 from carom.systems.settings import Settings, time_of
 
 Words = Mapping[str, Any]
@@ -101,7 +101,7 @@ def path_of(world: World, words: Words) -> tuple[Transform, Path]:
     """
     faults = list(faults_of_path(words))
     if faults:
-        raise DeclarationError("; ".join(map(str, faults)))
+        raise refusal(faults)
     frames, repeat, _ = stated(words["keyframes"])
     first, count, (position, rotation) = world.count(Keyframe), len(frames), poses(frames, words.get("transform") or {})
     turned = quaternion.multiply(rotation, quaternion.conjugate(rotation[0]))

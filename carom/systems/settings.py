@@ -11,7 +11,7 @@ import numpy as np
 from carom.ecs import World
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
-from carom.systems.parameters import unknown_keys
+from carom.systems.parameters import refusal, unknown_keys
 
 MOST_THREADS = 64
 MOST_SUBSTEPS = 1000  # a step of more would not end before the user does
@@ -71,7 +71,7 @@ class Settings(Resource):
 def settings_of(words: Mapping[str, Any]) -> Settings:
     """Return the settings that words state; raise DeclarationError for words that are none."""
     if wrong := list(unknown_keys((), words, [field.name for field in fields(Settings)])):
-        raise DeclarationError("; ".join(map(str, wrong)))
+        raise refusal(wrong)
     return Settings(**words)
 
 

@@ -6,7 +6,6 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
 from carom.ecs import (
@@ -17,58 +16,37 @@ from carom.ecs import (
     System,
     World,
     restore_snapshot,
-    system,
     take_snapshot,
 )
-from carom.ecs.column import Floats, Integers
-from carom.ecs.commands import Commands
-from carom.ecs.components.force import Force
+from carom.ecs.column import Integers
 from carom.ecs.components.motion import Motion
-from carom.ecs.components.rigid_body import RigidBody
 from carom.ecs.components.transform import Transform
-from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import add_entities, add_entity
 from carom.systems.awake import Awake
 from carom.systems.bookkeeping import Bookkeeping
 from carom.systems.breakpoints import Breakpoint, StoppedError, look
 from carom.systems.clock import Clock
-from carom.systems.compound import StatedBodies
-from carom.systems.continuous import Fast
 from carom.systems.declared import read_words
-from carom.systems.detection.answered import Answered
-from carom.systems.detection.broad import BroadPhase
-from carom.systems.detection.fcl_objects import FclObjects
-from carom.systems.detection.hulls import PackedHulls
-from carom.systems.detection.meshes import PackedMeshes
-from carom.systems.detection.sensors import Sensing
 from carom.systems.entity_words import refuse_words
 from carom.systems.events import Events, read_event
 from carom.systems.explosion import Explosion, blast
+from carom.systems.force_function import ForceFunction, force_system
 from carom.systems.forces.law import Forces, Law, read_law
 from carom.systems.forces.reach import read_reach
 from carom.systems.forces.region import Region
 from carom.systems.interpolation import EarlierPoses
-from carom.systems.landings import Landings
 from carom.systems.layers import Layers
 from carom.systems.ledger import Ledger
-from carom.systems.linkage import Linkage
 from carom.systems.materials import Materials
 from carom.systems.observer import Observer
-from carom.systems.parameters import WordFault
+from carom.systems.parameters import WordFault, refusal
 from carom.systems.particles.fields import Fields
-from carom.systems.particles.newborn import Newborn
 from carom.systems.places import extended
-from carom.systems.progress import Progress
 from carom.systems.pushes import Pushes, push
-from carom.systems.queries.asked import Asked
-from carom.systems.queries.scene import Scene
 from carom.systems.queries.space import Space
-from carom.systems.resting import Resting
-from carom.systems.settings import Random, settings_of
-from carom.systems.shapes.geometry import Geometries
+from carom.systems.resources import resources
+from carom.systems.settings import settings_of
 from carom.systems.step import STEP, has_strangers
-from carom.systems.threads import Threads
-from carom.systems.ties import Ties
 from carom.systems.tracing import find_source, refuse_stated
 
 CHECK_VARIABLE = "CAROM_CHECK"
@@ -96,12 +74,7 @@ class Simulation:
         self.space = Space(self.world)
         self._earlier = EarlierPoses()
         self.hearers: list[Callable[[System], None]] = []
-        made = (Random(self.settings.seed), Layers(), Materials(), Geometries(), StatedBodies())
-        stated = (Forces(), Events(), Commands())
-        packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
-        solving = (Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger())
-        caches = (*packed, *solving, Threads(), Scene(), Asked(), Newborn(), Fields())
-        for resource in (self.settings, *made, *stated, Progress(), Answered(), *caches):
+        for resource in resources(self.settings):
             self.world.add(resource)
 
     # Building: the words are those of world files, numbers are SI.
@@ -141,23 +114,15 @@ class Simulation:
         reach = read_reach(self.world[Layers], faults, entities, region, layers, during)
         made = law if isinstance(law, Law) else read_law(law, words, faults)
         if made is None or faults:
-            raise DeclarationError("; ".join(map(str, faults)))
+            raise refusal(faults)
         self.world[Forces].add(made, reach)
 
-    def force_function(self, function: Callable[[World, Integers], npt.ArrayLike], name: str | None = None) -> System:
+    def force_function(self, function: ForceFunction, name: str | None = None) -> System:
         """Let a Python function ``(world, rows) -> forces (n, 3) in N`` act on every body in every substep.
 
         On particles it acts once in a step, with a world in which they stand as bodies; see `Fields`.
         """
-
-        def push(world: World, dt: float) -> None:
-            rows = world.row_numbers(RigidBody, Motion)
-            force: Floats = world[Force].force
-            force[rows] += np.asarray(function(world, rows), np.float64)
-
-        push.__name__ = name or str(getattr(function, "__name__", "force_function"))
-        push.__doc__ = function.__doc__
-        made = system(reads=(Transform, Motion, RigidBody), adds=(Force,))(push)
+        made = force_system(function, name)
         self.schedule = self.schedule.insert(made, after="apply_quadratic_drag")
         self.world[Fields].functions.append(made)
         return made
@@ -171,7 +136,7 @@ class Simulation:
         faults: list[WordFault] = []
         event = read_event(self.world, at, action, faults)
         if event is None or faults:
-            raise DeclarationError("; ".join(map(str, faults)))
+            raise refusal(faults)
         self.world[Events].entries.append(event)
 
     def explode(self, **words: Any) -> Pushes:
@@ -182,7 +147,7 @@ class Simulation:
         faults: list[WordFault] = []
         explosion = read_words(Explosion, words, (), faults)
         if explosion is None:
-            raise DeclarationError("; ".join(map(str, faults)))
+            raise refusal(faults)
         pushes = blast(self.world, explosion)
         with self.world.edit(Motion), self.world.faces(None):
             push(self.world, pushes)

@@ -7,11 +7,11 @@ from typing import Any
 
 from carom.ecs import World
 from carom.ecs.components.joint import Joint
-from carom.ecs.errors import DeclarationError, did_you_mean
+from carom.ecs.errors import did_you_mean
 from carom.systems.declared import read_words
 from carom.systems.joints.held import WORLD, Held, find_held
 from carom.systems.joints.kind import JOINTS, JointKind
-from carom.systems.parameters import WordFault
+from carom.systems.parameters import WordFault, refusal
 
 IMMOVABLE = "holds nobody whom a force could move; a or b must have a dynamic body"
 
@@ -24,7 +24,7 @@ def joint_of(world: World, words: Mapping[str, Any]) -> Joint:
     faults: list[WordFault] = []
     made = read_joint(world, words, faults)
     if made is None:
-        raise DeclarationError("; ".join(map(str, faults)))
+        raise refusal(faults)
     return made
 
 

@@ -10,11 +10,10 @@ from typing import Any, Self
 import numpy as np
 
 from carom.ecs.components.emitter import Collide, Drawn, Emitter, Source, Within
-from carom.ecs.errors import DeclarationError
 from carom.systems.constants import MOST_BORN
 from carom.systems.declared import Stated, Steps, choice, direction, part, read_words, span, tint
 from carom.systems.forces.region import BoxRegion, Region, SphereRegion
-from carom.systems.parameters import WordFault, parameter, vector
+from carom.systems.parameters import WordFault, parameter, refusal, vector
 
 COLLIDE = tuple(kind.name.lower() for kind in Collide)
 DRAWN = tuple(kind.name.lower() for kind in Drawn)
@@ -165,6 +164,6 @@ def emitter_of(words: Any, now: float) -> Emitter:
     faults: list[WordFault] = []
     made = read_emitter(words, faults)
     if made is None:
-        raise DeclarationError("; ".join(map(str, faults)))
+        raise refusal(faults)
     made.start = np.maximum(made.start, now)
     return made

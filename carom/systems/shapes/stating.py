@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from carom.ecs.errors import DeclarationError
-from carom.systems.parameters import WordFault, unknown_keys
+from carom.systems.parameters import WordFault, refusal, unknown_keys
 from carom.systems.shapes import SHAPES, Shape
 
 Words = Mapping[str, Any]
@@ -39,7 +39,7 @@ def shapes_of(words: Words, *, seen: bool = False) -> Sequence[Shape]:
         return [stated]
     kind = SHAPES[keys[0]]
     if wrong := list(shape_faults((keys[0],), kind, stated)):
-        raise DeclarationError("; ".join(map(str, wrong)))
+        raise refusal(wrong)
     shapes = [kind.seen(**row) if seen else kind.stated(**row) for row in _rows(kind, stated)]
     for note in getattr(getattr(shapes[0], "geometry", None), "notes", ()):
         warnings.warn(note, stacklevel=2)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +20,7 @@ from carom.worlds.importing.files import ModelFiles
 from carom.worlds.importing.masses import placed
 from carom.worlds.importing.mjcf_file import Compiler
 from carom.worlds.importing.mjcf_land import land_words
+from carom.worlds.importing.mjcf_touching import Touching
 from carom.worlds.importing.model import HERE, Inertia, Piece, Pose
 from carom.worlds.importing.report import Report
 
@@ -28,21 +28,19 @@ KINDS = ("plane", "sphere", "capsule", "ellipsoid", "cylinder", "box", "mesh", "
 LONG = ("capsule", "cylinder", "box", "ellipsoid")  # those that fromto places
 LAND = "height_field"
 SHOWN_GROUPS = 3  # geoms of higher groups are not drawn unless asked for
-SOFTNESS = ("solref", "solimp", "solmix", "margin", "gap", "priority")
 Y, Z = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 WATER = 1000.0  # kg/m3, MuJoCo's default density
 
 
 class Geoms:
-    """Reads geoms; ``met`` counts the pairs of contype and conaffinity, for their layers."""
+    """Reads geoms and the assets that they name."""
 
     def __init__(self, compiler: Compiler, files: ModelFiles, reading: Reading, report: Report) -> None:
         self.compiler, self.files, self.reading, self.report = compiler, files, reading, report
         self.colors: dict[str, Any] = {}
         self.meshes: dict[str, tuple[Element, Any]] = {}
         self.fields: dict[str, Element] = {}
-        self.met: Counter[tuple[int, int]] = Counter()
-        self.smooth: list[tuple[Piece, str]] = []  # of condim 1, and whose they are
+        self.touching = Touching(reading, report)
 
     def asset(self, element: Element) -> None:
         """Note a mesh or material."""
@@ -85,7 +83,7 @@ class Geoms:
         else:
             pose, piece.words = self.size(element, kind, pose)
             piece.pose = pose
-        self.touching(piece, whose)
+        self.touching.read(piece, whose)
         group = read.whole(element, "group", 0)
         piece.seen = group < SHOWN_GROUPS
         if "rgba" in words or words.get("material") in self.colors:
@@ -141,38 +139,6 @@ class Geoms:
             return pose, {}
         return pose, {"radius": sizes[0]} | ({} if kind == "sphere" else {"length": 2.0 * sizes[1]})
 
-    def touching(self, piece: Piece, whose: str) -> None:
-        """Let a piece touch by contype and conaffinity, with its friction, the greater of which counts."""
-        element, read = piece.element, self.reading
-        pair = (read.whole(element, "contype", 1), read.whole(element, "conaffinity", 1))
-        piece.touches = any(pair)
-        if not piece.touches:
-            return
-        self.met[pair] += 1
-        piece.layer = layer_of(pair)
-        slides, *_ = read.numbers(element, "friction", 3, (1.0, 0.005, 0.0001), fewer=True)
-        if slides < 0.0:
-            read.fault(element, "friction must be at least 0", received=f"{slides:g}")
-        piece.material = {"friction": {"value": slides, "combine": "max"}}
-        dimensions = read.whole(element, "condim", 3)
-        if dimensions == 1:
-            self.smooth.append((piece, whose))
-        if dimensions > 3:
-            self.report.drop(element, "friction against spinning and rolling (condim)", whose)
-        for key in SOFTNESS:
-            if key in element.attributes:
-                self.report.drop(element, f"softness of contacts ({key})", whose)
-
-    def settle_friction(self) -> None:
-        """Let geoms of condim 1 be without friction where all are, for it takes two of them."""
-        alone = len(self.smooth) == self.met.total()
-        for piece, whose in self.smooth:
-            if alone:
-                piece.material = {"friction": 0.0}
-            else:
-                what = "condim 1: there without friction on each other, here as on the rest"
-                self.report.approximate(piece.element, what, whose)
-
     def inertia(self, piece: Piece) -> Inertia | None:
         """Return what a piece weighs in the frame of its body, by its own mass or density."""
         element = piece.element
@@ -199,14 +165,3 @@ class Geoms:
         if piece.file is None:
             return SHAPES[piece.kind].stated(**piece.words).mass_properties()
         return solid_properties(hull_of(np.array(read_scene(piece.file).vertices) * piece.scale))
-
-    def layers(self) -> dict[str, list[str]]:
-        """Return the layers: two geoms meet when the contype of one shares a bit with the other's conaffinity."""
-        pairs = sorted(self.met)
-        met = {one: [other for other in pairs if one[0] & other[1] or other[0] & one[1]] for one in pairs}
-        return {layer_of(one): [layer_of(other) for other in met[one]] for one in pairs if layer_of(one) != "default"}
-
-
-def layer_of(pair: tuple[int, int]) -> str:
-    """Return the layer of a contype and conaffinity; the default ones meet whoever meets them."""
-    return "default" if pair == (1, 1) else f"layer_{pair[0]}_{pair[1]}"
