@@ -10,7 +10,7 @@ from carom.systems.kernels.keyframes import find_moments
 
 
 class Curve:
-    """A way through ``points`` (n, 3), m, each passed at its time of ``at`` (n,), s, with a velocity without jumps.
+    """A way through ``points`` (n, size), each passed at its time of ``at`` (n,), s, with a velocity without jumps.
 
     It leaves a point towards the one after it as it came from the one before: E. Catmull and R. Rom, A class of local
     interpolating splines, 1974, over times that need not be even. It rests at both ends, unless it is a loop, which
@@ -29,7 +29,7 @@ class Curve:
         self._velocity = np.where((moves[1:] & moves[:-1])[:, None], velocity, 0.0)
 
     def point(self, time: float) -> Floats:
-        """Return where it is (3,), m, at a time, s; before the first and after the last point it is there."""
+        """Return where it is (size,) at a time, s; before the first and after the last point it is there."""
         one, before, share = np.array([0]), np.zeros(1, np.int64), np.zeros(1)
         find_moments(one, time, one, np.array([len(self._at)]), np.array([self._repeat.value]), self._at, before, share)
         k, s = int(before[0]), float(share[0])

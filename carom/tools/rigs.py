@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -12,13 +14,15 @@ from carom.ecs import Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.errors import CaromError, EntityError
 from carom.ecs.spatial import quaternion
-from carom.systems.curves import Curve
 from carom.systems.settings import time_of
 from carom.tools.cameras import Camera, Vector, front
 from carom.worlds.builder import LoadedWorld
 from carom.worlds.camera import Camera as Words
-from carom.worlds.camera import Orbit, along
-from carom.worlds.camera_path import curves_of
+from carom.worlds.camera import Orbit, along, check_cameras
+from carom.worlds.camera_path import Way
+from carom.worlds.check import check_item
+from carom.worlds.source import Source
+from carom.worlds.writing.columns import plain
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,20 @@ class Rig:
     words: Words
     up: Vector = (0.0, 1.0, 0.0)
 
+    @classmethod
+    def stated(cls, world: World, words: Mapping[str, Any], name: str = "main", up: Vector = (0.0, 1.0, 0.0)) -> Rig:
+        """Return a camera of a world in the words of files: ``{"follow": {"entity": "ball", "offset": (0, 1, 4)}}``.
+
+        Raises CaromError naming everything that is wrong with them.
+        """
+        source, path = Source("", ""), ("cameras", name)
+        found = check_item(source, "cameras", path, plain(dict(words)))
+        if found is not None:
+            check_cameras(source, {name: found}, world.names())
+        if source.faults:
+            raise CaromError("\n".join(str(replace(fault, line=0)) for fault in source.faults))
+        return cls(name, found, up)
+
     @property
     def moves(self) -> bool:
         """Whether it may be elsewhere, or look elsewhere, at another time."""
@@ -36,8 +54,8 @@ class Rig:
         return words.position is None or isinstance(words.target, str)
 
     @cached_property
-    def _curves(self) -> dict[str, Curve]:
-        return curves_of(self.words)
+    def _way(self) -> Way:
+        return Way(self.words)
 
     def camera(self, world: World, time: float | None = None, poses: Transform | None = None) -> Camera:
         """Return the camera as the world is now; at another time (s), with the poses of all rows then, where stated.
@@ -47,6 +65,7 @@ class Rig:
         where = poses if poses is not None else world[Transform]
         words, target, toward = self.words, self.words.target, front(self.up)
         elapsed = time_of(world) if time is None else time
+        lens: dict[str, Any] = {"fov": words.fov, "height": words.height}
         if words.orbit is not None:
             centre = self._place(world, where, words.orbit.around)
             toward = self._horizontal(words.orbit, elapsed)
@@ -56,8 +75,9 @@ class Rig:
             position = self._followed(world, where)
             target = words.follow.entity if target is None else target
         elif words.keyframes is not None:
-            position = self._curves["position"].point(elapsed)
-            target = _vector(self._curves["target"].point(elapsed)) if "target" in self._curves else target
+            position = self._way.position(elapsed)
+            led = self._way.target(elapsed, lambda place: self._place(world, where, place))
+            target, lens = target if led is None else _vector(led), lens | self._way.lens(elapsed)
         else:
             assert words.position is not None, "the schema asks for one place"
             position = np.array(words.position)
@@ -65,7 +85,7 @@ class Rig:
         if np.array_equal(position, at):
             raise CaromError(f"camera {self.name}: it stands where it looks at, {tuple(position.tolist())}")
         up = self._upright(at - position, toward)
-        return Camera(_vector(position), _vector(at), up, words.fov, height=words.height, sky_up=self.up)
+        return Camera(_vector(position), _vector(at), up, **lens, sky_up=self.up)
 
     def _horizontal(self, orbit: Orbit, time: float) -> Floats:
         """Return the horizontal direction (3,) from the middle of the orbit to the camera."""

@@ -9,16 +9,15 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field, model_validator
 
-from carom.worlds.camera_path import CameraKeyframes, faults_of_camera
+from carom.worlds.camera_path import CameraKeyframes, Fov, Height, Place, faults_of_camera, named
 from carom.worlds.errors import Path, WordError, shown
 from carom.worlds.names import known
 from carom.worlds.rotation import Direction
 from carom.worlds.source import Source
-from carom.worlds.values import In, Lengths, Words, either, word_of
+from carom.worlds.values import In, Lengths, Words, word_of
 
 Angle = Annotated[float, In("rad")]
 Elevation = Annotated[float, In("rad", least=-math.pi / 2.0, most=math.pi / 2.0)]
-Place: Any = either(Lengths, str, str)  # a point, or the origin of the entity of that name
 PLACES = ("position", "follow", "orbit", "keyframes")
 ALONG = 1e-6  # sine of the angle under which two directions count as one
 
@@ -53,10 +52,8 @@ class Camera(Words):
     target: Place | None = Field(
         None, description="point (m) or name of an entity it looks at, by default who it follows, or what it orbits"
     )
-    fov: Annotated[float, In("rad", above=0.0, most=math.pi)] = Field(math.radians(50.0), description="vertical angle")
-    height: Annotated[float, In("m", above=0.0)] | None = Field(
-        None, description="of what is seen in parallel light (m), instead of fov"
-    )
+    fov: Fov = Field(math.radians(50.0), description="vertical angle")
+    height: Height | None = Field(None, description="of what is seen in parallel light (m), instead of fov")
     up: Direction | None = Field(None, description="up in the picture, the world's up by default")
 
     @model_validator(mode="after")
@@ -114,3 +111,5 @@ def _entities(camera: Camera) -> Iterator[tuple[Path, str]]:
         yield ("orbit", "around"), camera.orbit.around
     if isinstance(camera.target, str):
         yield ("target",), camera.target
+    if camera.keyframes is not None:
+        yield from named(camera)

@@ -28,6 +28,7 @@ cameras:
   chase: {follow: {entity: ball, offset: [0, 1, 3], frame: body}}
   round: {orbit: {around: ball, distance: 4, rate: 90 deg/s}}
   side: {position: [9, 0, 0], height: 4}
+  zoom: {keyframes: [{at: 0, position: [0, 2, 5], target: [0, 0, 1]}, {at: 9 s, fov: 20 deg}]}
   flight: {keyframes: [{at: 0, position: [0, 1, 5]}, {at: 0.4 s, position: [3, 1, 4]}, {at: 9 s, position: [3, 4, 1]}]}
 """
 
@@ -71,7 +72,7 @@ def test_every_camera_is_where_pictures_are_taken_from(
     path, poses = filmed
     table = Recording(path).table("cameras").arrow().to_pylist()
     recorded = {(row["frame"], row["camera"]): row for row in table}
-    moved = {(frame, name) for frame, name in poses if frame == 0 or name in ("chase", "round", "flight")}
+    moved = {(frame, name) for frame, name in poses if frame == 0 or name in ("chase", "round", "zoom", "flight")}
     assert recorded.keys() == moved and (30, "chase") in moved and (31, "chase") not in moved
     for key in moved:
         row, pose = recorded[key], poses[key]
@@ -94,6 +95,12 @@ def test_each_is_drawn_as_what_it_sees(filmed: tuple[Path, dict[tuple[int, str],
         moved = series[f"/world/cameras/{name}", "Transform3D:translation"]
         at = filmed[1][20, name][:3, 3].astype(np.float32)
         assert np.array_equal(moved.at(20)[1][0], at)
+    lenses = series["/world/cameras/zoom", "Pinhole:image_from_camera"]
+    heights = series["/world/cameras/zoom", "Pinhole:resolution"]
+    assert lenses.frames == list(range(41))
+    rig = next(rig for rig in rigs_of(load_text(WORLD)) if rig.name == "zoom")
+    vertical = 2.0 * np.arctan(heights.at(20)[1][0][1] / 2.0 / lenses.at(20)[1][0][4])
+    assert vertical == pytest.approx(rig.camera(load_text(WORLD).simulation.world, 20 / 60).fov, rel=1e-6)
     (half,) = series["/world/cameras/side", "Boxes3D:half_sizes"].values
     assert half[0] == pytest.approx([4 / 3 * 2.0, 2.0, 4.5])
     assert [series[f"/world/cameras/{name}", "Clear:is_recursive"].frames for name in ("main", "chase", "round")] == [

@@ -11,6 +11,7 @@ from carom.ecs.errors import CaromError
 from carom.tools.cameras import Camera
 from carom.tools.filming import shot_of
 from carom.tools.moments import Moments
+from carom.tools.rigs import Rig
 from carom.worlds import LoadedWorld, load_text
 
 WORLD = """carom: 1
@@ -98,6 +99,38 @@ def test_a_camera_on_a_path_may_look_at_a_body_and_go_round_for_ever() -> None:
     assert [camera.target for camera in after] == [pytest.approx((1.0 + 0.2 * n, 2.0, 3.0)) for n in (2, 12, 32)]
 
 
+def test_a_camera_on_a_path_may_look_from_one_to_another() -> None:
+    """At each keyframe it looks at whom that names, where he is then, and between two on a smooth way to the next."""
+    start = "{at: 0, position: [0, 0, 9], target: ball}, {at: 1}"
+    loaded = world(f"{{keyframes: [{start}, {{at: 2, target: stone}}, {{at: 3, target: [0, 0, 1]}}]}}")
+    now, shot = loaded.simulation.world, shot_of(loaded)
+    loaded.simulation.step(5)
+    ball = np.array((2.0, 2.0, 3.0))
+    assert shot.camera(now).target == pytest.approx(ball, abs=1e-12)
+    assert shot.camera(now, 1.0).target == pytest.approx(ball, abs=1e-12)
+    assert shot.camera(now, 2.0).target == pytest.approx((0.0, 5.0, 0.0), abs=1e-12)
+    assert shot.camera(now, 3.0).target == pytest.approx((0.0, 0.0, 1.0), abs=1e-12)
+    leaves = 0.5 * (np.array((0.0, 0.0, 1.0)) - ball)  # Catmull and Rom: at 2 s, by where it is 1 s before and after
+    middle = 0.5 * (ball + np.array((0.0, 5.0, 0.0))) - leaves / 8.0
+    assert shot.camera(now, 1.5).target == pytest.approx(middle, abs=1e-12)
+
+
+def test_a_camera_on_a_path_may_zoom() -> None:
+    """In equal times what is seen grows by equal shares: half way from 10 m to 40 m it is 20 m, without a stop."""
+    shown = world("{keyframes: [{at: 0, position: [0, 0, 9], height: 10}, {at: 2, height: 40}, {at: 3}]}")
+    shot, now = shot_of(shown), shown.simulation.world
+    heights = [shot.camera(now, time).height for time in (0.0, 1.0, 2.0, 2.5)]
+    assert heights == pytest.approx([10.0, 20.0, 40.0, 40.0], rel=1e-12)
+    shown = world("{keyframes: [{at: 0, position: [0, 0, 9]}, {at: 1, fov: 2 deg}, {at: 2, fov: 1 deg}], fov: 60 deg}")
+    shot, now = shot_of(shown), shown.simulation.world
+    cameras = [shot.camera(now, time) for time in np.linspace(0.0, 2.0, 41)]
+    assert [cameras[n].fov for n in (0, 20, 40)] == pytest.approx([math.radians(n) for n in (60, 2, 1)], rel=1e-12)
+    reach = np.log([camera.reach for camera in cameras])
+    assert np.abs(np.diff(reach, 2)).max() < 0.06  # without a jump in its rate, 60 to 2 in 1 s
+    assert cameras[10].fov == pytest.approx(2.0 * math.atan(math.exp(np.mean(np.log(np.tan(np.radians((30, 1))))) + (
+        np.log(np.tan(math.radians(30))) - np.log(np.tan(math.radians(0.5)))) / 16)), rel=1e-12)  # fmt: skip
+
+
 def test_a_camera_is_of_its_moment() -> None:
     """Between two steps it stands by the time and the poses of then, not by those of the world."""
     loaded = world("{orbit: {around: ball, distance: 2, elevation: 0 deg, rate: 1 rad/s}}")
@@ -131,6 +164,29 @@ def test_what_is_stated_of_the_lens_comes_through() -> None:
     camera = camera_after("{position: [0, -9, 0], height: 4 m}", up="z")
     assert (camera.height, camera.up) == (4.0, (0.0, 0.0, 1.0))
     assert camera_after("{position: [0, -9, 0], up: [1, 0, 0]}").up == (1.0, 0.0, 0.0)
+
+
+def test_python_states_cameras_in_the_same_words() -> None:
+    """Tuples and arrays as well; the camera is that of a file that says so, and faults are told in whole sentences."""
+    loaded = world("{keyframes: [{at: 0, position: [0, 0, 9], target: ball}, {at: 1, target: stone, fov: 20 deg}]}")
+    now = loaded.simulation.world
+    keyframes = [
+        {"at": 0, "position": np.array((0, 0, 9)), "target": "ball"},
+        {"at": 1, "target": "stone", "fov": "20 deg"},
+    ]
+    assert Rig.stated(now, {"keyframes": keyframes}).camera(now, 0.7) == shot_of(loaded).camera(now, 0.7)
+    with pytest.raises(CaromError) as caught:
+        Rig.stated(now, {"keyframes": [*keyframes, {"at": 2, "target": "boll"}]}, name="zoom")
+    assert str(caught.value) == (
+        "cameras.zoom.keyframes.2.target: unknown entity; received 'boll'; accepted: ball, stone; did you mean 'ball'?"
+    )
+    with pytest.raises(CaromError) as caught:
+        Rig.stated(now, {"position": (0, 0), "fov": "3 m"})
+    assert str(caught.value) == (
+        "cameras.main.position: must be a list of 3 numbers; received [0, 0]; accepted: numbers in m\n"
+        "cameras.main.fov: must be an angle; received '3 m', which is a length; "
+        "accepted: a number in rad, or one with a unit: rad, deg, mrad, turn"
+    )
 
 
 def test_a_camera_whose_body_is_gone_says_so() -> None:

@@ -53,7 +53,7 @@ class Cameras(RowTrack):
             layout.hide(ROOT)
 
     def sample(self, simulation: Simulation, stamp: Stamp, stream: Stream) -> None:
-        """Keep where each camera is; write the lens of one that is new, and clear one that is no more."""
+        """Keep where each camera is; write the lens of one that is new or zooms, and clear one that is no more."""
         import rerun
 
         if not self._rigs:
@@ -63,8 +63,9 @@ class Cameras(RowTrack):
             with suppress(CaromError):  # who it follows is gone
                 still = None if rig.moves else before.get(rig.name)
                 self._found[rig.name] = still or rig.camera(simulation.world)
-        for name in self._found.keys() - before.keys():
-            stream.row(place(name), stamp, *self._lens(self._found[name]))
+        for name, camera in self._found.items():
+            if name not in before or (camera.fov, camera.height) != (before[name].fov, before[name].height):
+                stream.row(place(name), stamp, *self._lens(camera))
         for name in before.keys() - self._found.keys():
             stream.row(place(name), stamp, rerun.Clear(recursive=False))
         self._moved = [name for name, camera in self._found.items() if camera != before.get(name)]
