@@ -28,14 +28,6 @@ AUDIT = (
 )
 
 
-@pytest.fixture
-def world(tmp_path: Path) -> Path:
-    """Return the file of two balls that overlap each other and a floor by 1 mm."""
-    path = tmp_path / "three.yaml"
-    path.write_text(WORLD)
-    return path
-
-
 def wrong(monkeypatch: pytest.MonkeyPatch, deeper: float, tilt: float) -> None:
     """Let the kernel of balls answer too deep and with a tilted normal."""
     right = narrow.FUNCTIONS[0]

@@ -34,14 +34,6 @@ STOPPED = f"frame 79 at 0.79 s: {FALLS}: ball.position.y = 1.9387895 m; the worl
 WHO = "'ball' at [0, 1.93879, 0] m, moving at [0, -7.7499, 0] m/s"
 
 
-@pytest.fixture
-def world(tmp_path: Path) -> Path:
-    """Return a world file."""
-    path = tmp_path / "drop.yaml"
-    path.write_text(WORLD)
-    return path
-
-
 def test_a_break_tells_who_where_and_the_command_that_opens_it(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Without a recording that is a prompt on the world; options of the run are among its words."""
     assert main(["run", str(world), "--break", FALLS, "--seed", "3"]) == 1

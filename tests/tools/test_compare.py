@@ -34,23 +34,15 @@ expect:
 """
 
 
-@pytest.fixture
-def world(tmp_path: Path) -> str:
-    """Return the file of a world in which balls fall, by Euler h g t / 2 too little."""
-    path = tmp_path / "falling.yaml"
-    path.write_text(WORLD)
-    return str(path)
-
-
-def compared(world: str, text: str, observers: list | None = None) -> Futures:  # type: ignore[type-arg]
+def compared(world: Path, text: str, observers: list | None = None) -> Futures:  # type: ignore[type-arg]
     """Return the futures of a comparison, run to their end."""
-    worlds = load_futures(world, text)
+    worlds = load_futures(str(world), text)
     futures = Futures([(name, one.simulation) for name, one in worlds])
     run(worlds[0][1], [futures, *(observers or [])], judged=False)
     return futures
 
 
-def test_every_future_is_the_run_it_says(world: str) -> None:
+def test_every_future_is_the_run_it_says(world: Path) -> None:
     """To the last bit, whatever runs beside it; and the differences are those of the rules: g t dt / 2 of Euler's."""
     futures = compared(world, "integrator=euler,semi_implicit,verlet")
     for future, integrator in zip(futures.futures, ("euler", "semi_implicit", "verlet"), strict=True):
@@ -66,7 +58,7 @@ def test_every_future_is_the_run_it_says(world: str) -> None:
     assert euler.energy_after - verlet.energy_after > 0.1
 
 
-def test_futures_of_other_steps_are_seen_at_the_same_times(world: str) -> None:
+def test_futures_of_other_steps_are_seen_at_the_same_times(world: Path) -> None:
     """Where one stands within its own step when the first ends one, it is interpolated; by verlet all fall alike."""
     futures = compared(world, "dt=1/60,1/240,1/77")
     first, finer, other = futures.futures
@@ -77,7 +69,7 @@ def test_futures_of_other_steps_are_seen_at_the_same_times(world: str) -> None:
     assert np.abs(other.path() - first.path()).max() > 1e-5
 
 
-def test_ghosts_of_other_futures_are_drawn_in_their_colours(world: str) -> None:
+def test_ghosts_of_other_futures_are_drawn_in_their_colours(world: Path) -> None:
     """Not of the first, nor of what stands; their places are those of the other runs."""
     futures = compared(world, "integrator=euler,verlet")
     simulation = futures.futures[0].simulation
@@ -91,11 +83,20 @@ def test_ghosts_of_other_futures_are_drawn_in_their_colours(world: str) -> None:
 
 
 def test_a_recording_has_all_futures_below_their_names(
-    world: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Copies, paths and differences of each, and the world file's words in the first's settings; exit 0 though it differs."""
     path, picture = tmp_path / "run.rrd", tmp_path / "run.png"
-    command = ["run", world, "--compare", "integrator=verlet,euler", "--record", str(path), "--picture", str(picture)]
+    command = [
+        "run",
+        str(world),
+        "--compare",
+        "integrator=verlet,euler",
+        "--record",
+        str(path),
+        "--picture",
+        str(picture),
+    ]
     assert main([*command, "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert [future["name"] for future in told["futures"]] == ["integrator=verlet", "integrator=euler"]
@@ -115,9 +116,9 @@ def test_a_recording_has_all_futures_below_their_names(
         )
 
 
-def test_a_table_tells_what_became_of_each(world: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_table_tells_what_became_of_each(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Energies, what they gained, and who is farthest from the first."""
-    assert main(["run", world, "--compare", "integrator=euler,verlet"]) == 0
+    assert main(["run", str(world), "--compare", "integrator=euler,verlet"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[5] == "  expectations  not asked of this run"
     assert lines[6:] == [
@@ -127,7 +128,7 @@ def test_a_table_tells_what_became_of_each(world: str, capsys: pytest.CaptureFix
     ]
 
 
-def test_a_future_that_explodes_is_told_and_left_behind(world: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_future_that_explodes_is_told_and_left_behind(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The others go on; from then on it has no ghost, and the table says what became of it."""
     futures = compared(world, "gravity=[0, -10, 0], [0, -1e308, 0]")
     first, lost = futures.futures
@@ -149,15 +150,15 @@ def test_a_future_that_explodes_is_told_and_left_behind(world: str, capsys: pyte
         ("dt=0,1 kg", "--compare: dt=0: must be above 0 s; received 0\n--compare: dt=1 kg: must be a time; received '1 kg', which is a mass; accepted: a number in s, or one with a unit: s, ms, us, min, h, d"),
     ],
 )  # fmt: skip
-def test_wrong_words_are_told_as_ever(text: str, message: str, world: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_words_are_told_as_ever(text: str, message: str, world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """All at once, with what is accepted; nothing is run, and the exit status is that of wrong usage."""
-    assert main(["run", world, "--compare", text]) == 2
+    assert main(["run", str(world), "--compare", text]) == 2
     assert capsys.readouterr().err == message + "\n"
 
 
-def test_a_setting_is_stated_once(world: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_setting_is_stated_once(world: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """What is compared cannot be set aside as well; vectors are compared in brackets."""
-    assert main(["run", world, "--compare", "dt=1/60,1/240", "--dt", "1/60"]) == 2
+    assert main(["run", str(world), "--compare", "dt=1/60,1/240", "--dt", "1/60"]) == 2
     assert capsys.readouterr().err == "--compare: compares dt, which --dt states; leave one of them\n"
     name, values = read_comparison("gravity=[0, -9.81, 0], [0, 0, 0]")
     assert (name, [value for _, value in values]) == ("gravity", [(0.0, -9.81, 0.0), (0.0, 0.0, 0.0)])

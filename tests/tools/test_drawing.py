@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -22,13 +21,6 @@ CAMERA = Camera((0.0, 0.0, 5.0), fov=math.radians(60.0))
 PIXELS = HEIGHT / 2.0 / math.tan(math.radians(30.0))  # per unit of slope
 RED = (1.0, 0.0, 0.0)
 CUBE = box(extents=(1.0, 1.0, 1.0))
-
-
-@pytest.fixture(scope="module")
-def renderer() -> Iterator[Renderer]:
-    """Yield one renderer that the tests of this module share."""
-    with Renderer(WIDTH, HEIGHT) as made:
-        yield made
 
 
 def cube(*positions: tuple[float, float, float]) -> Batch:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -31,13 +30,6 @@ CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 RED, GREEN, BLUE, GRAY = (220, 30, 20), (40, 200, 60), (30, 60, 210), (180, 180, 180)
 IMAGE = np.array([[RED, GREEN], [BLUE, GRAY]], np.uint8)  # first row on top
 CAMERA = Camera((0.0, 0.0, 4.0))
-
-
-@pytest.fixture(scope="module")
-def renderer() -> Iterator[Renderer]:
-    """Yield one renderer that the tests of this module share."""
-    with Renderer(WIDTH, HEIGHT) as made:
-        yield made
 
 
 def quad(path: Path, *, image: np.ndarray | None = IMAGE, shift: float = 0.0, **material: object) -> Path:

@@ -54,14 +54,6 @@ def verdict(path: Path) -> Verdict:
     return retrace(replay, replay.loaded_at(replay.first), replay.last)
 
 
-@pytest.fixture
-def world(tmp_path: Path) -> Path:
-    """Return a world file."""
-    path = tmp_path / "drop.yaml"
-    path.write_text(WORLD)
-    return path
-
-
 @pytest.mark.parametrize("when", FAILS)
 def test_the_last_seconds_before_a_failure_are_recorded(when: str, world: Path, tmp_path: Path) -> None:
     """From the last snapshot so far back on, to the frame that failed; the run goes on as if nothing were."""

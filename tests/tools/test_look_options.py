@@ -24,14 +24,6 @@ render: {width: 160, height: 120}
 LOOK = ("--overlay", "velocities,trails,stamp", "--color", "speed", "--plot", "energy", "speed(ball)")
 
 
-@pytest.fixture
-def world(tmp_path: Path) -> Path:
-    """Return the path of a world file."""
-    path = tmp_path / "world.yaml"
-    path.write_text(WORLD)
-    return path
-
-
 def written(path: Path) -> np.ndarray:
     """Return the last picture of a file."""
     if path.suffix == ".mp4":

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -24,13 +23,6 @@ LENSES = {
     "pinhole": Camera((1.2, 1.9, 4.1), (0.3, 0.1, 0.2), fov=math.radians(50.0)),
     "parallel": Camera((1.2, 1.9, 4.1), (0.3, 0.1, 0.2), height=3.1),
 }
-
-
-@pytest.fixture(scope="module")
-def renderer() -> Iterator[Renderer]:
-    """Yield one renderer that the tests of this module share."""
-    with Renderer(WIDTH, HEIGHT) as made:
-        yield made
 
 
 @pytest.fixture(params=LENSES)

@@ -31,14 +31,7 @@ from carom.tools.recording import Recording
 RED, BLUE, GREY = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9), (0.4, 0.4, 0.4)
 
 
-@pytest.fixture(autouse=True)
-def strict_rerun() -> Any:
-    """Let Rerun raise on bad data instead of warning."""
-    import rerun
-
-    rerun.set_strict_mode(True)
-    yield
-    rerun.set_strict_mode(False)
+pytestmark = pytest.mark.usefixtures("strict_rerun")
 
 
 def falling_world() -> Simulation:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -46,14 +45,7 @@ entities:
 """
 
 
-@pytest.fixture(autouse=True, scope="module")
-def strict_rerun() -> Iterator[None]:
-    """Let Rerun raise on bad data instead of warning."""
-    import rerun
-
-    rerun.set_strict_mode(True)
-    yield
-    rerun.set_strict_mode(False)
+pytestmark = pytest.mark.usefixtures("strict_rerun")
 
 
 class Truth:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -22,13 +21,6 @@ PLATE = box(extents=(6.0, 6.0, 0.2))
 GROUND = box(extents=(40.0, 0.2, 40.0))
 CUBE = box(extents=(1.0, 1.0, 1.0))
 BALL = icosphere(subdivisions=3, radius=0.5)
-
-
-@pytest.fixture(scope="module")
-def renderer() -> Iterator[Renderer]:
-    """Yield one renderer that the tests of this module share."""
-    with Renderer(WIDTH, HEIGHT) as made:
-        yield made
 
 
 def at(mesh: object, position: tuple[float, float, float], number: int, rotation: object = None) -> Batch:

@@ -28,14 +28,6 @@ render: {width: 64, height: 48}
 """
 
 
-@pytest.fixture
-def world(tmp_path: Path) -> Path:
-    """Return the file of a small world with three cameras."""
-    path = tmp_path / "falling.yaml"
-    path.write_text(WORLD)
-    return path
-
-
 def test_several_cameras_write_a_file_each_of_what_each_sees(
     world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
