@@ -17,7 +17,7 @@ WORDING = {
     "model_type": ("must be a mapping", "keys with values"),
     "model_attributes_type": ("must be a mapping", "keys with values"),
     "dict_type": ("must be a mapping", "keys with values"),
-    "list_type": ("must be a list", "[...]"),
+    "list_type": ("must be a list", "[...], or lines that begin with -"),
     "tuple_type": ("must be a list", "[...]"),
     "string_type": ("must be text", "text"),
 }
@@ -110,9 +110,22 @@ def _report(source: Source, adapter: TypeAdapter[Any], path: Path, place: Path, 
         source.report(place, "is missing", accepted=_meaning(adapter, place[len(path) :]))
     elif error["type"] in WORDING:
         what, accepted = WORDING[error["type"]]
+        accepted = _form(_nodes(adapter, place[len(path) :]), error["input"]) or accepted
         source.report(place, what, received=received, accepted=accepted)
     else:
         source.report(place, error["msg"][0].lower() + error["msg"][1:], received=received)
+
+
+def _form(nodes: list[dict[str, Any]], received: Any) -> str:
+    """Return the keys of the mapping, or the form of the list, that a type takes where it received something else."""
+    for node in nodes:
+        if node.get("properties"):
+            return ", ".join(node["properties"])
+        if "minItems" in node:
+            return f"a list of {node['minItems']}"
+        if isinstance(received, str) and node.get("items", {}).get("type") == "string":
+            return f"[{shown(received)}]"
+    return ""
 
 
 def keys_at(adapter: TypeAdapter[Any], steps: Path) -> list[str]:

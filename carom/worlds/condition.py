@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import reduce
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -105,6 +105,7 @@ class _Conditions(Parser):
     """Or binds loosest, then and, then not, then comparisons."""
 
     TOKEN, KIND, FORM = TOKEN, "condition", FORM
+    MEANT: ClassVar[dict[str, str]] = {"=<": "<=", "=>": ">=", "=": "==", "&": "and", "|": "or"}
 
     def __init__(self, text: str, world: World) -> None:
         super().__init__(text)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import ClassVar
 
 from carom.worlds.errors import WordError
 
@@ -15,6 +16,7 @@ class Parser:
     TOKEN: re.Pattern[str]
     KIND: str  # what a text is meant to be
     FORM: str  # what is accepted
+    MEANT: ClassVar[dict[str, str]] = {}  # what may have been meant by what is no token
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -23,13 +25,15 @@ class Parser:
         while text[at:].strip():
             found = self.TOKEN.match(text, at)
             if found is None:
-                raise self.fault(f"is no {self.KIND} at {text[at:].strip()!r}")
+                rest = text[at:].strip()
+                meant = next((right for wrong, right in self.MEANT.items() if rest.startswith(wrong)), "")
+                raise self.fault(f"is no {self.KIND} at {rest!r}", f"did you mean {meant!r}?" if meant else "")
             self.tokens.append((str(found.lastgroup), found[str(found.lastgroup)]))
             at = found.end()
 
-    def fault(self, what: str) -> WordError:
+    def fault(self, what: str, hint: str = "") -> WordError:
         """Return what is wrong with the text."""
-        return WordError(what, received=repr(self.text), accepted=self.FORM)
+        return WordError(what, received=repr(self.text), accepted=self.FORM, hint=hint)
 
     def take(self, *wanted: str) -> str | None:
         """Take the next token if it is one of these."""

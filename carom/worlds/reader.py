@@ -10,13 +10,12 @@ from typing import Any
 import yaml
 
 from carom.worlds.errors import Fault, Path, WorldError, dotted, shown
+from carom.worlds.no_yaml import no_yaml
 from carom.worlds.source import OPENING, Position, Source
 
 MOST_CHARACTERS = 32_000_000  # a file of a million bodies; above it is no world
 MOST_REPEATED = 200_000  # values that come from aliases: a "billion laughs" file is short and unfolds without end
 DEEPEST = 64
-
-QUOTE = 'inside {...} and [...] an expression stands in quotes: "${...}"'
 
 
 class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
@@ -47,14 +46,8 @@ def read(text: str, name: str) -> Source:
         raise WorldError([Fault(name, 0, 0, "", f"is larger than a world file may be, {MOST_CHARACTERS} characters")])
     try:
         source.data = _Builder(source).document()
-    except yaml.MarkedYAMLError as fault:
-        mark = fault.problem_mark or fault.context_mark
-        place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
-        problem = " ".join(part for part in (fault.context, fault.problem) if part)
-        hint = QUOTE if OPENING in "".join(text.split("\n")[place[0] - 1 : place[0]]) else ""
-        raise WorldError([Fault(name, *place, "", f"is not YAML: {problem}", hint=hint)]) from None
     except yaml.YAMLError as fault:
-        raise WorldError([Fault(name, 1, 1, "", f"is not YAML: {str(fault).splitlines()[0]}")]) from None
+        raise WorldError([no_yaml(name, text, fault)]) from None
     return source
 
 

@@ -37,8 +37,20 @@ def messages(text: str, folder: Path | None = None) -> list[str]:
         ("entities: [", "w.yaml:3:1: is not YAML: while parsing a flow node did not find expected node content"),
         ("seed: 1\nseed: 2\n", "w.yaml:3:1: seed: duplicate key 'seed', first at line 2"),
         ("seed: yes\n", "w.yaml:2:1: seed: must be a whole number; received 'yes'; accepted: 0 or more"),
-        ("entities: {}\n", "w.yaml:2:1: entities: must be a list; received a mapping of nothing; accepted: [...]"),
-        (BALL + "body: 3}\n", "w.yaml:3:18: entities.0.body: must be a mapping; received 3; accepted: keys with values"),
+        ("entities: {}\n", "w.yaml:2:1: entities: must be a list; received a mapping of nothing; accepted: [...], or lines that begin with -"),
+        (
+            BALL + "body: 3}\n",
+            ("w.yaml:3:18: entities.0.body: must be a mapping; received 3; accepted: type, mass, inertia, "
+            "principal_axes, center_of_mass, gravity_scale, linear_damping, angular_damping, continuous, sleeps, locked"),
+        ),
+        (
+            BALL + "grid: {count: 4, spacing: 1}}\n",
+            "w.yaml:3:25: entities.0.grid.count: must be a list; received 4; accepted: a list of 3",
+        ),
+        (
+            "events: [{at: 1 s, despawn: ball}]\n",
+            "w.yaml:2:20: events.0.despawn: must be a list; received 'ball'; accepted: ['ball']",
+        ),
         ("step: {dt: 0}\n", "w.yaml:2:8: step.dt: must be above 0 s; received 0"),
         ("step: {dt: -1/60}\n", "w.yaml:2:8: step.dt: must be above 0 s; received '-1/60'"),
         (
@@ -278,6 +290,16 @@ expect:
             "{always: ball.position.y + 1 > 0}",
             ("always: is no condition at '+ 1 > 0'; received 'ball.position.y + 1 > 0'; accepted: comparisons such as "
             "'left.position.y < 0', 'speed(left) > 3 m/s', joined by and, or, not"),
+        ),
+        (
+            "{always: ball.position.y => 1}",
+            ("always: is no condition at '=> 1'; received 'ball.position.y => 1'; accepted: comparisons such as "
+            "'left.position.y < 0', 'speed(left) > 3 m/s', joined by and, or, not; did you mean '>='?"),
+        ),
+        (
+            "{always: ball.position.y = 1}",
+            ("always: is no condition at '= 1'; received 'ball.position.y = 1'; accepted: comparisons such as "
+            "'left.position.y < 0', 'speed(left) > 3 m/s', joined by and, or, not; did you mean '=='?"),
         ),
         ("{energy: falling}", "energy: is no law of energy; received 'falling'; accepted: constant within X or non-increasing"),
         ("{penetration: 1 mm}", "penetration: is no bound; received '1 mm'; accepted: '< 1 mm'"),

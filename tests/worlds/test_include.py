@@ -176,7 +176,10 @@ def test_whatever_is_wrong_with_an_included_file_is_told(folder: Path) -> None:
     """One without a header, one that is no YAML, and words that are no names of files."""
     assert messages(folder, w="carom: 1\ninclude: [a.yaml, b.yaml, 3]\nseed: x\n", a="seed: 1\n", b="a: b: c\n") == [
         "a.yaml:1:1: carom: is missing; accepted: 'carom: 1' as its first line",
-        "b.yaml:1:5: is not YAML: mapping values are not allowed in this context",
+        (
+            "b.yaml:1:5: is not YAML: mapping values are not allowed in this context; "
+            "a text with ': ' stands in quotes, entries beside each other stand in {...}"
+        ),
         "w.yaml:2:27: include.2: must be text; received 3; accepted: text",
         "w.yaml:3:1: seed: must be a whole number; received 'x'; accepted: 0 or more",
     ]

@@ -121,7 +121,10 @@ expect:
     ]
     for words, fault in (
         ("{}", "w.yaml:9:10: oracle.ball: must state one closed form; received none; accepted: position or kepler"),
-        ("{position: 3 m}", "w.yaml:9:17: oracle.ball.position: must be a list; received '3 m'; accepted: [...]"),
+        (
+            "{position: 3 m}",
+            "w.yaml:9:17: oracle.ball.position: must be a list; received '3 m'; accepted: [...], or lines that begin with -",
+        ),
         (
             "{position: [1, 2]}",
             "w.yaml:9:17: oracle.ball.position: must be a list of 3 lengths; received [1, 2]; accepted: numbers in m, or expressions of t",

@@ -1,5 +1,7 @@
 """Text becomes data with positions, by the rules of YAML 1.2, and nothing in a file can harm the reader."""
 
+# ruff: noqa: E501 - messages stand whole, as a user sees them
+
 from __future__ import annotations
 
 import json
@@ -58,8 +60,30 @@ def test_json_is_a_subset(value: object) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("a: [1", "w.yaml:2:1: is not YAML: while parsing a flow sequence did not find expected ',' or ']'"),
-        ("a: b: c", "w.yaml:1:5: is not YAML: mapping values are not allowed in this context"),
+        (
+            "a: [1",
+            "w.yaml:2:1: is not YAML: while parsing a flow sequence did not find expected ',' or ']'; it begins at line 1",
+        ),
+        (
+            "a: [\n b\n",
+            "w.yaml:3:1: is not YAML: while parsing a flow sequence did not find expected ',' or ']'; it begins at line 1",
+        ),
+        (
+            "a: 1\nb [1]\nc: 3",
+            "w.yaml:3:1: is not YAML: while scanning a simple key could not find expected ':'; it begins at line 2",
+        ),
+        (
+            "a:\n\t- 1",
+            "w.yaml:2:1: is not YAML: while scanning for the next token found character that cannot start any token; a line begins with blanks, never with a tab",
+        ),
+        (
+            "a: {color: #ff8000, b: 1}",
+            "w.yaml:2:1: is not YAML: while parsing a flow node did not find expected node content; what follows # is a comment; a colour stands in quotes: '#ff8000'",
+        ),
+        (
+            "a: b: c",
+            "w.yaml:1:5: is not YAML: mapping values are not allowed in this context; a text with ': ' stands in quotes, entries beside each other stand in {...}",
+        ),
         ("\x00", "w.yaml:1:1: is not YAML: unacceptable character #x0000: control characters are not allowed"),
         ("a: 1\n---\nb: 2", "w.yaml:2:1: holds more than one document"),
         ("? [a]\n: b", "w.yaml:1:3: has a key that is not a word"),
