@@ -31,6 +31,11 @@ STAND_IN = 0.1  # m, radius of the ball that stands for a point: the distance to
 Points = list[tuple[Floats, Floats, float]]
 
 
+def degrees_between(a: Any, b: Any) -> Any:
+    """Return the angles of unit vectors (..., 3)."""
+    return np.degrees(2.0 * np.arcsin(np.minimum(1.0, 0.5 * np.sqrt((np.subtract(a, b) ** 2).sum(axis=-1)))))
+
+
 class Poses(NamedTuple):
     """Where two shapes are."""
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from batches import Answer, Batch, random_batch, smaller
 from fcl_batches import fcl_batch
-from pairs import SHAPES
+from pairs import SHAPES, degrees_between
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
@@ -87,11 +87,6 @@ def apart_along(posed: Posed, normal: Floats) -> Floats:
         else:  # its normal, turned there and back, is no longer one to the last bit
             found -= shape.packed()[3]
     return found
-
-
-def degrees_between(a: Any, b: Any) -> Any:
-    """Return the angles of unit vectors."""
-    return np.degrees(2.0 * np.arcsin(np.minimum(1.0, 0.5 * np.sqrt(((a - b) ** 2).sum(axis=-1)))))
 
 
 def test_agreement(posed: Posed) -> None:

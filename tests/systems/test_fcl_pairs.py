@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from batches import Batch
 from fcl_batches import fcl_batch
-from pairs import PAIRS, SHAPES, Pair, Points, Poses, shallow_poses, turns
+from pairs import PAIRS, SHAPES, Pair, Points, Poses, degrees_between, shallow_poses, turns
 
 from carom.ecs.spatial import quaternion
 from carom.systems.constants import BRACKET
@@ -32,11 +32,6 @@ EVERY: dict[str, Any] = SHAPES | ROUND
 def deepest(points: Points) -> tuple[Any, Any, float]:
     """Return the deepest point."""
     return max(points, key=lambda point: point[2])
-
-
-def degrees_between(a: Any, b: Any) -> float:
-    """Return the angle of two unit vectors."""
-    return float(np.degrees(2.0 * np.arcsin(min(1.0, 0.5 * np.linalg.norm(np.subtract(a, b))))))
 
 
 @pytest.mark.parametrize(("a", "b"), [pair for pair in BY_TRIANGLES if "point" not in pair])

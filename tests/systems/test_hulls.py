@@ -7,6 +7,7 @@ from itertools import combinations_with_replacement
 import numpy as np
 import pytest
 from hulls import HULLS, PACKED, Measured, Placed, corners, extent, many_poses, measure
+from pairs import degrees_between
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
@@ -20,11 +21,6 @@ PAIRS = [(a, b) for a in ("sphere", "capsule", "box") for b in HULLS] + AMONG_HU
 REACH = 0.02
 ENOUGH = 3e-6  # m, what coal's own tolerance leaves
 POSES = 10_000
-
-
-def degrees_between(a: Floats, b: Floats) -> Floats:
-    """Return the angles of unit vectors."""
-    return np.degrees(2.0 * np.arcsin(np.minimum(1.0, 0.5 * np.sqrt(((a - b) ** 2).sum(axis=1)))))
 
 
 def hold_points(found: Measured, distance: Floats) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
+from shape_examples import fine
+from solids import CORNERS
 
 from carom.ecs.column import Floats
 from carom.ecs.errors import DeclarationError
@@ -15,13 +17,9 @@ from carom.systems.shapes.geometry import Geometry, hull_of
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.land import land
 from carom.systems.shapes.mesh import Mesh
-from carom.systems.shapes.orientation import along_y
 
 ANNULUS = trimesh.creation.annulus(r_min=0.3, r_max=0.7, height=0.4)
 RING = Geometry(np.array(ANNULUS.vertices), np.array(ANNULUS.faces, np.int64))
-CORNERS = np.array(
-    [(0.5, 0.1, 0.0), (-0.6, 0.0, 0.1), (0.0, 0.7, 0.0), (0.1, -0.5, 0.2), (0.0, 0.1, 0.6), (0.2, 0.0, -0.5)]
-)
 VOLUMES = {
     "sphere": SHAPES["sphere"](radius=0.5),
     "ellipsoid": SHAPES["ellipsoid"](radii=(0.6, 0.2, 0.3)),
@@ -32,24 +30,6 @@ VOLUMES = {
     "convex": SHAPES["convex"](hull_of(CORNERS)),
     "mesh": Mesh(RING),
 }
-
-
-def fine(key: str, shape: Shape) -> trimesh.Trimesh:
-    """Return a shape as many triangles."""
-    if key in ("sphere", "ellipsoid"):
-        ball = trimesh.creation.icosphere(subdivisions=5)
-        return trimesh.Trimesh(ball.vertices * (shape.radius if key == "sphere" else shape.radii), ball.faces)
-    if key == "capsule":
-        mesh = trimesh.creation.capsule(height=shape.length, radius=shape.radius, count=[128, 128])
-        return trimesh.Trimesh(along_y(mesh.vertices), mesh.faces)
-    if key == "cylinder":
-        mesh = trimesh.creation.cylinder(radius=shape.radius, height=shape.length, sections=256)
-        return trimesh.Trimesh(along_y(mesh.vertices), mesh.faces)
-    if key == "cone":
-        mesh = trimesh.creation.cone(radius=shape.radius, height=shape.length, sections=256)
-        return trimesh.Trimesh(along_y(mesh.vertices) - [0.0, shape.length / 2.0, 0.0], mesh.faces)
-    surface = shape.surface()
-    return trimesh.Trimesh(surface.vertices, surface.faces)
 
 
 def submerged(shape: Shape, normal: Floats, depth: Floats) -> Floats:
@@ -71,7 +51,7 @@ def sliced(mesh: trimesh.Trimesh, normal: Floats, depth: float) -> tuple[float, 
 def test_volume_and_centre_are_those_of_a_slice(key: str) -> None:
     """A hundred planes each: within 1 % of what trimesh cuts off, centres 1 % of its draught; the whole is exact."""
     shape, draws = VOLUMES[key], np.random.default_rng(1)
-    mesh, normal = fine(key, shape), normalise(draws.normal(size=(100, 3)))
+    mesh, normal = fine(key, shape, subdivisions=5, sections=128), normalise(draws.normal(size=(100, 3)))
     reach = mesh.vertices @ normal.T
     low, high = reach.min(axis=0), reach.max(axis=0)
     depth = low + (high - low) * draws.uniform(0.02, 0.98, 100)
