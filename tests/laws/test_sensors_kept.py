@@ -1,4 +1,4 @@
-"""Who is inside a sensor is so until it leaves: made there, removed, or put elsewhere, in one order on every machine."""
+"""Who is inside a sensor is so until it leaves: made there, removed or put elsewhere, in one order everywhere."""
 
 from __future__ import annotations
 
