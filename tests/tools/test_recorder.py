@@ -1,107 +1,23 @@
-"""A recording holds what was simulated: poses exactly in float32, contacts, identities, and all but the last second."""
+"""Recordings hold what was simulated: poses, contacts, impacts and plots are read back and compared."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
+from recorded import BLUE, RED, assert_same_poses, ball, falling_world, poses, record
 
-from carom.ecs import (
-    Entity,
-    NonFiniteError,
-    Transform,
-    Visual,
-    restore_snapshot,
-    snapshot_from_bytes,
-    state_hash,
-)
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd
 from carom.systems.ledger import Ledger
 from carom.systems.simulation import Simulation
-from carom.tools.bench.killed import record_until_killed
 from carom.tools.recorder import Recorder
-from carom.tools.recorder.stream import application_id
 from carom.tools.recorder.tracks.contacts import Contacts
 from carom.tools.recording import Recording
 
-RED, BLUE, GREY = (0.9, 0.1, 0.1), (0.1, 0.2, 0.9), (0.4, 0.4, 0.4)
-
-
 pytestmark = pytest.mark.usefixtures("strict_rerun")
-
-
-def falling_world() -> Simulation:
-    """Return balls of two colours, a capsule and a box with an offset shape above a floor."""
-    simulation = Simulation(dt=1 / 240)
-    simulation.add(name="floor", collider={"plane": {}}, material={"color": GREY})
-    for k in range(6):
-        color = RED if k % 2 else BLUE
-        ball(simulation, f"ball[{k}]", (0.3 * k, 0.3 + 0.1 * k, 0.0), color)
-    simulation.add(
-        name="capsule",
-        transform={"position": (0.0, 0.5, 1.0)},
-        motion={"angular": (1.0, 2.0, 3.0)},
-        collider={"capsule": {"radius": 0.05, "length": 0.2}},
-        body={},
-    )
-    simulation.add(
-        name="hammer",
-        transform={"position": (1.0, 0.5, 1.0), "rotation": (0.0, 0.0, 0.6, 0.8)},
-        collider={"box": {"size": (0.1, 0.2, 0.3)}, "position": (0.0, 0.4, 0.0)},
-        body={},
-    )
-    return simulation
-
-
-def ball(simulation: Simulation, name: str, position: tuple[float, float, float], color: Any = RED) -> Entity:
-    """Add a ball of 10 cm."""
-    return simulation.add(
-        name=name,
-        transform={"position": position},
-        collider={"sphere": {"radius": 0.05}},
-        body={},
-        material={"color": color, "restitution": 0.5},
-    )
-
-
-def poses(simulation: Simulation) -> dict[int, tuple[Any, Any]]:
-    """Return the pose of every visible entity as a recording must hold it."""
-    world = simulation.world
-    rows = world.row_numbers(Visual, Transform)
-    rows = rows[world[Visual].visible[rows]]
-    transform = world[Transform]
-    return {
-        int(entity): (transform.position[row].astype(np.float32), transform.rotation[row].astype(np.float32))
-        for entity, row in zip(world.entities(rows), rows, strict=True)
-    }
-
-
-def assert_same_poses(recording: Recording, frame: int, expected: dict[int, tuple[Any, Any]]) -> None:
-    """Compare one frame bit by bit."""
-    received = recording.poses(frame)
-    assert received.keys() == expected.keys()
-    for entity, (position, rotation) in expected.items():
-        assert np.array_equal(received[entity].position, position)
-        assert np.array_equal(received[entity].rotation, rotation)
-
-
-def record(simulation: Simulation, path: Path, frames: int, **options: Any) -> dict[int, dict[int, tuple[Any, Any]]]:
-    """Run with a recorder; return the poses of every step."""
-    recorder = Recorder(path, **options)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    seen = {0: poses(simulation)}
-    try:
-        for _ in range(frames):
-            simulation.step()
-            seen[simulation.frame] = poses(simulation)
-    finally:
-        recorder.end(simulation)
-    return seen
 
 
 def test_every_recorded_pose_is_the_simulations_in_float32(tmp_path: Path) -> None:
@@ -272,75 +188,3 @@ def test_a_ledger_that_is_kept_is_recorded(tmp_path: Path) -> None:
         assert {entry: curve[40] for entry, curve in curves.items() if curve} == {
             entry: ledger.since[entry] for entry in curves if kept
         }
-
-
-def test_a_snapshot_in_the_recording_restores_the_run_bit_by_bit(tmp_path: Path) -> None:
-    """Into a world built anew from the same words."""
-    simulation = falling_world()
-    record(simulation, tmp_path / "run.rrd", 300)
-    states = Recording(tmp_path / "run.rrd").saved_states()
-    assert [saved.frame for saved in states] == [0, 240, 300]  # each second, and the end
-    again = falling_world()
-    restore_snapshot(again.world, snapshot_from_bytes(states[1].state, again.world))
-    assert state_hash(again.world) == states[1].hash
-    again.step(60)
-    assert state_hash(again.world) == state_hash(simulation.world)
-
-
-def test_settings_versions_and_the_world_file_travel_along(tmp_path: Path) -> None:
-    """As text to read and as values."""
-    record(falling_world(), tmp_path / "run.rrd", 4, title="falling", source="carom: 1\nname: falling\n")
-    values = Recording(tmp_path / "run.rrd").static["/about"]
-    assert values["world_file"] == ["carom: 1\nname: falling\n"]
-    assert values["dt"] == [1 / 240]
-    assert values["seed"] == [0]
-    assert values["version_numpy"] == [np.__version__]
-    assert "falling" in values["TextDocument:text"][0]
-
-
-@pytest.mark.parametrize("title", ["a ball, a ramp", 'Ω: a/b "c" (1 + 2).', "x" * 300])
-def test_any_title_is_taken_without_a_warning(title: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    """Rerun would exchange letters in the application's name and say so on stderr, in the middle of a run's output."""
-    record(falling_world(), tmp_path / "run.rrd", 1, title=title)
-    assert capfd.readouterr().err == ""
-
-
-def test_worlds_of_different_titles_are_different_applications() -> None:
-    """The viewer keeps a layout for each; what can be read in a title stays."""
-    ids = [application_id(title) for title in ("a ball [1]", "a, b", "a; b", "x" * 300, "x" * 301)]
-    assert ids[:3] == ["carom: a ball [1]", "carom: a- b a5b1d428", "carom: a- b bcd861dd"]
-    assert len(set(ids)) == 5
-
-
-def test_a_run_that_breaks_off_leaves_a_readable_recording(tmp_path: Path) -> None:
-    """Up to the last frame before the NaN."""
-    simulation = falling_world()
-
-    def poison(world: Any, rows: Any) -> Any:
-        """Push with a NaN from the hundredth frame on."""
-        force = np.zeros((len(rows), 3))
-        force[0] = np.nan if world.frame >= 100 else 0.0
-        return force
-
-    simulation.force_function(poison)
-    with pytest.raises(NonFiniteError):
-        record(simulation, tmp_path / "run.rrd", 300)
-    assert Recording(tmp_path / "run.rrd").frames == list(range(0, 100, 4))
-
-
-def test_a_kill_loses_at_most_the_last_second(tmp_path: Path) -> None:
-    """Of simulated or of real time; what is left is exact and opens with a warning."""
-    path = tmp_path / "killed.rrd"
-    killed = record_until_killed(falling_world, path, 3.0)
-    with pytest.warns(UserWarning, match=r"killed\.rrd was not finished: the run that wrote it was killed"):
-        recording = Recording(path)
-    newest = recording.frames[-1]
-    assert newest > 0
-    assert killed.lost(newest) <= 1.0
-    simulation = falling_world()
-    seen = {0: poses(simulation)}
-    for _ in range(newest):
-        simulation.step()
-        seen[simulation.frame] = poses(simulation)
-    for frame in recording.frames:
-        assert_same_poses(recording, frame, seen[frame])
