@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
 from collections.abc import Sequence
 from importlib import import_module
 
 import carom
+from carom.tools.arguments import Parser
 
 COMMANDS = (
     "new",
@@ -64,9 +64,9 @@ def main(words: Sequence[str] | None = None) -> int:
         return FAILED if isinstance(fault, NonFiniteError) else WRONG
 
 
-def parser() -> argparse.ArgumentParser:
+def parser() -> Parser:
     """Return the parser of the whole command line."""
-    whole = argparse.ArgumentParser(
+    whole = Parser(
         prog="carom",
         description="A 3D game engine whose world is a table.",
         epilog="exit status: 0 done, 1 a check failed, 2 wrong usage or input",
@@ -79,7 +79,7 @@ def parser() -> argparse.ArgumentParser:
         single = commands.add_parser(name, help=summary, description=summary)
         single.add_argument("--json", action="store_true", help="print the result as JSON, for programs")
         module.declare(single)
-        single.set_defaults(execute=module.execute)
+        single.set_defaults(execute=module.execute, parser=single)
     return whole
 
 

@@ -49,11 +49,15 @@ def find(world: str | Path) -> Path:
         return path
     if text in (known := _paths()):
         return known[text]
-    accepted, hint = "a world file, or the name of a library world", ""
-    what = "is a folder" if path.is_dir() else "does not exist"
-    if not path.is_dir() and path.suffix not in SUFFIXES and len(path.parts) == 1:
-        what, accepted, hint = "no world of this name", ", ".join(names()), did_you_mean(text, names())
-    raise WorldError([Fault(text, 0, 0, "", what, accepted=accepted, hint=hint)])
+    accepted, what = "a world file, or the name of a library world", "does not exist"
+    beside = [str(path.with_name(file.name)) for file in sorted(path.parent.glob("*")) if file.suffix in SUFFIXES]
+    near = [*names(), *beside]
+    if path.is_dir():
+        what, near = "is a folder", []
+    elif path.suffix not in SUFFIXES and len(path.parts) == 1:
+        what, accepted = "no world of this name", ", ".join(names())
+        near = [name for name in beside if Path(name).stem == text] or near
+    raise WorldError([Fault(text, 0, 0, "", what, accepted=accepted, hint=did_you_mean(text, near))])
 
 
 def read_text(path: Path, shown: str) -> str:

@@ -138,6 +138,27 @@ def test_wrong_options_end_with_2_and_say_what_is_accepted(
     assert capsys.readouterr().err == message.format(world=world) + "\n"
 
 
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["fmt", "a.yaml", "--chek"], "carom fmt: error: unrecognized arguments: --chek; did you mean '--check'?"),
+        (["fmt", "a.yaml", "--to=3s"], "carom fmt: error: unrecognized arguments: --to=3s"),
+        (["frmt", "a.yaml"], "did you mean 'fmt'?"),
+        (["run", "a.yaml", "--integrator", "verlt"], "did you mean 'verlet'?"),
+    ],
+)
+def test_words_of_no_command_end_with_2_by_its_own_usage(
+    words: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """And the word that is near."""
+    with pytest.raises(SystemExit) as ended:
+        main(words)
+    assert ended.value.code == 2
+    told = capsys.readouterr().err
+    assert told.startswith(f"usage: carom {words[0] if words[0] != 'frmt' else '[-h]'}")
+    assert told.endswith(f"{message}\n")
+
+
 def test_a_number_that_runs_away_stops_the_run_with_1_and_keeps_the_recording(
     world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

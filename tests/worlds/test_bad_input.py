@@ -513,7 +513,7 @@ def test_other_files_are_refused_at_once(text: str, message: str) -> None:
     assert str(caught.value) == message
 
 
-def test_files_that_are_not_there(tmp_path: Path) -> None:
+def test_files_that_are_not_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A path that leads nowhere and a name that nothing bears are told apart."""
 
     def refusal(world: str | Path) -> str:
@@ -528,4 +528,9 @@ def test_files_that_are_not_there(tmp_path: Path) -> None:
         f"mirror_rom: no world of this name; accepted: {', '.join(names())}; did you mean 'mirror_room'?"
     )
     (tmp_path / "latin.yaml").write_bytes(b"carom: 1\nname: caf\xe9\n")
+    monkeypatch.chdir(tmp_path)
+    assert refusal("lattin.yaml") == (f"lattin.yaml: does not exist; accepted: {accepted}; did you mean 'latin.yaml'?")
+    assert refusal("latin") == (
+        f"latin: no world of this name; accepted: {', '.join(names())}; did you mean 'latin.yaml'?"
+    )
     assert refusal(tmp_path / "latin.yaml") == f"{tmp_path}/latin.yaml: is not text in UTF-8: byte 18 is 0xe9"
