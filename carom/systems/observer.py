@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Protocol
 
 if TYPE_CHECKING:
@@ -21,6 +21,18 @@ class Observer(Protocol):
 
     def end(self, simulation: Simulation) -> None:
         """Finish, also after an error or an interrupt."""
+
+
+@contextmanager
+def observed(simulation: Simulation, *observers: Observer) -> Iterator[None]:
+    """Let these see the world as it is now and after every step within this context; all are ended however it ends."""
+    before, simulation.observers = simulation.observers, [*simulation.observers, *observers]
+    with ExitStack() as ending:
+        ending.callback(setattr, simulation, "observers", before)
+        for observer in observers:
+            ending.callback(observer.end, simulation)
+            observer.begin(simulation)
+        yield
 
 
 @contextmanager

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from carom.ecs import Entity, Transform, Visual
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.recorder import Recorder
 from carom.tools.recording import Recording
@@ -72,14 +73,9 @@ def assert_same_poses(recording: Recording, frame: int, expected: dict[int, tupl
 
 def record(simulation: Simulation, path: Path, frames: int, **options: Any) -> dict[int, dict[int, tuple[Any, Any]]]:
     """Run with a recorder; return the poses of every step."""
-    recorder = Recorder(path, **options)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
     seen = {0: poses(simulation)}
-    try:
+    with observed(simulation, Recorder(path, **options)):
         for _ in range(frames):
             simulation.step()
             seen[simulation.frame] = poses(simulation)
-    finally:
-        recorder.end(simulation)
     return seen

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from carom.ecs import state_hash
+from carom.systems.observer import observed
 from carom.tools.recorder import Recorder
 from carom.tools.replay import Replay
 from carom.tools.retrace import Verdict, retrace
@@ -27,16 +28,13 @@ def record(loaded: LoadedWorld, path: Path, frames: int, edits: dict[int, Any] |
     """Record so many steps, doing ``edits`` after some; return the hash of every frame."""
     simulation = loaded.simulation
     title, source, files = loaded.name, loaded.source_text, loaded.contents()
-    recorder = Recorder(path, title=title, source=source, files=files)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    hashes = [state_hash(simulation.world)]
-    for _ in range(frames):
-        if edits and simulation.frame in edits:
-            edits[simulation.frame](simulation)
-        simulation.step()
-        hashes.append(state_hash(simulation.world))
-    recorder.end(simulation)
+    with observed(simulation, Recorder(path, title=title, source=source, files=files)):
+        hashes = [state_hash(simulation.world)]
+        for _ in range(frames):
+            if edits and simulation.frame in edits:
+                edits[simulation.frame](simulation)
+            simulation.step()
+            hashes.append(state_hash(simulation.world))
     return hashes
 
 

@@ -10,6 +10,7 @@ import pytest
 from plants import plant, spoil_system
 
 from carom.ecs import Force, Motion, World
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.cli import main
 from carom.tools.differing import Comparison, compare
@@ -48,14 +49,12 @@ def record(name: str, frames: int = 300, push: int | None = None, speed: float =
     """Record a world file; one ball is pushed before frame ``push``."""
     loaded = load_world(f"{name}.yaml")
     simulation, recorder = loaded.simulation, Recorder(f"{name}.rrd", source=loaded.source_text)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    for frame in range(1, frames + 1):
-        if frame == push:
-            with simulation.world.edit(Motion) as motion:
-                motion.linear[simulation.world.row(simulation.world.find("ball[1,0,0]")), 0] = speed
-        simulation.step()
-    recorder.end(simulation)
+    with observed(simulation, recorder):
+        for frame in range(1, frames + 1):
+            if frame == push:
+                with simulation.world.edit(Motion) as motion:
+                    motion.linear[simulation.world.row(simulation.world.find("ball[1,0,0]")), 0] = speed
+            simulation.step()
 
 
 def nudge(simulation: Simulation) -> None:
@@ -161,11 +160,8 @@ def test_a_recording_of_other_code_is_told_where_it_comes_out_otherwise(
     """As `git bisect run` asks: a recording of sound code against the world by the code of today."""
     loaded = load_text(WORLD)
     nudge(loaded.simulation)
-    recorder = Recorder("old.rrd", source=loaded.source_text)
-    loaded.simulation.observers.append(recorder)
-    recorder.begin(loaded.simulation)
-    loaded.simulation.step(300)
-    recorder.end(loaded.simulation)
+    with observed(loaded.simulation, Recorder("old.rrd", source=loaded.source_text)):
+        loaded.simulation.step(300)
     assert main(["diff", "old.rrd", "sound.yaml", "--json"]) == 1
     found = json.loads(capsys.readouterr().out)
     assert (found["good"], found["same"], found["reproduced"]) == (100, False, False)

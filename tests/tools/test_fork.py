@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from carom.ecs import Motion, state_hash
+from carom.systems.observer import observed
 from carom.tools.cli import main
 from carom.tools.forking import fork
 from carom.tools.reading import read
@@ -41,14 +42,12 @@ def recording(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("slide.yaml").write_text(SLIDE)
     loaded = load_world("slide.yaml")
     simulation, recorder = loaded.simulation, Recorder("slide.rrd", source=loaded.source_text)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    for frame in range(1, 131):
-        if frame == 90:
-            with simulation.world.edit(Motion) as motion:
-                motion.linear[simulation.world.row(simulation.world.find("crate")), 2] = 1.0
-        simulation.step()
-    recorder.end(simulation)
+    with observed(simulation, recorder):
+        for frame in range(1, 131):
+            if frame == 90:
+                with simulation.world.edit(Motion) as motion:
+                    motion.linear[simulation.world.row(simulation.world.find("crate")), 2] = 1.0
+            simulation.step()
     return Path("slide.rrd")
 
 
@@ -115,12 +114,10 @@ def test_a_body_that_lives_in_one_future_only_is_told_as_that(
     ):
         loaded = load_text(SLIDE)
         simulation, recorder = loaded.simulation, Recorder(f"{name}.rrd", source=loaded.source_text)
-        simulation.observers.append(recorder)
-        recorder.begin(simulation)
-        simulation.step(89)
-        act(simulation)
-        simulation.step(41)
-        recorder.end(simulation)
+        with observed(simulation, recorder):
+            simulation.step(89)
+            act(simulation)
+            simulation.step(41)
     words = ["--frame", "50", "--set", "crate.friction *= 1", "--until", "1.3 s"]
     for name, told in (("comes", "'coin' does not live there"), ("goes", "'crate' lives only there")):
         assert main(["fork", f"{name}.rrd", *words]) == 1

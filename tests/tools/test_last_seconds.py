@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from carom.ecs import state_hash
+from carom.systems.observer import observed
 from carom.systems.ring import Ring
 from carom.systems.simulation import Simulation
 from carom.tools import viewer
@@ -133,11 +134,8 @@ def test_a_recording_may_begin_later(world: Path, tmp_path: Path) -> None:
     loaded = load_text(WORLD)
     simulation = loaded.simulation
     simulation.step(40)
-    recorder = Recorder(path, source=loaded.source_text)
-    recorder.begin(simulation)
-    simulation.observers.append(recorder)
-    simulation.step(150)
-    recorder.end(simulation)
+    with observed(simulation, Recorder(path, source=loaded.source_text)):
+        simulation.step(150)
     assert (Replay(path).first, Replay(path).last) == (40, 190)
     assert verdict(path).same
 

@@ -9,6 +9,7 @@ import pytest
 from PIL import Image, ImageSequence
 
 from carom.ecs.errors import CaromError
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.filming import Filming, Shot, frames
@@ -87,10 +88,8 @@ def test_frames_follow_a_body_between_steps() -> None:
 def test_a_film_runs_at_the_speed_of_the_simulation_whatever_its_rate(tmp_path: Path) -> None:
     """With 25 pictures a second of steps of 0.1 s, the ball moves on from each to the next."""
     simulation, filming = gliding(), Filming(SHOT, tmp_path / "film.webp")
-    simulation.observers.append(filming)
-    filming.begin(simulation)
-    simulation.step(10)
-    filming.end(simulation)
+    with observed(simulation, filming):
+        simulation.step(10)
     with Image.open(tmp_path / "film.webp") as image:
         places = [middle(np.asarray(frame.convert("RGB"))) for frame in ImageSequence.Iterator(image)]
     assert len(places) == 26

@@ -14,6 +14,7 @@ from sprays import emitting, positions
 
 from carom.ecs.column import Floats, Integers
 from carom.ecs.relations.particle import Particle
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.look import Look
@@ -57,15 +58,12 @@ def test_a_recording_holds_every_particle_of_every_frame(tmp_path: Path) -> None
         dt=1 / 60, rate=90.0, start=0.1, duration=0.4, life=(0.1, 0.3), speed=2.0, cone=1.0,
         size=0.1, end_size=0.3, color=(1.0, 0.5, 0.0), end_color=(0.0, 0.5, 1.0, 0.0),
     )  # fmt: skip
-    recorder = Recorder(tmp_path / "spray.rrd", every=1)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    held: dict[int, Any] = {}
-    for frame in range(1, 61):
-        simulation.step()
-        held[frame] = [positions(simulation).astype(np.float32), *clouds(simulation.world)]
-        held[frame].append(simulation.world[Particle].number[: len(held[frame][0])].copy())
-    recorder.end(simulation)
+    with observed(simulation, Recorder(tmp_path / "spray.rrd", every=1)):
+        held: dict[int, Any] = {}
+        for frame in range(1, 61):
+            simulation.step()
+            held[frame] = [positions(simulation).astype(np.float32), *clouds(simulation.world)]
+            held[frame].append(simulation.world[Particle].number[: len(held[frame][0])].copy())
     table, series = Recording(tmp_path / "spray.rrd").table("particles").polars(), read(tmp_path / "spray.rrd").series
     looks = {name: series["/world/particles", f"Points3D:{name}"] for name in ("radii", "colors")}
     seen = 0

@@ -12,6 +12,7 @@ import polars
 import pytest
 
 from carom.systems.energy import total_energy
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.asking import ask
 from carom.tools.cli import main
@@ -32,18 +33,15 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[int, float
     step = {"box": {"size": (0.16, 0.1, 0.16)}}
     simulation.add(name="unseen", transform={"position": (0.45, 0, 0)}, collider=step, visual={"visible": False})
     ball(simulation, "first", 0.2)
-    recorder = Recorder(path, every=2)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    energies = {0: total_energy(simulation.world)}
-    for frame in range(1, 61):
-        if frame == 11:
-            ball(simulation, "second", 0.15)
-        if frame == 41:
-            simulation.world.despawn(simulation.world.find("second"))
-        simulation.step()
-        energies[frame] = total_energy(simulation.world)
-    recorder.end(simulation)
+    with observed(simulation, Recorder(path, every=2)):
+        energies = {0: total_energy(simulation.world)}
+        for frame in range(1, 61):
+            if frame == 11:
+                ball(simulation, "second", 0.15)
+            if frame == 41:
+                simulation.world.despawn(simulation.world.find("second"))
+            simulation.step()
+            energies[frame] = total_energy(simulation.world)
     return path, energies
 
 

@@ -13,6 +13,7 @@ import pytest
 from carom.ecs import state_hash
 from carom.ecs.column import Floats
 from carom.systems.forces.gusts import WAVES, waves
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.reading import read
 from carom.tools.recorder import Recorder
@@ -50,13 +51,9 @@ def place(simulation: Simulation, position: tuple[float, float, float]) -> int:
 
 def recorded(simulation: Simulation, path: Path | None) -> Simulation:
     """Simulate, and record every frame where a path is told."""
-    recorder = None if path is None else Recorder(path, every=1, detail="full")
-    if recorder is not None:
-        simulation.observers.append(recorder)
-        recorder.begin(simulation)
-    simulation.step(FRAMES)
-    if recorder is not None:
-        recorder.end(simulation)
+    recorders = [] if path is None else [Recorder(path, every=1, detail="full")]
+    with observed(simulation, *recorders):
+        simulation.step(FRAMES)
     return simulation
 
 

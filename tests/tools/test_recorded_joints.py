@@ -11,6 +11,7 @@ import pytest
 
 from carom.ecs.components.joint import Joint
 from carom.ecs.components.spring import Spring
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.reading import read
 from carom.tools.recorder import Recorder
@@ -38,14 +39,11 @@ def scene() -> Simulation:
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[dict[str, Any]]]:
     """Return a recording in full, and what the tables held in each of its frames, by name and column."""
     path, simulation = tmp_path_factory.mktemp("joints") / "rec.rrd", scene()
-    recorder = Recorder(path, every=1, detail="full")
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    told = [held(simulation)]
-    for _ in range(FRAMES):
-        simulation.step()
-        told.append(held(simulation))
-    recorder.end(simulation)
+    with observed(simulation, Recorder(path, every=1, detail="full")):
+        told = [held(simulation)]
+        for _ in range(FRAMES):
+            simulation.step()
+            told.append(held(simulation))
     return path, told
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from carom.ecs import World, state_hash, system
+from carom.systems.observer import observed
 from carom.systems.queries import asked
 from carom.systems.queries.space import ASKED, Space
 from carom.systems.simulation import Simulation
@@ -31,25 +32,20 @@ def asking(path: Path | None, steps: int = 4) -> str:
     simulation.add(name="ground", collider={"plane": {}})
     simulation.add(name="ball", collider={"sphere": {"radius": 0.5}}, body={}, transform={"position": (0.0, 3.0, 0.0)})
     simulation.schedule = simulation.schedule.insert(look_down, after="place_colliders")
-    recorder = None
-    if path is not None:
-        recorder = Recorder(path, every=2, detail="full")
-        simulation.observers.append(recorder)
-        recorder.begin(simulation)
-    for _ in range(steps):
-        space = simulation.space
-        if simulation.frame == 1:
-            met = space.cast_ray((0.0, 9.0, 0.0), DOWN)
-            assert met is not None
-            assert space.cast_ray((9.0, 9.0, 0.0), (0.0, 1.0, 0.0)) is None
-            assert space.find_overlaps({"sphere": {"radius": 0.2}}, (0.0, 3.0, 0.0), tag="probe").depth[0] > 0.4
-        if simulation.frame == 2:
-            assert space.cast_shape({"sphere": {"radius": 0.1}}, (5.0, 3.0, 0.0), DOWN) is not None
-            assert space.point_inside((0.0, -1.0, 7.0)).size == 1
-            assert space.closest_point((0.0, 1.0, 9.0), 2.0) is not None
-        simulation.step()
-    if recorder is not None:
-        recorder.end(simulation)
+    recorders = [] if path is None else [Recorder(path, every=2, detail="full")]
+    with observed(simulation, *recorders):
+        for _ in range(steps):
+            space = simulation.space
+            if simulation.frame == 1:
+                met = space.cast_ray((0.0, 9.0, 0.0), DOWN)
+                assert met is not None
+                assert space.cast_ray((9.0, 9.0, 0.0), (0.0, 1.0, 0.0)) is None
+                assert space.find_overlaps({"sphere": {"radius": 0.2}}, (0.0, 3.0, 0.0), tag="probe").depth[0] > 0.4
+            if simulation.frame == 2:
+                assert space.cast_shape({"sphere": {"radius": 0.1}}, (5.0, 3.0, 0.0), DOWN) is not None
+                assert space.point_inside((0.0, -1.0, 7.0)).size == 1
+                assert space.closest_point((0.0, 1.0, 9.0), 2.0) is not None
+            simulation.step()
     return state_hash(simulation.world)
 
 

@@ -12,6 +12,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd
 from carom.systems.ledger import Ledger
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.recorder import Recorder
 from carom.tools.recorder.tracks.contacts import Contacts
@@ -39,22 +40,19 @@ def test_every_asks_for_other_frames(tmp_path: Path) -> None:
 def test_bodies_that_come_and_go_keep_their_identity(tmp_path: Path) -> None:
     """Also those that change colour or hide, and one that takes the row of another."""
     simulation = falling_world()
-    recorder = Recorder(tmp_path / "run.rrd", every=1)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    seen = {0: poses(simulation)}
-    for frame in range(1, 61):
-        if frame == 10:
-            simulation.world.despawn(simulation.world.find("ball[2]"), simulation.world.find("capsule"))
-        if frame == 20:
-            ball(simulation, "late", (0.0, 2.0, 0.0), BLUE)  # takes the row of one that went, as another entity
-        if frame == 30:
-            simulation["late"].visual.color = (*RED, 1.0)
-        if frame == 40:
-            simulation["late"].visual.visible = False
-        simulation.step()
-        seen[frame] = poses(simulation)
-    recorder.end(simulation)
+    with observed(simulation, Recorder(tmp_path / "run.rrd", every=1)):
+        seen = {0: poses(simulation)}
+        for frame in range(1, 61):
+            if frame == 10:
+                simulation.world.despawn(simulation.world.find("ball[2]"), simulation.world.find("capsule"))
+            if frame == 20:
+                ball(simulation, "late", (0.0, 2.0, 0.0), BLUE)  # takes the row of one that went, as another entity
+            if frame == 30:
+                simulation["late"].visual.color = (*RED, 1.0)
+            if frame == 40:
+                simulation["late"].visual.visible = False
+            simulation.step()
+            seen[frame] = poses(simulation)
     recording = Recording(tmp_path / "run.rrd")
     for frame, expected in seen.items():
         assert_same_poses(recording, frame, expected)
@@ -65,18 +63,15 @@ def test_bodies_that_come_and_go_keep_their_identity(tmp_path: Path) -> None:
 def test_contacts_are_recorded_with_both_colliders_and_exact_numbers(tmp_path: Path) -> None:
     """Points are float32, as Rerun draws them; numbers stay float64."""
     simulation = falling_world()
-    recorder = Recorder(tmp_path / "run.rrd", every=1)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    seen = {}
-    for _ in range(200):
-        simulation.step()
-        contact = simulation.world[Contact]
-        touching = (contact.depth[: contact.count] >= 0.0) | (contact.impulse[: contact.count] > 0.0)
-        columns = ("a", "b", "point", "normal", "depth", "impulse")
-        rows = {name: getattr(contact, name)[: contact.count][touching] for name in columns}
-        seen[simulation.frame] = rows | {"speed": Contacts().rows(simulation)["speed"]}
-    recorder.end(simulation)
+    with observed(simulation, Recorder(tmp_path / "run.rrd", every=1)):
+        seen = {}
+        for _ in range(200):
+            simulation.step()
+            contact = simulation.world[Contact]
+            touching = (contact.depth[: contact.count] >= 0.0) | (contact.impulse[: contact.count] > 0.0)
+            columns = ("a", "b", "point", "normal", "depth", "impulse")
+            rows = {name: getattr(contact, name)[: contact.count][touching] for name in columns}
+            seen[simulation.frame] = rows | {"speed": Contacts().rows(simulation)["speed"]}
     recording = Recording(tmp_path / "run.rrd")
     assert sum(len(rows["a"]) for rows in seen.values()) > 20
     for frame, expected in seen.items():
@@ -116,19 +111,16 @@ def test_impacts_of_every_step_become_lines_at_their_own_time(tmp_path: Path) ->
     struck: list[float] = []
     speeds: list[float] = []
     others: list[tuple[float, str]] = []
-    recorder = Recorder(tmp_path / "run.rrd")
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    for _ in range(120):
-        simulation.step()
-        impact = simulation.world[Impact]
-        struck += list(impact.time[: impact.count])
-        speeds += list(impact.speed[: impact.count])
-        for kind, deed in ((ContactBegin, "touch"), (ContactEnd, "part")):
-            table = simulation.world[kind]
-            names = simulation.world.names_told(table.b[: table.count])
-            others += [(t, f"floor and {name} {deed}") for t, name in zip(table.time.tolist(), names, strict=False)]
-    recorder.end(simulation)
+    with observed(simulation, Recorder(tmp_path / "run.rrd")):
+        for _ in range(120):
+            simulation.step()
+            impact = simulation.world[Impact]
+            struck += list(impact.time[: impact.count])
+            speeds += list(impact.speed[: impact.count])
+            for kind, deed in ((ContactBegin, "touch"), (ContactEnd, "part")):
+                table = simulation.world[kind]
+                names = simulation.world.names_told(table.b[: table.count])
+                others += [(t, f"floor and {name} {deed}") for t, name in zip(table.time.tolist(), names, strict=False)]
     recording = Recording(tmp_path / "run.rrd")
     lines, table = recording.lines, recording.table("impacts").polars()
     assert len(struck) > 0

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from carom.ecs import DeclarationError, Force, RigidBody, World, state_hash, system
+from carom.systems.observer import observed
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 from carom.tools.cli import main
@@ -64,11 +65,8 @@ def test_momentum_is_that_of_all_bodies_in_every_frame(tmp_path: Path) -> None:
             body={"mass": mass},
             motion={"linear": (speed, 0.0, 0.0)},
         )
-    recorder = Recorder(tmp_path / "rec.rrd", detail="full")
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    simulation.step(30)
-    recorder.end(simulation)
+    with observed(simulation, Recorder(tmp_path / "rec.rrd", detail="full")):
+        simulation.step(30)
     table = Recording(tmp_path / "rec.rrd").table("momentum").polars()
     assert table["frame"].to_list() == list(range(31))
     assert table["x"].to_list() == [5.0] * 31
@@ -113,11 +111,8 @@ def test_forces_that_draw_numbers_draw_the_same_whoever_looks_on(tmp_path: Path)
         simulation = Simulation(seed=7)
         simulation.add(name="ball", collider={"sphere": {"radius": 0.1}}, body={})
         simulation.schedule = simulation.schedule.insert(tremble, after="apply_quadratic_drag")
-        recorder = Recorder(tmp_path / f"{level}.rrd", detail=level)
-        simulation.observers.append(recorder)
-        recorder.begin(simulation)
-        simulation.step(10)
-        recorder.end(simulation)
+        with observed(simulation, Recorder(tmp_path / f"{level}.rrd", detail=level)):
+            simulation.step(10)
         ends.append(state_hash(simulation.world))
     assert ends[0] == ends[1] == ends[2]
 

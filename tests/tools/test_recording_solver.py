@@ -15,6 +15,7 @@ from carom.ecs.components.joint import Joint
 from carom.ecs.timings import Timings
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
+from carom.systems.observer import observed
 from carom.systems.progress import Progress
 from carom.systems.simulation import Simulation
 from carom.systems.solving import Solving
@@ -167,11 +168,8 @@ def test_ways_of_measuring_are_counted(tmp_path: Path) -> None:
     simulation, path = load_text(WORLD).simulation, tmp_path / "a.rrd"
     simulation.step(10)
     before = Counter(vars(simulation.world[Answered]))
-    recorder = Recorder(path, every=3, detail="solver")
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    simulation.step(26)
-    recorder.end(simulation)
+    with observed(simulation, Recorder(path, every=3, detail="solver")):
+        simulation.step(26)
     assert not simulation.hearers
     table = Recording(path).table("detection").polars()
     assert table["frame"].to_list() == [10, *range(12, 37, 3)]
@@ -187,11 +185,8 @@ def test_every_system_that_ran_has_its_milliseconds(tmp_path: Path) -> None:
     """Also a Python force without a name; from `full` on. The dearest are beside each other, all others below them."""
     simulation, path = load_text(WORLD).simulation, tmp_path / "a.rrd"
     simulation.force_function(lambda world, rows: np.zeros((len(rows), 3)))
-    recorder = Recorder(path, every=1, detail="full")
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    simulation.step(3)
-    recorder.end(simulation)
+    with observed(simulation, Recorder(path, every=1, detail="full")):
+        simulation.step(3)
     table = Recording(path).table("milliseconds")
     timings: Timings = simulation.world[Timings]
     spent = {name.strip("()<>"): 1e3 * timing.last_seconds for name, timing in timings.items() if timing.last_calls}
@@ -211,11 +206,8 @@ def test_joints_alone_leave_no_contact_open(tmp_path: Path) -> None:
     simulation, path = Simulation(), tmp_path / "a.rrd"
     bob = simulation.add(collider={"sphere": {"radius": 0.1}}, body={}, transform={"position": (1.0, 0.0, 0.0)})
     simulation.world.spawn(Joint(b=bob, a=-1, anchor_b=(-1.0, 0.0, 0.0), mode=(1, 1, 1, 0, 0, 0)))
-    recorder = Recorder(path, every=1, detail="solver")
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    simulation.step(3)
-    recorder.end(simulation)
+    with observed(simulation, Recorder(path, every=1, detail="solver")):
+        simulation.step(3)
     table = Recording(path).table("solver").polars()
     assert table.height == 12
     for name in ("levels", "groups", "manifolds", "points", "warm", "solved", "relaxed", "open"):

@@ -13,6 +13,7 @@ from carom.ecs import ColliderPose, Motion, RigidBody, World
 from carom.ecs.relations.contact import Contact
 from carom.systems.bodies import centers_of_mass
 from carom.systems.free_body import loads
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.reading import read
 from carom.tools.recorder import Recorder
@@ -29,18 +30,15 @@ class Tracked:
     def __init__(self, path: Path) -> None:
         self.simulation = simulation = scene()
         self.worlds: dict[int, dict[str, Any]] = {}
-        recorder = Recorder(path, every=1, detail="full")
-        simulation.observers.append(recorder)
-        recorder.begin(simulation)
-        self.worlds[0] = held(simulation)
-        for frame in range(1, FRAMES + 1):
-            if frame == 20:
-                simulation.world.despawn(simulation.world.find("first"))
-            if frame == 30:
-                add_box(simulation, "late", (0.0, 0.8, 0.0))  # takes the row of the one that went
-            simulation.step()
-            self.worlds[frame] = held(simulation)
-        recorder.end(simulation)
+        with observed(simulation, Recorder(path, every=1, detail="full")):
+            self.worlds[0] = held(simulation)
+            for frame in range(1, FRAMES + 1):
+                if frame == 20:
+                    simulation.world.despawn(simulation.world.find("first"))
+                if frame == 30:
+                    add_box(simulation, "late", (0.0, 0.8, 0.0))  # takes the row of the one that went
+                simulation.step()
+                self.worlds[frame] = held(simulation)
         self.recording_path, self.recording = path, Recording(path)
         self.tables = {name: self.recording.table(name).polars() for name in self.recording.tables()}
 

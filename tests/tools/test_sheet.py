@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.filming import Shot, frames
@@ -65,9 +66,7 @@ def test_a_sheet_holds_what_a_film_shows_at_those_times(tmp_path: Path) -> None:
     truth = list(frames(falling(), shot, times))
     for steps, shown in ((25, 6), (17, 4)):
         simulation, sheet = falling(), Sheet(shot, tmp_path / f"{steps}.png", times)
-        simulation.observers.append(sheet)
-        sheet.begin(simulation)
-        simulation.step(steps)
-        sheet.end(simulation)
+        with observed(simulation, sheet):
+            simulation.step(steps)
         with Image.open(tmp_path / f"{steps}.png") as image:
             assert np.array_equal(np.asarray(image), contact_sheet(truth[:shown], captions(times)[:shown]))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.filming import Shot
@@ -123,9 +124,7 @@ def test_what_is_nearer_hides_what_is_farther_whichever_was_first() -> None:
 def test_a_strobe_cut_short_shows_what_there_was(tmp_path: Path, steps: int) -> None:
     """The picture is written however the run ends."""
     simulation, strobe = passing(), Strobe(SHOT, tmp_path / "strobe.png", every(0.2))
-    simulation.observers.append(strobe)
-    strobe.begin(simulation)
-    simulation.step(steps)
-    strobe.end(simulation)
+    with observed(simulation, strobe):
+        simulation.step(steps)
     with Image.open(tmp_path / "strobe.png") as image:
         assert image.size == (320, 240)

@@ -16,6 +16,7 @@ import pytest
 from browser import GRAPHICS, browser
 from windowless import windowless
 
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools import viewer
 from carom.tools.cameras import Camera
@@ -42,13 +43,10 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
             body={},
             material={"color": color},
         )
-    recorder = Recorder(path, camera=Camera((0.0, 0.0, 6.0)))
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    simulation.step(120)
-    simulation.world.despawn(simulation.world.find("green"))
-    simulation.step(20)
-    recorder.end(simulation)
+    with observed(simulation, Recorder(path, camera=Camera((0.0, 0.0, 6.0)))):
+        simulation.step(120)
+        simulation.world.despawn(simulation.world.find("green"))
+        simulation.step(20)
     return path
 
 

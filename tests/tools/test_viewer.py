@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools import coloring
 from carom.tools.cameras import Camera
@@ -84,11 +85,8 @@ def test_the_viewer_shows_the_balls_where_they_are_at_each_time(tmp_path: Path, 
             body={},
             material={"color": color},
         )
-    recorder = Recorder(tmp_path / "balls.rrd", camera=Camera((0.0, 0.0, 6.0)))
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    simulation.step(120)
-    recorder.end(simulation)
+    with observed(simulation, Recorder(tmp_path / "balls.rrd", camera=Camera((0.0, 0.0, 6.0)))):
+        simulation.step(120)
 
     viewer.open(str(tmp_path / "balls.rrd"))
     screenshot(viewer, 60, tmp_path / "loading.png")

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from carom.ecs import Motion
+from carom.systems.observer import observed
 from carom.tools.cli import main
 from carom.tools.recorder import Recorder
 from carom.worlds import load_text
@@ -67,13 +68,11 @@ def test_what_code_outside_set_going_is_told(row: str, capsys: pytest.CaptureFix
     """It is done again; the chain ends where it was done."""
     loaded = load_text(ROW.replace("[2, 0, 0]", "[0, 0, 0]"))
     simulation, recorder = loaded.simulation, Recorder("pushed.rrd", source=loaded.source_text)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    simulation.step(20)
-    with simulation.world.edit(Motion) as motion:
-        motion.linear[simulation.world.row(simulation.world.find("second")), 0] = 2.0
-    simulation.step(40)
-    recorder.end(simulation)
+    with observed(simulation, recorder):
+        simulation.step(20)
+        with simulation.world.edit(Motion) as motion:
+            motion.linear[simulation.world.row(simulation.world.find("second")), 0] = 2.0
+        simulation.step(40)
     assert main(["why", "pushed.rrd", "--moved", "third"]) == 0
     assert capsys.readouterr().out.splitlines()[-2:] == [
         "  frame 47: 'third' was at rest until 'second' struck it at 0.4625 s, by 2 N s",

@@ -13,6 +13,7 @@ from carom.ecs.errors import DeclarationError
 from carom.systems.energy import total_energy
 from carom.systems.events import Events
 from carom.systems.free_body import loads
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.recorder import Recorder
 from carom.tools.replay import Replay
@@ -159,13 +160,12 @@ def test_a_recording_is_replayed_and_a_snapshot_goes_on_to_the_same_bits(tmp_pat
         "at: 0.2 s, despawn: [late]",
     )
     simulation = loaded.simulation
-    recorder = Recorder(tmp_path / "a.rrd", title="events", source=loaded.source_text, files={}, detail="full")
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    simulation.step(8)
-    kept = take_snapshot(simulation.world)
-    simulation.step(22)
-    recorder.end(simulation)
+    with observed(
+        simulation, Recorder(tmp_path / "a.rrd", title="events", source=loaded.source_text, files={}, detail="full")
+    ):
+        simulation.step(8)
+        kept = take_snapshot(simulation.world)
+        simulation.step(22)
     simulation.observers.clear()
     replay = Replay(tmp_path / "a.rrd")
     verdict = retrace(replay, replay.loaded(), replay.last)

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from statistics import median
 
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.bench.measure import Figure, Timing, figure, timed
 from carom.tools.film import Film
@@ -63,10 +64,8 @@ def _recorded(steps: int) -> tuple[Timing, int]:
     simulation = load_world(WORLD).simulation
     with tempfile.TemporaryDirectory() as folder:
         recorder = Recorder(Path(folder) / "run.rrd")
-        recorder.begin(simulation)
-        simulation.observers.append(recorder)
-        timing = timed(partial(simulation.step, steps), 1)
-        recorder.end(simulation)
+        with observed(simulation, recorder):
+            timing = timed(partial(simulation.step, steps), 1)
     return timing, recorder.frames
 
 

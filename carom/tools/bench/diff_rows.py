@@ -7,6 +7,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from carom.ecs import Motion
+from carom.systems.observer import observed
 from carom.tools.bench.break_rows import HEAPS
 from carom.tools.bench.measure import Figure, figure, timed
 from carom.tools.differing import compare
@@ -32,11 +33,9 @@ def figures() -> Iterator[Figure]:
 def _record(path: Path, *, parted: bool) -> None:
     loaded = load_text(THOUSAND, "heaps.yaml")
     simulation, recorder = loaded.simulation, Recorder(path, source=loaded.source_text)
-    simulation.observers.append(recorder)
-    recorder.begin(simulation)
-    simulation.step(PARTED)
-    if parted:
-        with simulation.world.edit(Motion) as motion:
-            motion.linear[simulation.world.row_numbers(Motion)[0], 0] += LEAST
-    simulation.step(FRAMES - PARTED)
-    recorder.end(simulation)
+    with observed(simulation, recorder):
+        simulation.step(PARTED)
+        if parted:
+            with simulation.world.edit(Motion) as motion:
+                motion.linear[simulation.world.row_numbers(Motion)[0], 0] += LEAST
+        simulation.step(FRAMES - PARTED)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from carom.ecs import Motion
+from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.bench.killed import lone_ball
 from carom.tools.bench.measure import Figure, Timing, figure, timed
@@ -54,7 +55,7 @@ def light() -> Iterator[Figure]:
             path = Path(folder) / "light.rrd"
             simulation, recorder = rolling(count), Recorder(path)
             recorder.begin(simulation)
-            taken = [observed(simulation, recorder) for _ in range(SECONDS)]
+            taken = [a_second(simulation, recorder) for _ in range(SECONDS)]
             recorder.end(simulation)
             wall, cpu = (float(np.median([getattr(one, clock) for one in taken])) for clock in ("wall", "cpu"))
             bound = ALWAYS + EACH * count
@@ -64,7 +65,7 @@ def light() -> Iterator[Figure]:
             yield from _bytes(path, count)
 
 
-def observed(simulation: Simulation, recorder: Recorder) -> Timing:
+def a_second(simulation: Simulation, recorder: Recorder) -> Timing:
     """Return what recording a second takes."""
     taken = []
     for _ in range(RATE):
@@ -131,13 +132,11 @@ def memory() -> Iterator[Figure]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "long.rrd"
         simulation, recorder = lone_ball(), Recorder(path, every=1)
-        simulation.observers.append(recorder)
-        recorder.begin(simulation)
-        simulation.step(WARM)
-        before = resident()
-        simulation.step(FRAMES - WARM)
-        grown = resident() - before
-        recorder.end(simulation)
+        with observed(simulation, recorder):
+            simulation.step(WARM)
+            before = resident()
+            simulation.step(FRAMES - WARM)
+            grown = resident() - before
         yield Figure(f"memory grown in {FRAMES} frames, warm", "MiB", grown, grown, FLAT, "value")
         kept = kept_by_rerun(path, Path(folder) / "alone.rrd")
         yield Figure("of it Rerun's, where each chunk is", "MiB", kept, kept, inf, "value")
