@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from functools import cached_property
 from pathlib import Path
@@ -13,16 +13,25 @@ from typing import Any
 from carom.tools.recording import Recording
 from carom.worlds.breaks import NOT_FINITE
 from carom.worlds.builder import LoadedWorld
+from carom.worlds.errors import Path as Steps
 from carom.worlds.expectation import Outcome
 
 
 def place_of(loaded: LoadedWorld, name: str) -> str:
     """Return where in its files an entity is written, ``world.yaml:7:5``, or else the file."""
-    base, items = re.split(r"[.\[]", name)[0], loaded.source.data.get("entities") or []
-    for index, item in enumerate(items):
-        if isinstance(item, dict) and item.get("name") == base:
-            return loaded.source.written_at(("entities", index))
-    return loaded.path
+    base = re.split(r"[.\[]", name)[0]
+    found = (path for path, words in _stated(loaded.source.data) if words.get("name") == base)
+    return next(map(loaded.source.written_at, found), loaded.path)
+
+
+def _stated(data: dict[str, Any]) -> Iterator[tuple[Steps, dict[str, Any]]]:
+    """Yield where entities are stated, with their words: those of the start, and those whom events bring."""
+    for index, words in enumerate(data.get("entities") or []):
+        if isinstance(words, dict):
+            yield ("entities", index), words
+    for index, event in enumerate(data.get("events") or []):
+        if isinstance(event, dict) and isinstance(event.get("spawn"), dict):
+            yield ("events", index, "spawn"), event["spawn"]
 
 
 def viewing(recording: Recording, path: str, frame: int, names: Sequence[str]) -> str:

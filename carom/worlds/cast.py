@@ -9,25 +9,21 @@ import numpy as np
 from carom.ecs import World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.names import NOBODY
-from carom.worlds.comers import all_names
+from carom.worlds.comers import all_names, still_to_come
 from carom.worlds.names import matching
 
 MOST_TOLD = 3  # names in a message
 
 
 class Cast:
-    """Those of some names: each has a row while somebody of that name is there.
-
-    ``came`` tells which have been there, ``known`` are the handles of all who have.
-    """
+    """Those of some names: each has a row while somebody of that name is there; ``known`` are all who have been."""
 
     def __init__(self, names: Iterable[str], world: World) -> None:
         self.names = tuple(names)
-        self.came: Booleans = np.zeros(len(self.names), np.bool_)
-        self.known: set[int] = set()
+        self.known: set[int] = set()  # handles
         self._seen = (-1, -1)
         self._rows: Integers = np.zeros(0, np.int64)
-        self._there = self.came
+        self._there: Booleans = np.zeros(0, np.bool_)
         self.rows(world)
 
     def rows(self, world: World) -> Integers:
@@ -38,7 +34,6 @@ class Cast:
             self._there = world.slots.live(found)
             self._rows = np.full(len(found), NOBODY)
             self._rows[self._there] = world.slots.rows(found[self._there])
-            self.came = self.came | self._there
             self.known.update(found[self._there].tolist())
             self._seen = (world.structure, world.restored)
         return self._rows
@@ -71,7 +66,8 @@ class Cast:
         there = self.each(world)
         missing = [number for number in np.nonzero(~there)[0].tolist() if index in (None, number)]
         if len(missing) == 1:
-            return f"{self.names[missing[0]]} {'is gone' if self.came[missing[0]] else 'has not come'}"
+            name = self.names[missing[0]]
+            return f"{name} {'has not come' if name in still_to_come(world) else 'is gone'}"
         told, more = [self.names[number] for number in missing[:MOST_TOLD]], len(missing) - MOST_TOLD
         return f"{', '.join(told)}{f' and {more} more' if more > 0 else ''} are not there" if missing else ""
 

@@ -7,6 +7,7 @@ import numpy as np
 from carom.ecs import Collider, Component, Name, Transform, World
 from carom.systems.actions import Spawn
 from carom.systems.events import Events
+from carom.systems.settings import Settings
 
 Comers = dict[str, Spawn]
 
@@ -15,6 +16,15 @@ def comers(world: World) -> Comers:
     """Return who comes by events, by name."""
     spawns = [event.action for event in world[Events].entries if isinstance(event.action, Spawn)]
     return {name: spawn for spawn in spawns for name in spawn.names or ()}
+
+
+def still_to_come(world: World) -> set[str]:
+    """Return the names of those whose event is still to happen."""
+    dt, later = world[Settings].dt, set[str]()
+    for event in world[Events].entries:
+        if isinstance(event.action, Spawn) and event.frame(dt) > world.frame:
+            later.update(event.action.names or ())
+    return later
 
 
 def all_names(world: World) -> list[str]:

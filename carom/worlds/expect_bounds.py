@@ -58,7 +58,7 @@ class Bounds(Expectation):
 
     def end(self, simulation: Simulation) -> None:
         """Fail where nobody came of whom it speaks."""
-        if self.among is not None and not self.among.came.any():
+        if self.among is not None and not self.among.known:
             self.fail(simulation, f"never asked, since {self.among.absence(simulation.world)}")
 
     def _colliders(self, world: World) -> tuple[Integers, Integers]:

@@ -104,7 +104,7 @@ class Settled(Expectation):
         """Fail where the time, or whoever it speaks of, never came."""
         if simulation.frame < self.frame:
             self.fail(simulation, f"the run ended at frame {simulation.frame}, before frame {self.frame}")
-        if self.among is not None and not self.among.came.any():
+        if self.among is not None and not self.among.known:
             self.fail(simulation, f"never asked, since {self.among.absence(simulation.world)}")
 
 

@@ -75,6 +75,15 @@ def test_an_expectation_that_fails_is_opened_in_its_frame(
     assert found == [["79", "[]"], ["1", "[]"], ["1", "[]"]]
 
 
+def test_who_comes_by_an_event_is_written_there(world: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """The file and line that bring whom it failed of."""
+    spawn = "spawn: {name: late, body: {mass: 1, inertia: [1, 1, 1]}, transform: {position: [9, 1, 0]}}"
+    Path("late.yaml").write_text(WORLD.replace("never: ball[*]", "never: late") + f"events: [{{at: 0.1 s, {spawn}}}]\n")
+    assert main(["test", "late.yaml"]) == 1
+    lines = [line.strip() for line in capsys.readouterr().out.splitlines()]
+    assert "late.yaml:17:22: 'late'" in lines
+
+
 def test_what_is_recorded_is_opened_in_the_recording(
     world: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -68,6 +68,7 @@ def test_it_holds_of_who_is_there(expectation: str) -> None:
         ("eventually: hail[*].position.y < 0.5", 100, "nearest hail[2].position.y = 0.55 m by the end of the run"),
         ("{at: 0.1 s, 'hail[0].position.y': {is: 1, within: 9}}", 10, "hail[0] has not come"),
         ("{at: 0.1 s, hail.position.y: {is: 1, within: 9}}", 10, "hail[0], hail[1], hail[2] are not there"),
+        ("{at: 0.7 s, 'hail[2].position.y': {is: 1, within: 9}}", 70, "hail[2] is gone"),
         ("{at: 0.7 s, pebble.position.y: {is: 1, within: 9}}", 70, "pebble is gone"),
         ("{at: 0.7 s, 'distance(hail[0], pebble)': {is: 1, within: 9}}", 70, "pebble is gone"),
         ("{at: 0.1 s, visible: 'hail[0] > 1 px'}", 10, "hail[0] has not come"),
