@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from contextlib import ExitStack
 from dataclasses import dataclass, field
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
@@ -16,7 +15,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.particle import Particle
 from carom.systems.detection.answered import Answered
 from carom.systems.energy import total_energy
-from carom.systems.observer import Observer
+from carom.systems.observer import Observer, observed
 from carom.systems.simulation import Simulation
 from carom.tools.interrupt import deferred_interrupt
 from carom.tools.witness import Witness
@@ -121,14 +120,11 @@ def _run(loaded: LoadedWorld, observers: Sequence[Observer], frames: int | None,
     summary = Summary(loaded.name or loaded.path, bodies=simulation.world.count(RigidBody), judged=judged)
     summary.energy_before = total_energy(simulation.world)
     expectations = loaded.expectations if summary.judged else []
-    simulation.observers = [watch, Witness(loaded), *expectations, *observers]
     simulation.watched = True
+    everyone: list[Observer] = [watch, Witness(loaded), *expectations, *observers]
     start = perf_counter()
     planned = loaded.run.frames if frames is None else frames
-    with deferred_interrupt() as check, progress_bar(planned) as bar, ExitStack() as ending:
-        for observer in simulation.observers:
-            ending.callback(observer.end, simulation)
-            observer.begin(simulation)
+    with deferred_interrupt() as check, progress_bar(planned) as bar, observed(simulation, *everyone):
         while not (loaded.run.finished(simulation) if frames is None else simulation.frame >= frames):
             simulation.step()
             bar.update()
