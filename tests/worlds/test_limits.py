@@ -7,6 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from refusals import refusal
 
 from carom.ecs.errors import DeclarationError, NonFiniteError, did_you_mean
 from carom.worlds import WorldError, library, load_text, load_world
@@ -18,13 +19,6 @@ LONG = "x" * 300
 FILE_NAME = "is not the name of a file; received '"
 NAME_FORM = "accepted: at most 255 printable characters"
 MANY = "{name: %s, collider: {point: {}}, grid: {count: [100, 100, 50], spacing: 1}}"
-
-
-def refusal(text: str) -> str:
-    """Return what a world is refused with; the header is added as line 1."""
-    with pytest.raises(WorldError) as caught:
-        load_text("carom: 1\n" + text, "w.yaml")
-    return str(caught.value)
 
 
 @pytest.mark.parametrize(

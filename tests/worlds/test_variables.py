@@ -11,9 +11,10 @@ import jsonschema
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import messages, refusal
 
 from carom.ecs.snapshot import state_hash
-from carom.worlds import WorldError, json_schema, load_text
+from carom.worlds import json_schema, load_text
 from carom.worlds.errors import WordError
 from carom.worlds.expression import evaluate
 from carom.worlds.quantity import Quantity, dimension_of
@@ -211,13 +212,6 @@ def test_whatever_is_wrong_is_told_once_where_it_stands(text: str, message: str)
     assert refusal(text) == message
 
 
-def refusal(text: str) -> str:
-    """Return the lines a world is refused with; the header is added as line 1."""
-    with pytest.raises(WorldError) as caught:
-        load_text("carom: 1\n" + text, "w.yaml")
-    return str(caught.value)
-
-
 def test_a_wrong_expression_hides_no_other_fault() -> None:
     """Faults beside it and in other entities are told in the same run; of a wrong variable only the variable."""
     text = """variables: {r: 1 fet}
@@ -225,7 +219,7 @@ entities:
   - {name: a, collider: {sphere: {radius: "${r}"}}, body: {mass: -1}}
   - {name: b, material: ivory}
 """
-    assert refusal(text).split("\n") == [
+    assert messages(text) == [
         "w.yaml:2:13: variables.r: unknown unit 'fet'; received '1 fet'; did you mean 'ft'?",
         "w.yaml:4:60: entities.0.body.mass: must be above 0 kg; received -1",
         "w.yaml:5:15: entities.1.material: unknown material; received 'ivory'; accepted: none is defined",
