@@ -57,8 +57,7 @@ def execute(arguments: argparse.Namespace) -> int:
     made = import_model(arguments.model, options, folder=out.parent, stem=out.stem)
     files = [out.parent / name for name in made.files]
     prepare_outputs([out, *files])
-    for path, content in zip(files, made.files.values(), strict=True):
-        path.write_bytes(content)
+    made.write_files(out.parent)
     out.write_text(made.text, encoding="utf-8")
     load_world(out)
     if arguments.json:

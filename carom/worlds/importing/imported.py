@@ -47,6 +47,12 @@ class Imported:
     report: Report
     files: dict[Path, bytes] = field(default_factory=dict)
 
+    def write_files(self, folder: Path) -> None:
+        """Write the files that lie beside the world, which would lie in ``folder``."""
+        for name, content in self.files.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / name).write_bytes(content)
+
 
 def import_model(path: Path, options: Options | None = None, *, folder: Path, stem: str = "model") -> Imported:
     """Return a model as a world file that would lie in ``folder``, with meshes that it needs in ``stem``-parts there.

@@ -38,9 +38,7 @@ def imported(folder: Path, data: Any, **options: Any) -> Imported:
     """Return what becomes of a scene; its meshes are written."""
     (folder / "model.gltf").write_text(data if isinstance(data, str) else json.dumps(data))
     made = import_model(folder / "model.gltf", Options(**options), folder=folder, stem="world")
-    for name, content in made.files.items():
-        (folder / name).parent.mkdir(exist_ok=True)
-        (folder / name).write_bytes(content)
+    made.write_files(folder)
     return made
 
 

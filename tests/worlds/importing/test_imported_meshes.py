@@ -29,9 +29,7 @@ def robot(folder: Path, mesh: str, inertia: str = INERTIA, **options: object) ->
     path.write_text(f'<robot name="r"><link name="a">{inertia}{parts}</link></robot>')
     root = path.parent.parent
     made = import_model(path, Options(root=root, **options), folder=folder, stem="world")  # type: ignore[arg-type]
-    for name, content in made.files.items():
-        (folder / name).parent.mkdir(exist_ok=True)
-        (folder / name).write_bytes(content)
+    made.write_files(folder)
     return made
 
 

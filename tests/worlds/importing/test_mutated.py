@@ -74,9 +74,7 @@ def test_no_model_ends_in_a_traceback(suffix: str, model: str, tmp_path: Path) -
         except WorldError:
             refused += 1
             continue
-        for name, content in made.files.items():
-            (tmp_path / name).parent.mkdir(exist_ok=True)
-            (tmp_path / name).write_bytes(content)
+        made.write_files(tmp_path)
         load_text(made.text, "world.yaml", tmp_path)
         loaded += 1
     assert min(loaded, refused) > 5

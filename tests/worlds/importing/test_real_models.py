@@ -41,9 +41,7 @@ def test_a_real_model_comes_over_as_expected(name: str, tmp_path: Path, pytestco
     package, path, root = MODELS[name]
     folder = folder_of(package)
     made = import_model(folder / path, Options(root=folder / root), folder=tmp_path, stem=name)
-    for part, content in made.files.items():
-        (tmp_path / part).parent.mkdir(exist_ok=True)
-        (tmp_path / part).write_bytes(content)
+    made.write_files(tmp_path)
     (tmp_path / f"{name}.yaml").write_text(made.text)
     world = load_world(tmp_path / f"{name}.yaml")
     told = "\n".join([*made.report.lines(), summary(world)]).replace(f"{folder}/", "") + "\n"
