@@ -20,11 +20,13 @@ def find_kinetic_energies(rows, mass, inertia, principal, rotation, linear, angu
 @inlined
 def kinetic_energy(i, mass, inertia, principal, rotation, linear, angular):
     """Return the energy of motion and rotation of body i."""
-    qx, qy, qz, qw = product(
-        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-        principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
-    )  # fmt: skip
-    x, y, z = turn(-qx, -qy, -qz, qw, angular[i, 0], angular[i, 1], angular[i, 2])
+    x, y, z = angular[i, 0], angular[i, 1], angular[i, 2]
+    if inertia[i, 0] != inertia[i, 1] or inertia[i, 1] != inertia[i, 2]:  # else it is the same about all axes
+        qx, qy, qz, qw = product(
+            rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
+            principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
+        )  # fmt: skip
+        x, y, z = turn(-qx, -qy, -qz, qw, x, y, z)
     moving = linear[i, 0] * linear[i, 0] + linear[i, 1] * linear[i, 1] + linear[i, 2] * linear[i, 2]
     turning = inertia[i, 0] * x * x + inertia[i, 1] * y * y + inertia[i, 2] * z * z
     return 0.5 * (mass[i] * moving + turning)
@@ -63,25 +65,25 @@ def centre(i, position, rotation, center_of_mass):
     return position[i, 0] + x, position[i, 1] + y, position[i, 2] + z
 
 
-@kernel("sides", "numbers", "vectors", "speeds")
+@kernel("one", "other", "depths", "impulses", "points", "normals", "speeds")
 def note_contacts(
     count, a, b, depth, impulse, point, normal, alive, generations, row_shift, owner,
-    position, rotation, center_of_mass, linear, angular, sides, numbers, vectors, speeds,
+    position, rotation, center_of_mass, linear, angular, one, other, depths, impulses, points, normals, speeds,
 ):  # fmt: skip
     """Write what there is of those of ``count`` contacts that touch; return how many they are.
 
-    Whose they are goes to ``sides`` (2, n), depth and impulse to ``numbers`` (2, n), place and normal in float32 to
-    ``vectors`` (2, n, 3), and to ``speeds`` (n,), float32, how fast their colliders, handles, close there. ``owner`` is
-    the row of the body that each row belongs to, -1 for none; who is gone does not move.
+    Colliders, handles, go to ``one`` and ``other`` (n,), what is known of points to the columns of that name, points,
+    normals and speeds in float32; speeds are how fast both sides close there. ``owner`` is the row of the body that
+    each row belongs to, -1 for none; who is gone does not move.
     """
     found = 0
     for k in range(count):
         if not (depth[k] >= 0.0 or impulse[k] > 0.0):
             continue
-        sides[0, found], sides[1, found], numbers[0, found], numbers[1, found] = a[k], b[k], depth[k], impulse[k]
+        one[found], other[found], depths[found], impulses[found] = a[k], b[k], depth[k], impulse[k]
         px, py, pz = point[k, 0], point[k, 1], point[k, 2]
         for c in range(3):
-            vectors[0, found, c], vectors[1, found, c] = point[k, c], normal[k, c]
+            points[found, c], normals[found, c] = point[k, c], normal[k, c]
         speed, sign = 0.0, 1.0
         for handle in (a[k], b[k]):
             index = handle & INDEX_MASK
@@ -121,9 +123,8 @@ def compile_observing() -> None:
     ids = np.zeros(0, np.int32)
     places, orientations = vectors.astype(np.float32), turns.astype(np.float32)
     bodies = vectors, turns, vectors, vectors, vectors
-    told = np.zeros((2, 0, 3), np.float32), np.zeros(0, np.float32)
     one, sums = np.zeros(0), np.zeros(2)
     contacts = 0, numbers, numbers, one, one, vectors, vectors, np.zeros(0, np.bool_), ids, ids, numbers
-    note_contacts(*contacts, *bodies, np.zeros((2, 0), np.int64), np.zeros((2, 0)), *told)
+    note_contacts(*contacts, *bodies, numbers, numbers, one, one, places, places, one.astype(np.float32))
     sum_energies(numbers, one, one, vectors, turns, one, vectors, vectors, turns, vectors, vectors, np.zeros(3), sums)
     note_poses(numbers, vectors, turns, numbers, places, orientations, places, orientations, np.zeros(0, np.bool_))

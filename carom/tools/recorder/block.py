@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import prod
 from typing import Any, NamedTuple
 
@@ -31,6 +31,74 @@ class Block(NamedTuple):
     def drawn(self, archetype: Any) -> list[Any]:
         """Return what an archetype has of all rows as Rerun takes it; its own `columns` counts them one by one."""
         return [batch.partition(self.counts) for batch in archetype.as_component_batches()]
+
+
+class Pending:
+    """Rows of several times, as arrays of their own until they are joined in a block."""
+
+    def __init__(self) -> None:
+        self.stamps: list[Stamp] = []
+        self.size = 0  # bytes
+        self._parts: list[Columns] = []
+
+    def put(self, stamp: Stamp, rows: Columns) -> None:
+        """Keep rows, all columns of as many."""
+        self.stamps.append(stamp)
+        self._parts.append(rows)
+        self.size += sum(values.nbytes for values in rows.values())
+
+    def take(self) -> Block:
+        """Return all rows as a block, and keep none."""
+        block = joined(list(zip(self.stamps, self._parts, strict=True)))
+        self.stamps, self.size, self._parts = [], 0, []
+        return block
+
+
+class Room(Pending):
+    """Memory for the rows of a block, where kernels write those of each time, so that none is joined.
+
+    ``kinds`` are the columns by their names: the shape of a row, and its dtype.
+    """
+
+    def __init__(self, kinds: Mapping[str, tuple[tuple[int, ...], type]]) -> None:
+        super().__init__()
+        self._kinds = kinds
+        self._row = sum(prod(shape) * np.dtype(kind).itemsize for shape, kind in kinds.values())
+        self._memory, self._room = self._new(0), 0
+        self._counts: list[int] = []
+        self._taken = 0
+
+    def offer(self, count: int) -> Columns:
+        """Return memory for so many rows; those that are put, from the first on, stay where they are."""
+        if self._taken + count > self._room:
+            before, self._room = self._memory, max(2 * self._room, self._taken + count)
+            self._memory = self._new(self._room)
+            for name, values in before.items():
+                self._memory[name][: self._taken] = values[: self._taken]
+        return {name: values[self._taken : self._taken + count] for name, values in self._memory.items()}
+
+    def put(self, stamp: Stamp, rows: Columns) -> None:
+        """Keep rows, most often of what was offered."""
+        count = len(next(iter(rows.values())))
+        if count and any(values.base is not self._memory[name] for name, values in rows.items()):
+            for name, values in self.offer(count).items():
+                values[...] = rows[name]
+        self.stamps.append(stamp)
+        self._counts.append(count)
+        self._taken += count
+        self.size = self._taken * self._row
+
+    def take(self) -> Block:
+        """Return all rows as a block, and keep none; the next has as much room."""
+        columns = {name: values[: self._taken] for name, values in self._memory.items()}
+        block = Block(self.stamps, self._counts, columns)
+        self._room = self._taken
+        self._memory = self._new(self._room)
+        self.stamps, self._counts, self._taken, self.size = [], [], 0, 0
+        return block
+
+    def _new(self, count: int) -> Columns:
+        return {name: np.empty((count, *shape), kind) for name, (shape, kind) in self._kinds.items()}
 
 
 def joined(pending: Sequence[tuple[Stamp, Columns]]) -> Block:

@@ -77,9 +77,8 @@ class Recorder:
         self._only = None if only is None else Choice(only)
         for track in self._tracks.values():
             track.only = self._only
-        all_tracks = self._tracks.values()
-        self._sampled = {when: [track for track in all_tracks if track.every_step is when] for when in (False, True)}
-        self._watching = [track for track in all_tracks if type(track).watch is not Track.watch]
+        self._sampled: dict[bool, list[Track]] = {}
+        self._watching = [track for track in self._tracks.values() if type(track).watch is not Track.watch]
         self._seen = self._waiting = self._blocks = 0
         self._flushed = 0.0
         self._patience = FLUSH_AFTER if live is None else SEND_AFTER
@@ -109,6 +108,8 @@ class Recorder:
         for track in self._tracks.values():
             track.begin(simulation, self._stream, self._tracks)
             track.watch(simulation)
+        telling = [track for track in self._tracks.values() if not track.silent(simulation)]
+        self._sampled = {when: [track for track in telling if track.every_step is when] for when in (False, True)}
         self._record(simulation, self._stream)
         self._write(self._stream)
 

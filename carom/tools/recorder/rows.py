@@ -11,7 +11,7 @@ import numpy as np
 from carom.ecs import World
 from carom.ecs.column import Column
 from carom.systems.simulation import Simulation
-from carom.tools.recorder.block import Block, Columns, joined
+from carom.tools.recorder.block import Block, Columns, Pending
 from carom.tools.recorder.choice import Choice
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.track import Track
@@ -30,7 +30,7 @@ class RowTrack(Track):
     sparse: ClassVar[bool] = False
 
     def __init__(self) -> None:
-        self._pending: list[tuple[Stamp, Columns]] = []
+        self._pending = Pending()
 
     @abstractmethod
     def rows(self, simulation: Simulation) -> Columns | None:
@@ -58,16 +58,16 @@ class RowTrack(Track):
 
     def keep(self, stamp: Stamp, rows: Columns) -> None:
         """Keep rows, by the names of their columns."""
-        self._pending.append((stamp, rows))
-        self.kept += sum(values.nbytes for values in rows.values())
+        self._pending.put(stamp, rows)
+        self.kept = self._pending.size
 
     def write(self, stream: Stream) -> None:
         """Write the kept rows as one block."""
-        if self._pending:
-            block = joined(self._pending)
+        if self._pending.stamps:
+            block = self._pending.take()
             values = block.values(name for name in self.columns if name not in self.drawn)
             stream.rows(self.path, block.stamps, [*self.draw(block, stream), *values])
-            self._pending, self.kept = [], 0
+            self.kept = 0
 
 
 def number(unit: str, doc: str, *shape: int, dtype: str = "float64") -> Column:

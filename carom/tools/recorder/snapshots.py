@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from carom.ecs import bytes_from_snapshot, state_hash, take_snapshot
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from carom.ecs import bytes_from_snapshot, state_hash
+from carom.ecs.snapshot import look_at
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.track import Track
@@ -36,16 +42,26 @@ class Snapshots(Track):
         """Keep a snapshot, unless there is one of this frame."""
         if stamp.frame != self._kept:
             world = simulation.world
-            self._pending.append((stamp, bytes_from_snapshot(take_snapshot(world)), state_hash(world)))
+            self._pending.append((stamp, bytes_from_snapshot(look_at(world)), state_hash(world)))
             self._kept = stamp.frame
+            self.kept += len(self._pending[-1][1])
 
     def write(self, stream: Stream) -> None:
         """Write the kept snapshots."""
-        import pyarrow
         import rerun
 
         if self._pending:
             stamps, states, hashes = zip(*self._pending, strict=True)
-            columns = rerun.AnyValues.columns(state=pyarrow.array(states, pyarrow.binary()), hash=list(hashes))
+            columns = rerun.AnyValues.columns(state=_array(states), hash=list(hashes))
             stream.rows(PATH, stamps, columns)
-            self._pending = []
+            self._pending, self.kept = [], 0
+
+
+def _array(states: Sequence[bytes]) -> Any:
+    """Return states as Arrow has them: one by itself, as large ones are written, in its own memory."""
+    import pyarrow
+
+    if len(states) > 1:
+        return pyarrow.array(states, pyarrow.binary())
+    ends = pyarrow.py_buffer(np.array([0, len(states[0])], np.int32))
+    return pyarrow.Array.from_buffers(pyarrow.binary(), 1, [None, ends, pyarrow.py_buffer(states[0])])

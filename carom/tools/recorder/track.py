@@ -38,6 +38,10 @@ class Track(ABC):
     def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:  # noqa: B027
         """Write what holds at all times, before the first frame; ``tracks`` are all of the recording, by key."""
 
+    def silent(self, simulation: Simulation) -> bool:
+        """Tell at the beginning whether it will never have anything to say, so that it is not asked in each frame."""
+        return False
+
     def lay_out(self, world: World, layout: Layout) -> None:  # noqa: B027
         """Add what is seen of it when the recording is opened; most need nothing but the view of the world."""
 

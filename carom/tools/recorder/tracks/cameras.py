@@ -47,6 +47,10 @@ class Cameras(RowTrack):
         self._found: dict[str, Camera] = {}
         self._moved: list[str] = []
 
+    def silent(self, simulation: Simulation) -> bool:
+        """Tell whether there are none."""
+        return not self._rigs
+
     def lay_out(self, world: World, layout: Layout) -> None:
         """Hide them."""
         if self._rigs:
@@ -56,8 +60,6 @@ class Cameras(RowTrack):
         """Keep where each camera is; write the lens of one that is new or zooms, and clear one that is no more."""
         import rerun
 
-        if not self._rigs:
-            return
         before, self._found = self._found, {}
         for rig in self._rigs:
             with suppress(CaromError):  # who it follows is gone

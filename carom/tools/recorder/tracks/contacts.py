@@ -14,7 +14,7 @@ from carom.ecs.relations.impact import Impact
 from carom.systems.compound import bodies_of
 from carom.systems.kernels.observing import note_contacts
 from carom.systems.simulation import Simulation
-from carom.tools.recorder.block import Block, Columns
+from carom.tools.recorder.block import Block, Columns, Room
 from carom.tools.recorder.rows import RowTrack
 from carom.tools.recorder.stream import Stamp, Stream
 from carom.tools.recorder.track import Track
@@ -22,6 +22,10 @@ from carom.tools.recorder.track import Track
 PATH = "world/contacts"
 POINTS = f"{PATH}/points"
 COLOR = (255, 90, 60, 255)
+KINDS: dict[str, tuple[tuple[int, ...], type]] = {
+    "a": ((), np.int64), "b": ((), np.int64), "depth": ((), np.float64), "impulse": ((), np.float64),
+    "point": ((3,), np.float32), "normal": ((3,), np.float32), "speed": ((), np.float32),
+}  # fmt: skip
 POINT_RADIUS = -3.0  # negative: points of the screen, visible at any scale
 
 
@@ -39,8 +43,8 @@ class Contacts(RowTrack):
 
     def __init__(self) -> None:
         super().__init__()
+        self._pending = self._room = Room(KINDS)
         self._structure = -1
-        self._nothing: Columns = {}
         self._unseen = np.zeros(0, np.int64)
 
     def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:
@@ -63,23 +67,14 @@ class Contacts(RowTrack):
         owners, slots = bodies_of(world), world.slots
         with world.faces(None):  # as within a system: else kernels are handed copies of columns
             table, motion, pose = world[Contact], world[Motion], world[Transform]
-            count = table.count
-            sides, numbers = np.empty((2, count), np.int64), np.empty((2, count))
-            vectors, speeds = np.empty((2, count, 3), np.float32), np.empty(count, np.float32)
+            rows = self._room.offer(table.count)
             found = note_contacts(
-                count, table.a, table.b, table.depth, table.impulse, table.point, table.normal,
+                table.count, table.a, table.b, table.depth, table.impulse, table.point, table.normal,
                 slots.alive, slots.generations, slots.row_shift, owners,
                 pose.position, pose.rotation, world[RigidBody].center_of_mass, motion.linear, motion.angular,
-                sides, numbers, vectors, speeds,
+                *rows.values(),
             )  # fmt: skip
-        if not found and self._nothing:
-            return self._nothing  # the same in all such frames, of which many may wait to be written
-        columns = *sides, *numbers, *vectors, speeds
-        names = "a", "b", "depth", "impulse", "point", "normal", "speed"
-        rows = {name: column[:found] for name, column in zip(names, columns, strict=True)}
-        if not found:
-            self._nothing = rows
-        return rows
+        return {name: column[:found] for name, column in rows.items()}
 
     def draw(self, block: Block, stream: Stream) -> Sequence[Any]:
         """Return the points."""

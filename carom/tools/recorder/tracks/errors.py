@@ -32,6 +32,10 @@ class Errors(NamedCurves):
     title: ClassVar[str] = "Error against the oracle (m)"
     unit: ClassVar[str] = "m"
 
+    def silent(self, simulation: Simulation) -> bool:
+        """Tell whether there is no oracle."""
+        return Oracle not in simulation.world
+
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the plot where there is an oracle."""
         if Oracle in world:
@@ -40,8 +44,6 @@ class Errors(NamedCurves):
     def read(self, simulation: Simulation) -> Mapping[str, float]:
         """Return a number for each entity."""
         world = simulation.world
-        if Oracle not in world:
-            return {}
         rows = world[Oracle].rows(world)
         values = errors(world, rows).tolist() if len(rows) else []
         return dict(zip(world.names_told(world.entities(rows)), values, strict=True))
@@ -62,6 +64,10 @@ class Differences(NamedCurves):
             color = np.rint(255.0 * np.array(ghost.color)).astype(np.uint8)
             stream.static(self.path(ghost.name), rerun.SeriesLines(colors=[color]))
 
+    def silent(self, simulation: Simulation) -> bool:
+        """Tell whether there is but this one."""
+        return Ghosts not in simulation.world
+
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the plot where there are futures."""
         if Ghosts in world:
@@ -69,8 +75,7 @@ class Differences(NamedCurves):
 
     def read(self, simulation: Simulation) -> Mapping[str, float]:
         """Return a number for each future but the first."""
-        world = simulation.world
-        ghosts = world[Ghosts].ghosts if Ghosts in world else []
+        ghosts = simulation.world[Ghosts].ghosts
         return dict(_apart(ghosts[0], other) for other in ghosts[1:])
 
 

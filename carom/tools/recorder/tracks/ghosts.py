@@ -86,6 +86,10 @@ class GhostTrack(Track):
         for bodies in self._bodies:
             bodies.only = self.only
 
+    def silent(self, simulation: Simulation) -> bool:
+        """Tell whether there are none."""
+        return not ghosts_of(simulation.world)
+
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show whole paths."""
         for ghost in ghosts_of(world):

@@ -29,5 +29,5 @@ class Impacts(RowTrack):
         impact = simulation.world[Impact]
         if not impact.count:
             return None
-        rows = {name: getattr(impact, name)[: impact.count].copy() for name in self.columns}
-        return {name: values.astype(np.float32) if values.ndim == 2 else values for name, values in rows.items()}
+        held = {name: getattr(impact, name)[: impact.count] for name in self.columns}
+        return {name: values.astype(np.float32 if values.ndim == 2 else values.dtype) for name, values in held.items()}

@@ -75,6 +75,10 @@ class Promoted(RowTrack):
         assert isinstance(bodies, Bodies)
         bodies.alone = self.choice
 
+    def silent(self, simulation: Simulation) -> bool:
+        """Tell whether nobody was chosen."""
+        return not self.choice.patterns
+
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the plots of each that is there, and the lanes."""
         for name in reversed(world.names_told(world.entities(self._bodies(world)))):
@@ -86,8 +90,6 @@ class Promoted(RowTrack):
         """Keep what there is to tell of each; label one that is new, and clear the label of one that is gone."""
         import rerun
 
-        if not self.choice.patterns:
-            return
         world = simulation.world
         rows = self._bodies(world)
         entities = world.entities(rows)
