@@ -13,6 +13,7 @@ from carom.worlds.errors import Path, WordError, shown
 from carom.worlds.schema import document
 from carom.worlds.source import Source
 
+ENTITIES = {"entities", "prefabs", "spawn"}  # below which there are words of entities
 WORDING = {
     "model_type": ("must be a mapping", "keys with values"),
     "model_attributes_type": ("must be a mapping", "keys with values"),
@@ -104,7 +105,7 @@ def _report(source: Source, adapter: TypeAdapter[Any], path: Path, place: Path, 
     elif error["type"] == "extra_forbidden":
         known = keys_at(adapter, place[len(path) : -1])
         word = str(place[-1])
-        hint = did_you_mean(word, known)
+        hint = (_elsewhere(word) if ENTITIES & {*place} else "") or did_you_mean(word, known)
         source.report(place, "unknown key", received=repr(word), accepted=", ".join(known), hint=hint)
     elif error["type"] == "missing":
         source.report(place, "is missing", accepted=_meaning(adapter, place[len(path) :]))
@@ -114,6 +115,20 @@ def _report(source: Source, adapter: TypeAdapter[Any], path: Path, place: Path, 
         source.report(place, what, received=received, accepted=accepted)
     else:
         source.report(place, error["msg"][0].lower() + error["msg"][1:], received=received)
+
+
+def _elsewhere(word: str) -> str:
+    """Return which parts of an entity have a word, nothing where none has."""
+    having = [part for part, words in _parts_of_entities().items() if word in words]
+    last = having.pop() if having else ""
+    return f"{', '.join(having)} and {last} have it" if having else f"{last} has it" if last else ""
+
+
+@cache
+def _parts_of_entities() -> dict[str, list[str]]:
+    """Return the words of each part of an entity, such as those of ``body``."""
+    adapter = _adapter("entities", True)
+    return {part: keys_at(adapter, (part,)) for part in keys_at(adapter, ())}
 
 
 def _form(nodes: list[dict[str, Any]], received: Any) -> str:

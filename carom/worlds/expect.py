@@ -28,7 +28,7 @@ def read_expectations(source: Source, simulation: Simulation, items: list[Any]) 
             path = ("expect", index)
             read = _read(source, simulation, path, words)
             for expectation in read:
-                expectation.file = source.written_at(path)
+                expectation.path, expectation.file = path, source.written_at(path)
             found += read
     return found
 

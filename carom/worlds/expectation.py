@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from carom.systems.simulation import Simulation
+from carom.worlds.errors import Path
 
 NUMBERS = re.compile(r"\[[\d,]+\]|(?<![\w.-])(?:[-+]?\d[\d.]*(?:e[-+]?\d+)?|nan|-?inf)")
 
@@ -44,6 +45,7 @@ class Expectation:
 
     looks = False
     file = ""  # where it is written: file, line and column
+    path: Path = ()  # in the file
 
     def __init__(self, text: str, expected: str) -> None:
         self.text, self.expected = text, expected

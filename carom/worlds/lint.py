@@ -14,8 +14,10 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.system import System
 from carom.systems.compound import bodies_of, part_at
 from carom.systems.detection.contacts import find_contacts
+from carom.systems.events import Events
 from carom.systems.simulation import Simulation
 from carom.worlds.builder import LoadedWorld
+from carom.worlds.errors import Path
 from carom.worlds.source import Source
 from carom.worlds.variables import EXPRESSION
 
@@ -33,11 +35,12 @@ class _DetectedError(Exception):
 
 
 def lint(loaded: LoadedWorld) -> list[str]:
-    """Return warnings, each with its place in the file: names nobody uses, doubtful sizes, bodies in each other.
+    """Return warnings, each with its place in the file: of names, times, sizes, and bodies in each other.
 
     It runs detection once, so that the world is not to be stepped afterwards.
     """
     unused(loaded.source)
+    late(loaded)
     for told in (doubtful(loaded.simulation), overlapping(loaded.simulation)):
         lines = list(told)
         for entity, what in lines[:MOST_TOLD]:
@@ -51,6 +54,16 @@ def unused(source: Source) -> None:
     """Tell the names that the file itself defines and nobody uses."""
     for path in unused_names(source):
         source.warn(path, "is used nowhere")
+
+
+def late(loaded: LoadedWorld) -> None:
+    """Tell what is to happen, or expected, after the run has ended."""
+    dt, frames = loaded.simulation.settings.dt, loaded.run.frames
+    events = enumerate(loaded.simulation.world[Events].entries)
+    after: list[Path] = [("events", number, "at") for number, event in events if event.frame(dt) > frames]
+    after += [item.path for item in loaded.expectations if (getattr(item, "frame", None) or 0) > frames]
+    for path in dict.fromkeys(after):
+        loaded.source.warn(path, f"comes after the end of the run, {frames * dt:g} s")
 
 
 def unused_names(source: Source) -> Iterator[tuple[str, str]]:

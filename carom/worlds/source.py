@@ -73,15 +73,19 @@ class Source:
 
     def locate(self, path: Path) -> Path:
         """Return where the nearest part of ``path`` is written: itself, or the same words in its prefab."""
-        for end in range(len(path), 0, -1):
-            candidate: Path | None = path[:end]
-            while candidate is not None:
-                home, own = self.home(candidate)
-                if own in home.positions:
-                    return candidate
-                length = next((n for n in range(len(candidate), 1, -1) if candidate[:n] in self.inherits), 0)
-                candidate = (*self.inherits[candidate[:length]], *candidate[length:]) if length else None
-        return ()
+        found = (self._found(path[:end]) for end in range(len(path), 0, -1))
+        return next((place for place in found if place is not None), ())
+
+    def _found(self, path: Path) -> Path | None:
+        """Return where a whole path is written, None where it is nowhere."""
+        candidate: Path | None = path
+        while candidate is not None:
+            home, own = self.home(candidate)
+            if own in home.positions:
+                return candidate
+            length = next((n for n in range(len(candidate), 1, -1) if candidate[:n] in self.inherits), 0)
+            candidate = (*self.inherits[candidate[:length]], *candidate[length:]) if length else None
+        return None
 
     def home(self, path: Path) -> tuple[Source, Path]:
         """Return the file that a path is of, and the path in it."""
@@ -93,10 +97,7 @@ class Source:
 
     def _missing(self, path: Path) -> int:
         """Return how many words at the end of ``path`` are written nowhere."""
-        return next((n for n in range(len(path)) if self._stands(path[: len(path) - n])), len(path))
-
-    def _stands(self, path: Path) -> bool:
-        return len(self.locate(path)) == len(path)
+        return next((n for n in range(len(path)) if self._found(path[: len(path) - n]) is not None), len(path))
 
     def position(self, path: Path) -> Position:
         """Return line and column of the nearest part of ``path`` that is written."""

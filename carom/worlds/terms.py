@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 
 from carom.ecs import World
+from carom.ecs.errors import did_you_mean
 from carom.worlds.call_terms import call_term, term_of_all
 from carom.worlds.column_terms import column_term
 from carom.worlds.comers import all_names
 from carom.worlds.errors import WordError
 from carom.worlds.functions import CALLS, OF_ALL, PAIRS
-from carom.worlds.names import fitting, matching
+from carom.worlds.names import fitting, known, matching
 from carom.worlds.pictures import QUESTIONS
 from carom.worlds.term import Term
 
@@ -38,4 +39,17 @@ def read_term(text: str, world: World) -> Term:
         raise WordError("is no value of the world", received=repr(text), accepted=accepted)
     there = all_names(world)
     end = next((dot for dot in reversed(dots) if fitting(text[:dot], there)), dots[0])
-    return column_term(text, end, matching(text[:end], there), world)
+    names = matching(text[:end], there)
+    try:
+        return column_term(text, end, names, world)
+    except WordError:
+        _refuse_member(text, end, names)
+        raise
+
+
+def _refuse_member(text: str, end: int, names: list[str]) -> None:
+    """Raise WordError where the word after the name of a group is nearly that of one of those it holds."""
+    word, dot, _ = text[end + 1 :].partition(".")
+    members = {name[end + 1 :].split(".")[0] for name in names if name[: end + 1] == text[: end + 1]}
+    if dot and did_you_mean(word, members):
+        known("entity", text[: end + 1] + word, names)

@@ -26,6 +26,17 @@ BALL = "entities:\n  - {name: ball, "
             "principal_axes, center_of_mass, gravity_scale, linear_damping, angular_damping, continuous, sleeps, locked"),
         ),
         (
+            BALL + "body: {friction: 0.5}}\n",
+            ("w.yaml:3:25: entities.0.body.friction: unknown key; received 'friction'; accepted: type, mass, inertia, "
+            "principal_axes, center_of_mass, gravity_scale, linear_damping, angular_damping, continuous, sleeps, "
+            "locked; material has it"),
+        ),
+        (
+            BALL + "parent: {entity: b, mass: 3}}\n",
+            ("w.yaml:3:38: entities.0.parent.mass: unknown key; received 'mass'; accepted: entity, position, rotation; "
+            "body and emitter have it"),
+        ),
+        (
             BALL + "grid: {count: 4, spacing: 1}}\n",
             "w.yaml:3:25: entities.0.grid.count: must be a list; received 4; accepted: a list of 3",
         ),

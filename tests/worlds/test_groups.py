@@ -213,3 +213,40 @@ def test_groups_of_groups_cannot_fill_the_memory() -> None:
     )
     with pytest.raises(WorldError, match="groups of a world may have 20000 entities in all"):
         load_text(f"carom: 1\nprefabs:\n{prefabs}  g12: {{}}\nentities: [{{name: all, prefab: g0}}]\n")
+
+
+def test_a_fault_of_a_prefab_is_told_once() -> None:
+    """Where it is written, whether the prefab is used alone, in groups or both."""
+    with pytest.raises(WorldError) as caught:
+        load_text(
+            """carom: 1
+prefabs:
+  wheel: {collider: {sphere: {radius: 1}}, body: {mass: 0}}
+  cart: {entities: [{name: left, prefab: wheel}, {name: right, prefab: wheel}]}
+entities:
+  - {name: a, prefab: wheel}
+  - {name: b, prefab: cart}
+""",
+            "w.yaml",
+        )
+    assert str(caught.value) == "w.yaml:3:51: prefabs.wheel.body.mass: must be above 0 kg; received 0"
+
+
+def test_a_member_whose_name_is_near_is_told_as_such() -> None:
+    """Not as a column that the group has not."""
+    with pytest.raises(WorldError) as caught:
+        load_text(
+            """carom: 1
+entities:
+  - name: cart
+    entities: [{name: bed, body: {mass: 1}}, {name: wheel, body: {mass: 1}}]
+expect: [{never: cart.weel.position.y < 0}, {never: cart.positon.y < 0}]
+""",
+            "w.yaml",
+        )
+    first, second = str(caught.value).split("\n")
+    assert first == (
+        "w.yaml:5:11: expect.0.never: unknown entity; received 'cart.weel'; accepted: cart.bed, cart.wheel; "
+        "did you mean 'cart.wheel'?"
+    )
+    assert second.startswith("w.yaml:5:46: expect.1.never: cart.bed has no such column; received 'positon'; accepted: ")

@@ -61,6 +61,16 @@ def warnings(text: str, folder: Path | None = None) -> list[str]:
             BALL + "- {name: floor, collider: {plane: {offset: -0.99}}}\n",
             [],
         ),
+        (
+            BALL + "run: {duration: 1 s}\nevents: [{at: 59/60 s, despawn: [a]}, {at: 1 s, despawn: [a]}]\n"
+            "expect: [{at: 1 s, speed(a): {is: 1, within: 1}, spin(a): {is: 1, within: 1}}, {settles_by: 2 s},\n"
+            "  {at: 61/60 s, speed(a): {is: 1, within: 1}, spin(a): {is: 1, within: 1}}]\n",
+            [
+                "w.yaml:5:40: events.1.at: comes after the end of the run, 1 s",
+                "w.yaml:6:80: expect.1: comes after the end of the run, 1 s",
+                "w.yaml:7:3: expect.2: comes after the end of the run, 1 s",
+            ],
+        ),
     ],
 )
 def test_what_is_doubtful_is_told(text: str, told: list[str]) -> None:
