@@ -16,8 +16,8 @@ from carom.systems.shapes.stating import shape_of
 from carom.systems.simulation import Simulation
 from carom.worlds.connections import Connections
 from carom.worlds.crowd import LONE, Some
+from carom.worlds.entity_faults import faults_of
 from carom.worlds.errors import Path, ReportedError
-from carom.worlds.faults import faults_of
 from carom.worlds.generators import GENERATORS, Setting
 from carom.worlds.geometry import GEOMETRY_WORDS, GeometryReader
 from carom.worlds.groups import Group

@@ -1,4 +1,4 @@
-"""Sections of a world file that no registry supplies: grids, runs, pictures, expectations."""
+"""Sections of a world file that no registry supplies: chains, places, keyframes, runs, pictures, recordings."""
 
 from __future__ import annotations
 

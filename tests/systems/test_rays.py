@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 from meshes import block, sheet
-from ray_worlds import EXACT, alone, finite, rays_at
-from solids import SOLIDS, first_within
+from ray_worlds import EXACT, PLACE, TURN, alone, finite, rays_at, searched
+from solids import SOLIDS
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
@@ -19,24 +19,16 @@ from carom.systems.shapes.land import land
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.simulation import Simulation
 
-GRAZING = 0.01  # m. A line is clear of or in a solid by more than that, or left out
-
 
 @pytest.mark.parametrize("far", [3.0, pytest.param(1e5, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", SOLIDS)
 def test_distances_points_and_normals_are_exact(name: str, far: float) -> None:
     """Of every convex shape, turned and moved, from near and from 100 km: against a search along the ray."""
     collider, outside = SOLIDS[name]
-    position, rotation = np.array([0.3, -0.2, 0.1]), quaternion.normalise(np.array([0.3, -0.5, 0.2, 0.7]))
     origin, direction = rays_at(1, 400, far)
-    skipped = max(far - 4.0, 0.0)  # a search from afar would be rounded away
-    hits = alone(collider, position=position, rotation=rotation).space.cast_rays(origin, direction, skipped + 8.0)
-    back = quaternion.conjugate(rotation)
-    begin, along = quaternion.rotate(back, origin + skipped * direction - position), quaternion.rotate(back, direction)
-    expected = first_within(outside, begin, along, 8.0) + skipped
-    deepest = np.array([outside(begin + s * along) for s in np.linspace(0.0, 8.0, 2001)]).min(axis=0)
-    before = np.minimum(outside(begin), outside(quaternion.rotate(back, origin - position)))
-    clear = (np.abs(deepest) > GRAZING) & (before > 0.0)
+    skipped = max(far - 4.0, 0.0)
+    hits = alone(collider, position=PLACE, rotation=TURN).space.cast_rays(origin, direction, skipped + 8.0)
+    expected, clear = searched(outside, origin, direction, skipped)
     assert clear.sum() > 150
     assert (hits.hit == np.isfinite(expected))[clear].all()
     met = clear & hits.hit
@@ -45,7 +37,8 @@ def test_distances_points_and_normals_are_exact(name: str, far: float) -> None:
     assert np.abs(hits.point[met] - origin[met] - hits.distance[met, None] * direction[met]).max() < EXACT
     assert finite(hits)
 
-    local, facing = quaternion.rotate(back, hits.point[met] - position), quaternion.rotate(back, hits.normal[met])
+    back = quaternion.conjugate(TURN)
+    local, facing = quaternion.rotate(back, hits.point[met] - PLACE), quaternion.rotate(back, hits.normal[met])
     steps = 1e-6 * np.eye(3)
     ahead, behind = (np.stack([outside(local + sign * step) for step in steps], axis=1) for sign in (1.0, -1.0))
     smooth = np.abs(ahead + behind).max(axis=1) < 1e-9  # not at an edge

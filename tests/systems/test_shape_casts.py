@@ -9,18 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 from meshes import block, sheet
-from solids import SOLIDS, about_axis, first_within, reaching
+from ray_worlds import EXACT, PLACE, TURN, alone, rays_at, searched
+from solids import SOLIDS, about_axis, reaching
 
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
-from carom.ecs.spatial.vector import normalise
 from carom.systems.queries.arguments import QueryError
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.stating import shape_of
 from carom.systems.simulation import Simulation
 
-EXACT = 1e-9  # m
 RADIUS = 0.25  # m, of the balls that are cast
 BALL: dict[str, Any] = {"sphere": {"radius": RADIUS}}
 CUBE: dict[str, Any] = {"box": {"size": (1.0, 1.0, 1.0)}}
@@ -56,33 +55,15 @@ DISTANCES: dict[str, Callable[[Floats], Floats]] = {
 STRAIGHT = {"sphere", "box", "capsule", "convex", "plane", "mesh"}  # of straight edges, or round about them
 
 
-def casts_at(seed: int, count: int, far: float = 3.0) -> tuple[Floats, Floats]:
-    """Return places so far from the origin, and directions that pass near it."""
-    generator = np.random.default_rng(seed)
-    origin = far * normalise(generator.normal(size=(count, 3)))
-    return origin, normalise(generator.uniform(-0.7, 0.7, (count, 3)) - origin)
-
-
 @pytest.mark.parametrize("far", [3.0, 1e5])
 @pytest.mark.parametrize("name", DISTANCES)
 def test_balls_touch_where_the_rounded_solid_begins(name: str, far: float) -> None:
     """From near and from 100 km: against a search for where the distance to the solid is the radius."""
-    position, rotation = np.array([0.3, -0.2, 0.1]), quaternion.normalise(np.array([0.3, -0.5, 0.2, 0.7]))
-    simulation = Simulation()
-    simulation.add(collider=SOLIDS[name][0], transform={"position": position, "rotation": rotation})
-    origin, direction = casts_at(1, 400, far)
+    space = alone(SOLIDS[name][0], position=PLACE, rotation=TURN).space
+    origin, direction = rays_at(1, 400, far, spread=0.7)
     skipped = max(far - 4.0, 0.0)
-    hits = simulation.space.cast_shapes(BALL, origin, direction, skipped + 8.0)
-    back = quaternion.conjugate(rotation)
-    begin, along = quaternion.rotate(back, origin + skipped * direction - position), quaternion.rotate(back, direction)
-
-    def outside(x: Floats) -> Floats:
-        return DISTANCES[name](x) - RADIUS
-
-    expected = first_within(outside, begin, along, 8.0) + skipped
-    deepest = np.array([outside(begin + s * along) for s in np.linspace(0.0, 8.0, 2001)]).min(axis=0)
-    before = np.minimum(outside(begin), outside(quaternion.rotate(back, origin - position)))
-    clear = (np.abs(deepest) > 0.01) & (before > 0.0)
+    hits = space.cast_shapes(BALL, origin, direction, skipped + 8.0)
+    expected, clear = searched(lambda x: DISTANCES[name](x) - RADIUS, origin, direction, skipped)
     assert (hits.hit == np.isfinite(expected))[clear].all()
     met = clear & hits.hit
     assert met.sum() > 60
@@ -100,7 +81,7 @@ def test_every_shape_is_free_until_it_touches(asks: str, name: str) -> None:
     simulation = Simulation()
     turn = quaternion.normalise(np.array([0.3, -0.5, 0.2, 0.7]))
     simulation.add(collider=collider, transform={"rotation": turn})
-    origin, direction = casts_at(4, 40, 6.0)
+    origin, direction = rays_at(4, 40, 6.0, spread=0.7)
     rotation = quaternion.normalise(generator.normal(size=(40, 4)))
     space = simulation.space
     apart = np.isin(np.arange(40), space.find_overlaps(shape, origin, rotation).query, invert=True)
@@ -194,7 +175,7 @@ def test_reach_filters_points_and_ties() -> None:
     assert (hit.entity, hit.distance) == (made[2], pytest.approx(4.25, abs=1e-12))
     wide = {"box": {"size": (0.5, 0.5, 3.0)}}
     assert [space.cast_shape(wide, (0.0, 5.0, 0.0), DOWN, without=made[:k]).entity for k in range(3)] == made  # type: ignore[union-attr]
-    origin, direction = casts_at(5, 50)
+    origin, direction = rays_at(5, 50, spread=0.7)
     every = space.cast_shapes({"point": {}}, origin, direction)
     rays = space.cast_rays(origin, direction)
     assert (every.hit == rays.hit).all()

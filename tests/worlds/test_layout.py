@@ -87,11 +87,6 @@ expect:
 NO_NODE = "while parsing a flow node did not find expected node content"
 
 
-def comments(text: str) -> list[str]:
-    """Return the comments of a text in which no value holds a blank and a ``#``."""
-    return sorted(found.strip() for found in re.findall(r"(?:^|\s)(# .*)$", text, re.MULTILINE))
-
-
 def test_an_untidy_file_is_put_into_form() -> None:
     """Sections in order, leaves in braces, long lines broken between words; comments go with what they are about."""
     assert formatted(UNTIDY, "w.yaml") == TIDY

@@ -1,4 +1,4 @@
-"""Faults: what is wrong with the words of an entity beside the world it is for, before anything is made of them."""
+"""Entity faults: what is wrong with the words of an entity beside the world it is for, told before it is made."""
 
 from __future__ import annotations
 
