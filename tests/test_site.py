@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from carom.ecs import World
+from carom.ecs.structure import Structure
 from carom.systems.settings import Settings
 from carom.tools.cli import COMMANDS
 
@@ -67,3 +70,10 @@ def test_a_table_of_figures_is_renewed_in_its_place() -> None:
         "| pyramid 40, ms a step | 1 | 1.23 |\n| second start, s | 2 |  |\n"
         "\n<!-- end -->\nafter <!-- bench joints -->\nkept\n<!-- end -->\n"
     )
+
+
+def test_the_page_of_the_world_has_what_it_inherits() -> None:
+    """All but what only snapshots and names themselves call."""
+    (listed,) = re.findall(r"inherited_members: \[(.*)\]", (SITE.parents[1] / "mkdocs.yml").read_text(encoding="utf-8"))
+    own = {name for name in vars(Structure) if not name.startswith("_") and name not in vars(World)}
+    assert set(listed.split(", ")) == own - {"begin_restore", "names_now"}
