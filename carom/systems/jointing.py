@@ -22,7 +22,9 @@ from carom.systems.ties import Ties
 def join_bodies(world: World, dt: float) -> None:
     """Find the joints of bodies that are awake; who is held is stepped semi-implicitly, as in contact."""
     linkage, begins = world[Linkage], world[Progress].substep == 1
-    if not (linkage.groups or linkage.holds or len(world[Ties].now(world).rows)):  # most worlds, in every substep
+    if not (linkage.groups or len(world[Ties].now(world).rows)):  # most worlds, in every substep
+        if linkage.holds:
+            world[Flight].held[world[Awake].now(world)] = linkage.holds = False
         return
     if not linkage.is_of(world) or (begins and world[Awake].edited & {Joint, RigidBody, Transform}):
         if not begins:  # at the end of a step it has been done

@@ -116,7 +116,7 @@ def hand_impulses_over(world: World, dt: float) -> None:
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads, Joint),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads, Joint, Linkage),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, BroadPhase, FclObjects,
         PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ledger, Ties, Landings,
@@ -189,7 +189,7 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
     return now, reason, events
 
 
-@system(reads=(RigidBody, Settings, Threads, Awake), writes=(Transform, Motion, Flight, Contact, Resting))
+@system(reads=(RigidBody, Settings, Threads, Awake, Linkage), writes=(Transform, Motion, Flight, Contact, Resting))
 def settle(world: World, dt: float) -> None:
     """End the substep: drag's second half, origins placed, and how deep contacts have come to be."""
     _finish(world, dt, ended=True)

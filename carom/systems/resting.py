@@ -22,6 +22,7 @@ from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
 from carom.systems.kernels.packing import (
     BODY_WIDTH,
+    find_bound,
     pack_bodies,
     pack_moving,
     pack_velocities,
@@ -60,6 +61,8 @@ class Resting(Resource):
         self.hearers: list[Callable[[Stage, int], None]] = []
         self.count = self.groups = self.levels = 0
         self.structure = -1  # that of the world when contacts were detected
+        self.bound = np.zeros(0, np.int64)  # the rows of bodies that contacts or joints are of
+        self.bound_of: tuple[Integers, Integers] | None = None  # who was awake and joined when they were found
         self.packed: Integers | None = None  # the rows of bodies whose poses are packed: those of this step
         self.start, self.closes = np.zeros(1, np.int64), np.ones(1, np.bool_)
         self.bodies, self.lanes = aligned(1, BODY_WIDTH), aligned(0, WIDTH)
@@ -89,7 +92,7 @@ class Resting(Resource):
             self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
             self.points, self.row, self.ends, self.level_ends,
         )  # fmt: skip
-        self.asks[:], self.fresh[:], self.stale[:] = 0, True, True
+        self.asks[:], self.fresh[:], self.stale[:], self.bound_of = 0, True, True, None
         if len(self.lanes) < rows:
             self.lanes = aligned(2 * rows, WIDTH)
         fill_groups(
@@ -99,10 +102,21 @@ class Resting(Resource):
             contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
         )  # fmt: skip
 
+    def rows(self, world: World) -> Integers:
+        """Return the rows of bodies that are awake and have contacts or joints: the only ones that are packed."""
+        awake, linkage, of = world[Awake].now(world), world[Linkage], self.bound_of
+        if of is None or of[0] is not awake or of[1] is not linkage.index_a:
+            self.bound, self.bound_of = np.empty_like(awake), (awake, linkage.index_a)
+            self.bound = self.bound[: find_bound(
+                awake, len(self.bodies) - 1, self.groups, self.index_a, self.index_b,
+                linkage.groups, linkage.index_a, linkage.index_b, self.bound,
+            )]  # fmt: skip
+        return self.bound
+
     def pack(self, world: World) -> None:
         """Write what the stage needs to know of bodies, as they are now; of those that have not moved, what moves."""
         flight, motion, body, awake = world[Flight], world[Motion], world[RigidBody], world[Awake]
-        rows, rotation = awake.now(world), world[Transform].rotation
+        rows, rotation = self.rows(world), world[Transform].rotation
         if self.packed is rows and not awake.strangers and pack_moving(
             rows, flight.center, rotation, motion.linear, motion.angular, flight.felt, self.bodies
         ):  # fmt: skip
@@ -136,7 +150,7 @@ class Resting(Resource):
 
     def press(self, world: World, h: float) -> None:
         """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
-        rows, motion, linkage = world[Awake].now(world), world[Motion], world[Linkage]
+        rows, motion, linkage = self.rows(world), world[Motion], world[Linkage]
         pack_velocities(rows, motion.linear, motion.angular, self.bodies)
         if linkage.groups:
             linkage.measure(self.bodies)
@@ -153,7 +167,7 @@ class Resting(Resource):
         self.closes[:] = True
         if at == 0.0 and self.groups:
             motion = world[Motion]
-            pack_velocities(world[Awake].now(world), motion.linear, motion.angular, self.bodies)
+            pack_velocities(self.rows(world), motion.linear, motion.angular, self.bodies)
             share_out(
                 world, self.groups,
                 lambda begin, end: find_closing(
@@ -168,7 +182,7 @@ class Resting(Resource):
         if not self.groups:
             return
         flight, contact, self.packed = world[Flight], world[Contact], None
-        pack_ways(world[Awake].now(world), flight.start_center, flight.center, flight.turned, self.bodies)
+        pack_ways(self.rows(world), flight.start_center, flight.center, flight.turned, self.bodies)
         share_out(
             world, self.groups,
             lambda begin, end: sink_contacts(
@@ -179,7 +193,7 @@ class Resting(Resource):
 
     def relax(self, world: World, h: float) -> None:
         """Take the speed by which overlap left out of the velocities."""
-        rows, motion, linkage, hard = world[Awake].now(world), world[Motion], world[Linkage], (0.0, 1.0)
+        rows, motion, linkage, hard = self.rows(world), world[Motion], world[Linkage], (0.0, 1.0)
         if linkage.groups:
             self.pack(world)
             linkage.measure(self.bodies)

@@ -12,6 +12,10 @@ REACH_FACTOR = 1.25
 # the cube of it. Smaller: bodies leave their fat bounds sooner and are looked up anew.
 FAT = 0.05
 
+# Steps for which it sees a bound on the way that it goes, and up to which part of its least extent. Larger: more pairs
+# are kept in vain. Smaller: whoever flies is looked up anew in every step.
+AHEAD, MOST_AHEAD = 4.0, 0.5
+
 # Sizes that may share a grid, in quarters of a power of two: within a factor of four. More: small bodies crowd in cells
 # made for large ones. Fewer: more bodies are in the tree, which is slower.
 SIZE_CLASS = 8

@@ -13,6 +13,7 @@ from carom.systems.detection.broad_index import Index
 from carom.systems.kernels.broad_cache import REBUILD, find_leavers, find_met, keep_overlapping
 from carom.systems.kernels.broad_pairs import renew_pairs
 from carom.systems.kernels.islands import find_lively
+from carom.systems.settings import Settings
 
 
 def overlapping(world: World) -> Integers:
@@ -98,6 +99,7 @@ class BroadPhase(Resource):
         count = find_leavers(
             anew, self.rows, collider.shape, collider.size, pose.body_row, world[RigidBody].inverse_mass,
             collider.layer, collider.mask, collider.sensor, pose.position, pose.rotation, pose.lower, pose.upper,
+            world[Motion].linear, world[Settings].dt,
             self.fat_lower, self.fat_upper, self.known, self.seat, leavers,
         )  # fmt: skip
         return None if count == REBUILD else leavers[:count]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FAT
+from carom.systems.constants import AHEAD, FAT, MOST_AHEAD
 from carom.systems.kernels.frames import turned
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.shapes.plane import Plane
@@ -43,12 +43,13 @@ def find_met(rows, layer, mask, met):
 @kernel("fat_lower", "fat_upper", "known", "seat", "leavers")
 def find_leavers(
     anew, rows, shape, size, body_row, inverse_mass, layer, mask, sensor, pose_position, pose_rotation, lower, upper,
-    fat_lower, fat_upper, known, seat, leavers,
+    linear, dt, fat_lower, fat_upper, known, seat, leavers,
 ):  # fmt: skip
     """Write the rows that left their fat bounds or whose pairs others may be now, with new fat bounds; count them.
 
     Returns REBUILD where that is not enough: a half space moved, or a row became one, or bounds have no end. ``anew``
-    takes every row for a leaver. Two of which nothing can push either are no pair: `known` has one flag for them.
+    takes every row for a leaver. Fat bounds reach on the way that a body goes, which it will not leave at once again.
+    Two of which nothing can push either are no pair: `known` has one flag for them.
     """
     count = 0
     for i in rows:
@@ -76,7 +77,10 @@ def find_leavers(
             return REBUILD
         margin = 0.5 * FAT * least if ends else 0.0
         for k in range(3):
-            fat_lower[i, k], fat_upper[i, k] = lower[i, k] - margin, upper[i, k] + margin
+            way = AHEAD * dt * linear[b, k] if ends and b >= 0 else 0.0
+            way = max(-MOST_AHEAD * least, min(way, MOST_AHEAD * least)) if way != 0.0 else 0.0
+            fat_lower[i, k] = lower[i, k] - margin + min(way, 0.0)
+            fat_upper[i, k] = upper[i, k] + margin + max(way, 0.0)
             if flat:
                 seat[i, k] = pose_position[i, k]
         if flat:

@@ -23,6 +23,21 @@ BODY_WIDTH, ANGULAR = BLOCKS * BLOCK, 4
 AT_WAY, AT_INVERSE, AT_MASS = WAY * BLOCK, INVERSE * BLOCK, MASS_AND_FELT * BLOCK
 
 
+@kernel("found", makes_arrays=True)
+def find_bound(rows, nobody, groups, index_a, index_b, joint_groups, joint_a, joint_b, found):
+    """Write which bodies among ``rows`` contacts or joints in groups are of; return how many they are."""
+    bound, count = np.zeros(nobody + 1, np.bool_), 0
+    for many, of_a, of_b in ((groups, index_a, index_b), (joint_groups, joint_a, joint_b)):
+        for g in range(many):
+            for lane in range(WIDTH):
+                bound[of_a[g, lane]] = bound[of_b[g, lane]] = True
+    for i in rows:
+        if bound[i]:
+            found[count] = i
+            count += 1
+    return count
+
+
 @kernel("bodies", makes_arrays=True)
 def pack_bodies(
     rows, center, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom, rotation, bodies
