@@ -108,6 +108,8 @@ class _Grower:
 
     def scalar(self, event: Any, owner: Entry) -> Scalar:
         start, self.cursor = event.start_mark.index, event.end_mark.index
+        if self.text[start : self.cursor].endswith("\n"):
+            self.latest = None  # a block ends where the next line begins
         raw = self.text[start : self.cursor].rstrip()
         if isinstance(event, yaml.AliasEvent):
             return Scalar(raw, raw)
