@@ -77,7 +77,7 @@ def photograph(shot: Shot, simulation: Simulation, path: Path, painter: Painter 
 class Photographer:
     """Takes a picture of a simulation at each of ``times`` (s, in order); ask `due` at the start and after every step.
 
-    Close it when done, or use it in a ``with`` statement.
+    A camera stays where it was once whom it follows is gone. Close it when done, or use it in a ``with`` statement.
     """
 
     def __init__(self, shot: Shot, simulation: Simulation, times: Iterable[float]) -> None:
@@ -85,13 +85,22 @@ class Photographer:
 
         self._shot, self._simulation, self.moments = shot.steady(simulation.world), simulation, Moments(times)
         self._renderer, self._painter = Renderer(shot.width, shot.height), Painter(simulation, shot.look)
+        self._last: Camera | None = None
 
     def due(self) -> Iterator[Picture]:
         """Yield the pictures (height, width, 3) whose time has come."""
         self._painter.watch()
         for time, poses in self.moments.due(self._simulation):
-            camera = self._shot.camera(self._simulation.world, time, poses)
-            yield self._painter.picture(self._renderer, camera, poses, time)
+            yield self._painter.picture(self._renderer, self._camera(time, poses), poses, time)
+
+    def _camera(self, time: float, poses: Transform) -> Camera:
+        """Return the camera at a time, where it was last once whom it follows or looks at is gone."""
+        try:
+            self._last = self._shot.camera(self._simulation.world, time, poses)
+        except CaromError:
+            if self._last is None:
+                raise
+        return self._last
 
     def close(self) -> None:
         """Free what it draws with."""

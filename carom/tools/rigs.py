@@ -21,6 +21,7 @@ from carom.worlds.camera import Camera as Words
 from carom.worlds.camera import Orbit, along, check_cameras
 from carom.worlds.camera_path import Way
 from carom.worlds.check import check_item
+from carom.worlds.comers import all_names, pose_of_comer
 from carom.worlds.source import Source
 from carom.worlds.writing.columns import plain
 
@@ -42,7 +43,7 @@ class Rig:
         source, path = Source("", ""), ("cameras", name)
         found = check_item(source, "cameras", path, plain(dict(words)))
         if found is not None:
-            check_cameras(source, {name: found}, world.names())
+            check_cameras(source, {name: found}, all_names(world))
         if source.faults:
             raise CaromError("\n".join(str(replace(fault, line=0)) for fault in source.faults))
         return cls(name, found, up)
@@ -101,20 +102,22 @@ class Rig:
         assert follow is not None
         offset: Floats = np.array(follow.offset)
         if follow.frame == "body":
-            offset = quaternion.rotate(poses.rotation[self._row(world, follow.entity)], offset)
+            offset = quaternion.rotate(self._pose(world, poses, follow.entity)[1], offset)
         return self._place(world, poses, follow.entity) + offset
 
     def _place(self, world: World, poses: Transform, place: str | Vector) -> Floats:
         """Return the point (3,) that a file means: the origin of the entity of that name, or the point itself."""
-        if isinstance(place, str):
-            return np.array(poses.position[self._row(world, place)])
-        return np.array(place)
+        return np.array(self._pose(world, poses, place)[0] if isinstance(place, str) else place)
 
-    def _row(self, world: World, name: str) -> int:
+    def _pose(self, world: World, poses: Transform, name: str) -> tuple[Floats, Floats]:
+        """Return where somebody is, or will come: position (3,) and rotation (4,)."""
+        if (coming := pose_of_comer(name, world)) is not None:
+            return coming
         try:
-            return world.row(world.find(name))
+            row = world.row(world.find(name))
         except EntityError as fault:
             raise CaromError(f"camera {self.name}: {fault}") from None
+        return poses.position[row], poses.rotation[row]
 
     def _upright(self, sight: Floats, toward: Floats) -> Vector:
         """Return what is up in the picture: where up is along the sight, what it would be a little less steep."""

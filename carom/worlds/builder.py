@@ -15,6 +15,7 @@ from carom.systems.simulation import Simulation
 from carom.worlds import library
 from carom.worlds.amounts import few_enough
 from carom.worlds.camera import Camera, check_cameras
+from carom.worlds.comers import all_names
 from carom.worlds.embedding import content_of
 from carom.worlds.errors import WordError, WorldError
 from carom.worlds.events import add_events, with_prefabs
@@ -151,7 +152,7 @@ def _loaded(
         expectations = read_expectations(source, simulation, values["expect"])
     with source.telling(("run",)):
         run = plan(values["run"], simulation.settings.dt)
-    check_cameras(source, values["cameras"], simulation.world.names())
+    check_cameras(source, values["cameras"], all_names(simulation.world))
     if values["render"] is not None and values["render"].camera is not None:
         try:
             known("camera", values["render"].camera, values["cameras"])

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, Component, Name, Transform, World
+from carom.ecs.column import Floats
+from carom.ecs.spatial import quaternion
 from carom.systems.actions import Spawn
 from carom.systems.events import Events
 from carom.systems.settings import Settings
@@ -25,6 +27,19 @@ def still_to_come(world: World) -> set[str]:
         if isinstance(event.action, Spawn) and event.frame(dt) > world.frame:
             later.update(event.action.names or ())
     return later
+
+
+def pose_of_comer(name: str, world: World) -> tuple[Floats, Floats] | None:
+    """Return where somebody will come, position (3,), m, and rotation (4,); None of who is not to come."""
+    if name not in still_to_come(world):
+        return None
+    spawn = comers(world)[name]
+    number = (spawn.names or ()).index(name)
+    turns = [
+        vars(part)["rotation"] for part in spawn.bundles if "rotation" in vars(part) and isinstance(part, Transform)
+    ]
+    rotations = np.broadcast_to(turns[-1] if turns else quaternion.IDENTITY, (len(spawn.positions), 4))
+    return spawn.positions[number], rotations[number]
 
 
 def all_names(world: World) -> list[str]:

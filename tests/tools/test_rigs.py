@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from carom.ecs.errors import CaromError
 from carom.tools.cameras import Camera
-from carom.tools.filming import shot_of
+from carom.tools.filming import frames, shot_of
 from carom.tools.moments import Moments
 from carom.tools.rigs import Rig
 from carom.worlds import LoadedWorld, load_text
@@ -164,6 +165,41 @@ def test_what_is_stated_of_the_lens_comes_through() -> None:
     camera = camera_after("{position: [0, -9, 0], height: 4 m}", up="z")
     assert (camera.height, camera.up) == (4.0, (0.0, 0.0, 1.0))
     assert camera_after("{position: [0, -9, 0], up: [1, 0, 0]}").up == (1.0, 0.0, 0.0)
+
+
+COMES_AND_GOES = """events:
+  - {at: 0.2 s, spawn: {name: late, body: {mass: 1, inertia: [1, 1, 1]}, motion: {linear: [1, 0, 0]}, line: {count: 2, step: [0, 0, 7]}, transform: {position: [9, 0, 0], rotation: {axis: [0, 1, 0], angle: 90 deg}}}}
+  - {at: 0.4 s, despawn: [late]}
+"""  # noqa: E501
+
+
+def test_a_camera_awaits_who_comes() -> None:
+    """It is where it will be when that comes, and goes with it from then on."""
+    loaded = load_text(
+        f"{WORLD}{COMES_AND_GOES}cameras: {{main: {{follow: {{entity: 'late[1]', offset: [0, 1, 4], frame: body}}}}}}\n"
+    )
+    simulation, shot = loaded.simulation, shot_of(loaded)
+    for steps, x in ((0, 9.0), (2, 9.0), (1, 9.1), (1, 9.2)):
+        simulation.step(steps)
+        camera = shot.camera(simulation.world)
+        assert camera.target == pytest.approx((x, 0.0, 7.0), abs=1e-12)
+        assert camera.position == pytest.approx((x + 4.0, 1.0, 7.0), abs=1e-12)  # +z of the body, turned to +x
+    simulation.step()
+    with pytest.raises(CaromError) as caught:
+        shot.camera(simulation.world)
+    assert str(caught.value) == "camera main: no entity is named 'late[1]'"
+
+
+def test_a_film_goes_on_where_its_camera_was_when_whom_it_follows_is_gone() -> None:
+    """The picture stays as nobody moves any more, in view of the place where that was."""
+    text = WORLD.replace("motion: {linear: [2, 0, 0], angular: [0, 3, 0]}", "motion: {linear: [0, 0, 0]}")
+    loaded = load_text(
+        f"{text}{COMES_AND_GOES}cameras: {{main: {{follow: {{entity: 'late[0]', offset: [-14, 4, 0]}}}}}}\n"
+    )
+    shot = replace(shot_of(loaded), width=64, height=48)
+    pictures = list(frames(loaded.simulation, shot, (0.25, 0.4, 0.5, 0.7)))
+    assert not np.array_equal(pictures[0], pictures[1])
+    assert np.array_equal(pictures[2], pictures[3])
 
 
 def test_python_states_cameras_in_the_same_words() -> None:

@@ -115,7 +115,7 @@ def test_the_library_is_in_form(name: str) -> None:
         ("carom: 1\nseed: &a 5\ndrawn: *a\nname: b\n", "carom: 1\nseed: &a 5\ndrawn: *a\nname: b\n"),
         ("carom: 1\nstep: &s\n    dt: 1\n    # why\n", "carom: 1\nstep: &s\n  dt: 1\n  # why\n"),
         ("carom: 1\nname: >-\n    a\n    b\n\n    c\n", "carom: 1\nname: >-\n  a\n  b\n\n  c\n"),
-        ("carom: 1\ndescription: |\n  a\n# why\nstep: {dt: 1}\n", "carom: 1\ndescription: |\n  a\n# why\nstep: {dt: 1}\n"),
+        ("name: |\n  a\n# why\ncarom: 1\n", "# why\ncarom: 1\nname: |\n  a\n"),
         ('carom: 1\nname: "a\n  b"\n', "carom: 1\nname: a b\n"),
         ("carom: 1\nname: a\n\n  b\n", 'carom: 1\nname: "a\\nb"\n'),
         ("carom: 1\nentities: []\nmaterials:\n# last\n", "carom: 1\nmaterials:\nentities: []\n# last\n"),
