@@ -187,7 +187,10 @@ def fly(
         if speed > 0.0:
             if log_count == len(log_pair):
                 longer, longer_pair = np.empty((2 * log_count, WIDTH)), np.empty(2 * log_count, np.int64)
-                longer[:log_count], longer_pair[:log_count] = log, log_pair
+                for k in range(log_count):  # one by one: of slices Numba compiles for seconds what it would say of shapes
+                    longer_pair[k] = log_pair[k]
+                    for part in range(WIDTH):
+                        longer[k, part] = log[k, part]
                 log, log_pair = longer, longer_pair
             log_pair[log_count] = p
             log[log_count, TIME], log[log_count, SPEED], log[log_count, IMPULSE] = clock + now, speed, pressed
