@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import floor, isfinite
+from math import floor
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,13 +12,15 @@ from carom.ecs import World, system
 from carom.ecs.commands import Commands
 from carom.ecs.component import Record, Resource
 from carom.ecs.errors import DeclarationError
-from carom.systems.actions import ACTIONS, Action, Spawn
+from carom.systems.actions import ACTIONS, Action, Despawn, Release, Spawn
 from carom.systems.assembly import bundles_of
 from carom.systems.awake import Awake
 from carom.systems.declared import read_words
-from carom.systems.parameters import WordFault
+from carom.systems.parameters import WordFault, number_fault
 from carom.systems.pushes import Pushes, push
 from carom.systems.settings import Settings
+
+NAMES_ALONE = (Release.key, Despawn.key)  # actions that are stated as a list of names
 
 
 class Event(NamedTuple):
@@ -83,11 +85,14 @@ def read_event(world: World, at: float, words: Mapping[str, Any], faults: list[W
     ((key, stated),) = words.items()
     if key == Spawn.key:
         action: Action | None = _spawned(world, stated, faults)
+    elif isinstance(stated, str) and key in NAMES_ALONE:
+        action = None
+        faults.append(WordFault((key,), "must be a list of names", repr(stated), f"[{stated!r}]"))
     else:
         stated = {"entities": stated} if isinstance(stated, (list, tuple)) else stated
         action = read_words(ACTIONS[key], stated, (key,), faults)
-    if not (isfinite(at) and at >= 0.0):
-        faults.append(WordFault(("at",), f"must be finite and at least 0 s, received {at:g}"))
+    if wrong := number_fault({"unit": "s", "least": 0.0}, at):
+        faults.append(WordFault(("at",), wrong))
     return None if action is None else Event(at, action)
 
 

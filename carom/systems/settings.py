@@ -11,10 +11,15 @@ import numpy as np
 from carom.ecs import World
 from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError
-from carom.systems.parameters import refusal, unknown_keys
+from carom.systems.parameters import number_fault, refusal, unknown_keys
 
 MOST_THREADS = 64
 MOST_SUBSTEPS = 1000  # a step of more would not end before the user does
+NUMBERS: dict[str, dict[str, Any]] = {
+    "dt": {"unit": "s", "above": 0.0},
+    "hit_speed": {"unit": "m/s", "above": 0.0},
+    "gravity": {"unit": "m/s2", "width": 3},
+}
 Integrator = Literal["euler", "semi_implicit", "verlet"]
 Collision = Literal["auto", "fcl"]
 Response = Literal["full", "reflect"]
@@ -43,20 +48,15 @@ class Settings(Resource):
 
     def __post_init__(self) -> None:
         """Refuse what cannot be stepped; raise DeclarationError naming every fault."""
-        faults = []
-        if not (np.isfinite(self.dt) and self.dt > 0.0):
-            faults.append(f"dt must be finite and above 0 s, received {self.dt:g}")
-        if not (np.isfinite(self.hit_speed) and self.hit_speed > 0.0):
-            faults.append(f"hit_speed must be finite and above 0 m/s, received {self.hit_speed:g}")
-        if not 1 <= self.substeps <= MOST_SUBSTEPS:
-            faults.append(f"substeps must be from 1 to {MOST_SUBSTEPS}, received {self.substeps}")
-        if not 1 <= self.threads <= MOST_THREADS:
-            faults.append(f"threads must be from 1 to {MOST_THREADS}, received {self.threads}")
-        if not np.isfinite(self.gravity).all():
-            faults.append(f"gravity must be finite, received {list(self.gravity)}")
+        wrong = {name: number_fault(declared, getattr(self, name)) for name, declared in NUMBERS.items()}
+        faults = [f"{name} {what}" for name, what in wrong.items() if what]
+        for name, most in (("substeps", MOST_SUBSTEPS), ("threads", MOST_THREADS)):
+            count = getattr(self, name)
+            if not isinstance(count, (int, np.integer)) or not 1 <= count <= most:
+                faults.append(f"{name} must be from 1 to {most}, received {count!r}")
         if self.dimensions not in (2, 3):
             faults.append(f"dimensions must be 2 or 3, received {self.dimensions}")
-        elif self.dimensions == 2 and self.gravity[2]:
+        elif self.dimensions == 2 and not wrong["gravity"] and self.gravity[2]:
             faults.append(f"gravity must lie in the plane z = const with dimensions 2, received {list(self.gravity)}")
         for name, choices in (("integrator", Integrator), ("collision", Collision), ("response", Response)):
             if getattr(self, name) not in get_args(choices):

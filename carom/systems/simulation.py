@@ -21,6 +21,7 @@ from carom.ecs import (
 from carom.ecs.column import Integers
 from carom.ecs.components.motion import Motion
 from carom.ecs.components.transform import Transform
+from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import add_entities, add_entity
 from carom.systems.awake import Awake
 from carom.systems.bookkeeping import Bookkeeping
@@ -179,9 +180,12 @@ class Simulation:
     def step(self, count: int = 1, *, after: Callable[[System], None] | None = None) -> None:
         """Take ``count`` steps of dt; ``after`` is told of every system run.
 
-        Raises NonFiniteError for a NaN, and `StoppedError` where a breakpoint is met, which observers have seen then.
-        The world is what it was before that step, or as far as that came where nobody watches.
+        Raises DeclarationError for fewer than none, NonFiniteError for a NaN, and `StoppedError` where a breakpoint is
+        met, which observers have seen then. The world is what it was before that step, or as far as that came where
+        nobody watches.
         """
+        if count < 0:
+            raise DeclarationError(f"step takes 0 steps or more, received {count}")
         for _ in range(count):
             before = take_snapshot(self.world) if self.watched or self.breakpoints else None
             stopped = None

@@ -132,6 +132,23 @@ OTHERS: dict[str, tuple[Callable[[Simulation], Any], str]] = {
             "response, hit_speed, sleeping, seed, threads; did you mean 'gravity'?"
         ),
     ),
+    "values of settings": (
+        lambda _: Simulation(dt="1/60", gravity=(0.0, -9.81), hit_speed=0, substeps=1.5, threads=0),
+        (
+            "dt must be a number, received '1/60'; hit_speed must be finite and above 0 m/s, received 0; "
+            "gravity must be 3 numbers, received (0.0, -9.81); substeps must be from 1 to 1000, received 1.5; "
+            "threads must be from 1 to 64, received 0"
+        ),
+    ),
+    "the time of an event": (
+        lambda simulation: simulation.event("1 s", despawn=["a"]),
+        "at: must be a number, received '1 s'",
+    ),
+    "one name where names are listed": (
+        lambda simulation: simulation.event(1.0, despawn="a"),
+        "despawn: must be a list of names; received 'a'; accepted: ['a']",
+    ),
+    "a number of steps": (lambda simulation: simulation.step(-1), "step takes 0 steps or more, received -1"),
     "a shape that is asked with": (
         lambda simulation: simulation.space.cast_shape({"sphere": {}}, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)),
         "sphere.radius: is missing",

@@ -218,7 +218,7 @@ def test_python_refuses_in_the_same_words() -> None:
         (1.0, {"explod": {}}, ("must state one action; received explod; "
          "accepted: impulse, explode, release, despawn, spawn")),
         (-1.0, {"despawn": ["a"]}, "at: must be finite and at least 0 s, received -1"),
-        (1.0, {"release": "pin"}, "release: must be a mapping; received 'pin'; accepted: entities"),
+        (1.0, {"release": "pin"}, "release: must be a list of names; received 'pin'; accepted: ['pin']"),
     ]  # fmt: skip
     for at, action, fault in wrong:
         with pytest.raises(DeclarationError) as caught:
