@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.systems.simulation import Simulation
-from carom.tools.differing import Comparison
 from carom.tools.filming import shot_of
 from carom.tools.futures import Futures
+from carom.tools.parted import Comparison
 from carom.tools.recorder.of_world import recorder_of
 from carom.tools.side import Side
 

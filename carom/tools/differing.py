@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field, fields
-from typing import Any
+from dataclasses import fields
 
 import numpy as np
 
 from carom.ecs import (
-    Difference,
-    Snapshot,
     SnapshotError,
-    Transform,
     first_difference,
     restore_snapshot,
     state_hash,
@@ -19,6 +15,7 @@ from carom.ecs import (
 )
 from carom.systems.divergence import OUTSIDE, first_divergence
 from carom.systems.settings import Settings
+from carom.tools.parted import Apart, Comparison
 from carom.tools.retrace import elsewhere
 from carom.tools.side import Side
 
@@ -27,61 +24,6 @@ NOT_HERE = (
     "code by which they differ, installed where this is run"
 )
 LOOKS = 8  # frames after the first in which both are given the same state again
-
-
-@dataclass
-class Apart:
-    """How far (m) who is elsewhere at the most in a frame."""
-
-    frame: int
-    metres: float
-    entity: str
-
-    def __str__(self) -> str:
-        return f"{self.metres:.3g} m in frame {self.frame} ('{self.entity}')"
-
-
-@dataclass
-class Comparison:
-    """Two runs held against each other over the frames ``first`` to ``last``.
-
-    ``good`` is a frame up to which all is the same, None for none, ``difference`` what differs first, None for nothing,
-    and ``start`` a frame from which both were simulated again; ``how`` tells in words whether it came in once and grew
-    or comes in again, ``reproduced`` whether both part here at all, ``apart`` how far they come to be.
-    """
-
-    a: str
-    b: str
-    dt: float
-    first: int
-    last: int
-    good: int | None = None
-    start: int = 0
-    difference: Difference | None = None
-    how: str = ""
-    reproduced: bool = True
-    apart: list[Apart] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
-
-    @property
-    def same(self) -> bool:
-        """Tell whether every bit is the same."""
-        return self.difference is None
-
-    def text(self) -> str:
-        """Return it in words."""
-        lines = [f"{self.a} and {self.b}: frames {self.first} to {self.last}: {'the same' if self.same else 'differ'}"]
-        shared = "they begin otherwise" if self.good is None else f"the same up to frame {self.good}"
-        lines[0] += ", bit for bit" if self.same else f"; {shared}"
-        if self.difference is not None:
-            lines += [f"  first    {self.difference}", f"  how      {self.how}"]
-            moved = [str(apart) for apart in self.apart if apart.metres]
-            lines += [f"  apart    {', '.join(moved)}"] if moved else []
-        return "\n".join([*lines, *(f"  note     {note}" for note in self.notes)])
-
-    def values(self) -> dict[str, Any]:
-        """Return it for programs."""
-        return asdict(self) | {"same": self.same}
 
 
 def compare(a: Side, b: Side) -> Comparison:
@@ -139,7 +81,7 @@ def _narrow(made: Comparison, a: Side, b: Side, good: int | None, bad: int) -> N
         return
     made.difference, shared = found, found.frame - (found.phase != OUTSIDE)
     made.good = shared
-    made.apart.append(_apart(take_snapshot(a.simulation.world), take_snapshot(b.simulation.world)))
+    made.apart.append(Apart.of(take_snapshot(a.simulation.world), take_snapshot(b.simulation.world)))
     looked, again = _look_again(a, b, shared + 1, bad)
     of = f"{looked} later frame{'' if looked == 1 else 's'}"
     if again:
@@ -189,15 +131,4 @@ def _unlike_its_recording(side: Side, good: int, bad: int) -> str:
 def _follow(made: Comparison, a: Side, b: Side, frames: list[int]) -> None:
     """Tell how far apart both are at the first state of which all is known, and at the last."""
     known = frames if a.frames is not None and b.frames is not None else frames[:1]
-    made.apart += [_apart(a.state_at(frame), b.state_at(frame)) for frame in dict.fromkeys((known[0], known[-1]))]
-
-
-def _apart(a: Snapshot, b: Snapshot) -> Apart:
-    rows_a, rows_b = a.numbers(Transform), b.numbers(Transform)
-    shared, in_a, in_b = np.intersect1d(a.handles(rows_a), b.handles(rows_b), assume_unique=True, return_indices=True)
-    if not len(shared):
-        return Apart(a.frame, 0.0, "nobody")
-    away = a.tables[Transform][1]["position"][in_a] - b.tables[Transform][1]["position"][in_b]
-    farthest = np.sqrt((away * away).sum(axis=1))
-    worst = int(farthest.argmax())
-    return Apart(a.frame, float(farthest[worst]), a.name(int(shared[worst])))
+    made.apart += [Apart.of(a.state_at(frame), b.state_at(frame)) for frame in dict.fromkeys((known[0], known[-1]))]

@@ -13,7 +13,8 @@ from carom.ecs import Force, Motion, World
 from carom.systems.observer import observed
 from carom.systems.simulation import Simulation
 from carom.tools.cli import main
-from carom.tools.differing import Comparison, compare
+from carom.tools.differing import compare
+from carom.tools.parted import Comparison
 from carom.tools.reading import read
 from carom.tools.recorder import Recorder
 from carom.tools.recording import Recording
