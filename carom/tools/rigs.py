@@ -111,11 +111,11 @@ class Rig:
 
     def _pose(self, world: World, poses: Transform, name: str) -> tuple[Floats, Floats]:
         """Return where somebody is, or will come: position (3,) and rotation (4,)."""
-        if (coming := pose_of_comer(name, world)) is not None:
-            return coming
         try:
             row = world.row(world.find(name))
         except EntityError as fault:
+            if (coming := pose_of_comer(name, world)) is not None:
+                return coming
             raise CaromError(f"camera {self.name}: {fault}") from None
         return poses.position[row], poses.rotation[row]
 
