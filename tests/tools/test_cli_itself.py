@@ -9,13 +9,17 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import get_args
 
 import pytest
 from command_lines import changed
 
-from carom.tools.cli import COMMANDS, main
+from carom.systems.settings import Collision, Integrator
+from carom.tools.cli import COMMANDS, main, parser
 from carom.tools.recording import Recording
 from carom.worlds import library
+from carom.worlds.importing.convention import UPRIGHT
+from carom.worlds.sections import DETAILS
 
 CAROM = [sys.executable, "-m", "carom.tools.cli"]
 
@@ -98,6 +102,21 @@ def test_help_names_every_command_and_imports_nothing_of_weight() -> None:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     for name in COMMANDS:
         assert f"    {name}" in [line[: 4 + len(name)] for line in done.stdout.splitlines()]
+
+
+@pytest.mark.parametrize(
+    ("command", "option", "known"),
+    [
+        ("run", "--collision", get_args(Collision)),
+        ("run", "--integrator", get_args(Integrator)),
+        ("replay", "--detail", DETAILS),
+        ("import", "--up", tuple(UPRIGHT)),
+    ],
+)
+def test_what_help_offers_is_what_there_is(command: str, option: str, known: tuple[str, ...]) -> None:
+    """Options state their choices again, since help imports nothing that has them."""
+    single = parser().parse_args([command, "it"]).parser
+    assert [tuple(action.choices) for action in single._actions if option in action.option_strings] == [known]
 
 
 def test_ctrl_c_ends_cleanly_with_the_recording_flushed(world: Path, tmp_path: Path) -> None:
