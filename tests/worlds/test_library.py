@@ -9,8 +9,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from faults import error
 from lessons import run
 
+from carom import worlds
 from carom.ecs.relations.impact import Impact
 from carom.systems.simulation import Simulation
 from carom.worlds import library, load_world
@@ -31,6 +33,13 @@ def test_the_library_is_listed_without_a_solver() -> None:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
     assert len(done.stdout.splitlines()) == len(library.names()) + len(library.groups())
+
+
+def test_all_that_the_package_exports_is_found_when_it_is_asked_for() -> None:
+    """And what it does not export is told as of any module."""
+    assert [getattr(worlds, name).__name__ for name in worlds.__all__] == worlds.__all__
+    with error(AttributeError, "module 'carom.worlds' has no attribute 'nothing'"):
+        worlds.nothing  # noqa: B018
 
 
 @pytest.mark.slow
