@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from lessons import run
+
 from carom.worlds import load_text
 from carom.worlds.expectation import Outcome
 
@@ -24,13 +26,4 @@ expect:
 
 def outcomes(expectation: str, world: str = WORLD) -> list[Outcome]:
     """Run the world to its end and return what became of the expectation."""
-    loaded = load_text(world + expectation)
-    simulation = loaded.simulation
-    simulation.observers += loaded.expectations
-    for item in loaded.expectations:
-        item.begin(simulation)
-    while not loaded.run.finished(simulation):
-        simulation.step()
-    for item in loaded.expectations:
-        item.end(simulation)
-    return [item.outcome() for item in loaded.expectations]
+    return run(load_text(world + expectation))

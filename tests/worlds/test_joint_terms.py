@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from lessons import run
 
 from carom.worlds import WorldError, load_text
 from carom.worlds.expect import Outcome
@@ -11,6 +12,7 @@ from carom.worlds.expect import Outcome
 FILE = """carom: 1
 gravity: [0, -10, 0]
 step: {dt: 1/240}
+run: {duration: 1 s}
 entities:
   - {name: weight, body: {mass: 1}, transform: {position: [0, -1, 0]}}
   - {name: rope, joint: {rope: {b: weight, anchor_a: [0, 0, 0], break_force: 15 N}}}
@@ -24,15 +26,7 @@ expect:
 
 def outcomes(*expect: str, text: str = FILE) -> list[Outcome]:
     """Return what becomes of expectations in a second."""
-    loaded = load_text(text + "".join(f"  - {item}\n" for item in expect))
-    simulation = loaded.simulation
-    simulation.observers += loaded.expectations
-    for item in loaded.expectations:
-        item.begin(simulation)
-    simulation.step(240)
-    for item in loaded.expectations:
-        item.end(simulation)
-    return [item.outcome() for item in loaded.expectations]
+    return run(load_text(text + "".join(f"  - {item}\n" for item in expect)))
 
 
 def test_where_it_is_and_how_loaded() -> None:
