@@ -187,7 +187,7 @@ def fly(
         if speed > 0.0:
             if log_count == len(log_pair):
                 longer, longer_pair = np.empty((2 * log_count, WIDTH)), np.empty(2 * log_count, np.int64)
-                for k in range(log_count):  # one by one: of slices Numba compiles for seconds what it would say of shapes
+                for k in range(log_count):  # one by one: slices take seconds to compile, for what is said of shapes
                     longer_pair[k] = log_pair[k]
                     for part in range(WIDTH):
                         longer[k, part] = log[k, part]
