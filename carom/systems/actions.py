@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -45,6 +45,10 @@ class Action(Stated):
 
     def change(self, world: World) -> None:
         """Change what it changes beside velocities."""
+
+    def again(self, number: int) -> Action:
+        """Return what is done the time of that number, from 0, where it is done several times."""
+        return self
 
 
 @dataclass(frozen=True)
@@ -141,6 +145,14 @@ class Spawn(Action):
         taken = set(world.names())
         names = None if self.names is None else ["" if name in taken else name for name in self.names]
         world.spawn_many(len(self.positions), *self.bundles, Transform(position=self.positions), names=names)
+
+    def again(self, number: int) -> Spawn:
+        """Return those who come that time, called ``hail[number]``, copies ``rain[number,3,0,1]``."""
+        if self.names is None:
+            return self
+        parted = (name.partition("[") for name in self.names)
+        names = (f"{base}[{number},{rest}" if rest else f"{base}[{number}]" for base, _, rest in parted)
+        return replace(self, names=tuple(names))
 
 
 ACTIONS: dict[str, type[Action]] = {kind.key: kind for kind in (Impulse, Explode, Release, Despawn, Spawn)}

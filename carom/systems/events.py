@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from math import floor
 from typing import Any, NamedTuple
 
@@ -11,6 +11,7 @@ import numpy as np
 from carom.ecs import World, system
 from carom.ecs.commands import Commands
 from carom.ecs.component import Record, Resource
+from carom.ecs.components.name import NAME_LENGTH
 from carom.ecs.errors import DeclarationError
 from carom.systems.actions import ACTIONS, Action, Despawn, Release, Spawn
 from carom.systems.assembly import bundles_of
@@ -20,6 +21,8 @@ from carom.systems.parameters import WordFault, number_fault
 from carom.systems.pushes import Pushes, push
 from carom.systems.settings import Settings
 
+MOST_TIMES = 1000  # that an event is done: each step looks at all of them
+MOST_BROUGHT = 1_000_000  # entities, by one event in all of its times
 NAMES_ALONE = (Release.key, Despawn.key)  # actions that are stated as a list of names
 
 
@@ -28,6 +31,10 @@ class Event(NamedTuple):
 
     at: float
     action: Action
+
+    def repeated(self, every: float, times: int) -> list[Event]:
+        """Return it and those that follow, so many in all, ``every`` so many seconds."""
+        return [Event(self.at + number * every, self.action.again(number)) for number in range(times)]
 
     def frame(self, dt: float) -> int:
         """Return the frame whose step contains the time; a time between two steps is the start of the later one."""
@@ -72,6 +79,32 @@ def _carry_out(world: World) -> None:
             world[Awake].asked += world.entities(pushes.rows).tolist()
         action.change(world)
     events.edited = world.edited - before
+
+
+def repetitions(event: Event, every: float | None, times: int | None, faults: list[WordFault]) -> list[Event]:
+    """Return an event, or all of those that are stated to follow each other; what is wrong is added to ``faults``."""
+    if every is None and times is None:
+        return [event]
+    if every is None or times is None:
+        faults.append(WordFault(("every" if every is None else "times",), "is missing; every and times go together"))
+        return []
+    if wrong := number_fault({"unit": "s", "above": 0.0}, every):
+        faults.append(WordFault(("every",), wrong))
+    if not isinstance(times, int) or not 1 <= times <= MOST_TIMES:
+        faults.append(WordFault(("times",), f"must be from 1 to {MOST_TIMES}", repr(times)))
+    elif isinstance(event.action, Spawn):
+        faults += faults_of_repeated(event.action, times)
+    return [] if faults else event.repeated(every, times)
+
+
+def faults_of_repeated(spawn: Spawn, times: int) -> Iterator[WordFault]:
+    """Yield what is wrong with so many entities, and with their names."""
+    if (count := times * len(spawn.positions)) > MOST_BROUGHT:
+        yield WordFault(("times",), f"brings {count} entities, more than {MOST_BROUGHT}")
+        return
+    longest = max(spawn.again(times - 1).names or ("",), key=len)
+    if len(longest) > NAME_LENGTH:
+        yield WordFault(("times",), f"the name {longest!r} of who comes exceeds {NAME_LENGTH} characters")
 
 
 def read_event(world: World, at: float, words: Mapping[str, Any], faults: list[WordFault]) -> Event | None:

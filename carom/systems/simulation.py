@@ -29,7 +29,7 @@ from carom.systems.breakpoints import Breakpoint, StoppedError, look
 from carom.systems.clock import Clock
 from carom.systems.declared import read_words
 from carom.systems.entity_words import refuse_words
-from carom.systems.events import Events, read_event
+from carom.systems.events import Events, read_event, repetitions
 from carom.systems.explosion import Explosion, blast
 from carom.systems.force_function import ForceFunction, force_system
 from carom.systems.forces.law import Forces, Law, read_law
@@ -128,17 +128,18 @@ class Simulation:
         self.world[Fields].functions.append(made)
         return made
 
-    def event(self, at: float, **action: Any) -> None:
+    def event(self, at: float, *, every: float | None = None, times: int | None = None, **action: Any) -> None:
         """Let something happen at a time (s): ``event(1.5, release=["pin"])``, in the words of world files.
 
         ``impulse``, ``explode``, ``release``, ``despawn`` or ``spawn``, done at the start of the step that contains the
-        time. Raises DeclarationError.
+        time, so many ``times``, ``every`` so many seconds. Raises DeclarationError.
         """
         faults: list[WordFault] = []
         event = read_event(self.world, at, action, faults)
-        if event is None or faults:
+        events = [] if event is None else repetitions(event, every, times, faults)
+        if faults:
             raise refusal(faults)
-        self.world[Events].entries.append(event)
+        self.world[Events].entries += events
 
     def explode(self, **words: Any) -> Pushes:
         """Let momentum go out from a point now: ``explode(position=(0, 1, 0), impulse=50)``; return what bodies take.

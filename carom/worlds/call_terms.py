@@ -40,8 +40,8 @@ def call_term(text: str, function: str, patterns: list[str], world: World) -> Te
     unit, column, measure = CALLS[function]
     for name in groups[0]:
         kind_of(world, name, coming, column)
-        if function == "error":
-            check_foretold(world, name)
+    if function == "error":
+        check_foretold(world, groups[0])
     names, cast = tuple(f"{function}({name})" for name in groups[0]), Cast(groups[0], world)
 
     def read(world: World) -> Floats:

@@ -6,7 +6,7 @@ from typing import Any
 
 from carom.ecs.errors import DeclarationError
 from carom.systems.actions import Action, Spawn
-from carom.systems.events import Event, Events, read_event
+from carom.systems.events import Event, Events, read_event, repetitions
 from carom.systems.parameters import WordFault
 from carom.worlds.comers import all_names
 from carom.worlds.crowd import Form, Member, put_together
@@ -42,16 +42,18 @@ def add_events(source: Source, intake: Intake, events: list[Any]) -> None:
             continue
         path: Path = ("events", index)
         stated = words.model_dump(exclude_unset=True)
-        at, faults = stated.pop("at"), list[WordFault]()
+        at, every, times = (stated.pop(word, None) for word in ("at", "every", "times"))
+        faults = list[WordFault]()
         if stated.keys() == {Spawn.key}:
             spawned = _spawn(intake, (*path, Spawn.key), words.spawn)
             event = None if spawned is None else Event(at, spawned)
         else:
             event = read_event(world, at, stated, faults)
+        following = [] if event is None else repetitions(event, every, times, faults)
         for fault in faults:
             source.report_value((*path, *fault.steps), fault)
         if event is not None:
-            world[Events].entries.append(event)
+            world[Events].entries += following
             read.append(((*path, event.action.key), event.action))
     for place, action in read:
         _check_names(source, intake, place, action)

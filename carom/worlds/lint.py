@@ -59,7 +59,9 @@ def unused(source: Source) -> None:
 def late(loaded: LoadedWorld) -> None:
     """Tell what is to happen, or expected, after the run has ended."""
     dt, frames = loaded.simulation.settings.dt, loaded.run.frames
-    events = enumerate(loaded.simulation.world[Events].entries)
+    stated = enumerate(loaded.document.get("events") or ())
+    numbers = [number for number, words in stated for _ in range(words.get("times", 1))]
+    events = zip(numbers, loaded.simulation.world[Events].entries, strict=True)
     after: list[Path] = [("events", number, "at") for number, event in events if event.frame(dt) > frames]
     after += [item.path for item in loaded.expectations if (getattr(item, "frame", None) or 0) > frames]
     for path in dict.fromkeys(after):

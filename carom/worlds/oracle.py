@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -60,12 +60,13 @@ def errors(world: World, rows: Integers) -> Floats:
     return np.asarray(np.linalg.norm(away, axis=1))
 
 
-def check_foretold(world: World, name: str) -> None:
+def check_foretold(world: World, names: Iterable[str]) -> None:
     """Raise WordError for an entity without a closed form."""
-    told = [world.name(entity) for entity in world[Oracle].forms] if Oracle in world else []
-    if name not in told:
-        accepted = ", ".join(told) or "an entity of the section oracle"
-        raise WordError(f"oracle says nothing of {name}", accepted=accepted)
+    told = {world.name(entity): None for entity in world[Oracle].forms} if Oracle in world else {}
+    for name in names:
+        if name not in told:
+            accepted = ", ".join(told) or "an entity of the section oracle"
+            raise WordError(f"oracle says nothing of {name}", accepted=accepted)
 
 
 def read_oracle(source: Source, world: World, stated: Mapping[str, Any], look_up: LookUp) -> Oracle:

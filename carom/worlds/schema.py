@@ -31,6 +31,7 @@ from carom.worlds.generated.settings import setting_fields
 from carom.worlds.generators.words import Gap, Gaps
 from carom.worlds.sections import (
     ChainWords,
+    Every,
     KeyframesWords,
     KeyframeWords,
     LayersMet,
@@ -41,6 +42,7 @@ from carom.worlds.sections import (
     Render,
     Run,
     Time,
+    Times,
     TimeWindow,
 )
 from carom.worlds.state import StateWords
@@ -129,6 +131,8 @@ def document() -> type[Words]:
     event = _model(
         "Event", "What is done at a time: exactly one action.",
         at=(Time, Field(description="simulated time; done at the start of the step that contains it (s)")),
+        every=(Every, Field(None, description="from each time to the next, where it is done several times (s)")),
+        times=(Times, Field(None, description="how often it is done; who comes is called hail[0], hail[1], ...")),
         **action_fields(),
         spawn=(spawn, Field(None, description="Brings an entity, or several that are alike, into the world.")),
     )  # fmt: skip

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, WrapValidator, model_validator
 
+from carom.systems.events import MOST_TIMES
 from carom.systems.forces.reach import END
 from carom.systems.paths import REPEATS
 from carom.worlds.errors import WordError, shown
@@ -18,6 +19,8 @@ DETAILS = ("light", "full", "solver")  # how much a recording holds, each with a
 WORLD, NOBODY = "world", "nobody"  # what may hold the end of a chain beside entities
 LayersMet = Annotated[list[str] | Literal["all"], WrapValidator(lambda value, handler: _layers_met(value))]
 Time = Annotated[float, In("s", least=0.0)]
+Every = Annotated[float, In("s", above=0.0)]
+Times = Annotated[int, Whole(1, MOST_TIMES)]
 TimeWindow = Annotated[tuple[Time, Time | Literal["end"]], WrapValidator(lambda value, handler: _time_window(value))]
 
 
