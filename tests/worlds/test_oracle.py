@@ -47,6 +47,15 @@ def test_positions_are_what_formulas_say() -> None:
     assert simulation["club"].transform.position[0] != pytest.approx(0.5 + 0.75 - 0.5, abs=0.01)  # it turned
 
 
+def test_errors_of_many_are_read_by_looking_each_up_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However many have a form, nobody's name is asked for twice."""
+    copies = FILE.replace("{name: sign, ", "{name: sign, line: {count: 300, step: [1, 0, 0]}, ")
+    world, asked = load_text(copies).simulation.world, list[int]()
+    monkeypatch.setattr(world, "name", lambda entity, told=world.name: asked.append(int(entity)) or told(entity))
+    assert len(read_term("error(sign)", world).names) == 300
+    assert len(asked) == len(set(asked)) == 302
+
+
 def test_no_bit_depends_on_an_oracle() -> None:
     """With it or without, a world runs to the same state; one without has none."""
     with_it, without = load_text(FILE).simulation, load_text(FILE.partition("oracle:")[0]).simulation
