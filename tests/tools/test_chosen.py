@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carom.ecs import Motion, Transform, state_hash
+from carom.ecs import Motion, Parent, RigidBody, Transform, state_hash
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.ecs.relations.touching import Touching
@@ -64,6 +64,26 @@ def rows(recording: Recording, table: str) -> list[dict[str, Any]]:
     """Return the rows of a table."""
     found: list[dict[str, Any]] = recording.table(table).arrow().to_pylist()
     return found
+
+
+def test_a_query_chooses_whoever_it_finds(tmp_path: Path) -> None:
+    """Bodies but those that are static, one that comes later too; the recording says by what they were chosen."""
+    simulation, path = Simulation(dt=1 / 60), tmp_path / "query.rrd"
+    words: dict[str, Any] = {"collider": {"sphere": {"radius": 0.2}}, "body": {}}
+    simulation.add(name="ground", collider={"plane": {}})
+    simulation.add(name="early", transform={"position": (0.0, 0.1, 0.0)}, **words)
+    bodies = simulation.world.query(RigidBody, without=Parent)
+    recorder = Recorder(path, every=1, only=bodies, promote=bodies)
+    simulation.observers.append(recorder)
+    recorder.begin(simulation)
+    simulation.step(2)
+    simulation.add(name="late", transform={"position": (1.0, 0.1, 0.0)}, **words)
+    simulation.step(2)
+    recorder.end(simulation)
+    recording = Recording(path)
+    assert [set(recording.names(frame).values()) for frame in (2, 4)] == [{"early"}, {"early", "late"}]
+    assert {row["entity.name"] for row in rows(recording, "promoted") if row["frame"] == 4} == {"early", "late"}
+    assert list(recording.static["/about"]["only"]) == ["RigidBody", "without Parent"]
 
 
 def test_an_unknown_name_is_told(world: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

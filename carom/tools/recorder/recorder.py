@@ -11,7 +11,7 @@ from carom.systems.simulation import Simulation
 from carom.tools.cameras import Camera
 from carom.tools.recorder import about
 from carom.tools.recorder.blueprint import blueprint, default_camera
-from carom.tools.recorder.choice import Choice
+from carom.tools.recorder.choice import Choice, Chosen
 from carom.tools.recorder.detail import tracks_of
 from carom.tools.recorder.edits import Edits
 from carom.tools.recorder.snapshots import Snapshots
@@ -37,8 +37,8 @@ class Recorder:
     how much is recorded: ``light``, ``full`` or ``solver``; no bit of the run depends on it. ``title``, ``source`` (the
     text of the world file) and ``files`` (the content of those it names, by its words for them) travel in the
     recording. Raises DeclarationError for an unknown detail. The view begins at ``camera``; ``cameras`` are recorded as
-    they move, each with pictures ``aspect`` times as wide as high. Patterns of names choose ``only`` whom a recording
-    tells of, and whom to ``promote`` to a path, plots and a lane of their own.
+    they move, each with pictures ``aspect`` times as wide as high. Patterns of names, or a query of the world, choose
+    ``only`` whom a recording tells of, and whom to ``promote`` to a path, plots and a lane of their own.
     """
 
     def __init__(
@@ -55,8 +55,8 @@ class Recorder:
         camera: Camera | None = None,
         cameras: Sequence[Rig] = (),
         aspect: float = 4 / 3,
-        only: Sequence[str] | None = None,
-        promote: Sequence[str] = (),
+        only: Chosen | None = None,
+        promote: Chosen = (),
     ) -> None:
         if path is None and live is None:
             raise CaromError("a recorder writes to a file, to a viewer or to both; state its path or live=")
@@ -95,7 +95,7 @@ class Recorder:
         camera = self._camera or default_camera(world)
         upright = camera.up[1] >= abs(camera.up[2])
         axes = rerun.ViewCoordinates.RIGHT_HAND_Y_UP if upright else rerun.ViewCoordinates.RIGHT_HAND_Z_UP
-        only = [] if self._only is None else list(self._only.patterns)
+        only = [] if self._only is None else self._only.words
         self._stream, tracks = Stream(self._title), self._tracks.values()
         if self.path is not None:
             self._stream.to_file(self.path, blueprint(world, camera, tracks))

@@ -17,7 +17,7 @@ from carom.systems.free_body import FRICTION, JOINT, NORMAL, loads
 from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.block import Block, Columns
-from carom.tools.recorder.choice import Choice
+from carom.tools.recorder.choice import Choice, Chosen
 from carom.tools.recorder.lanes import Lanes, told
 from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.rows import RowTrack, handle, number
@@ -62,9 +62,9 @@ class Promoted(RowTrack):
         "joint": number("N", "sum of forces of joints, world frame", 3),
     }
 
-    def __init__(self, patterns: Sequence[str] = ()) -> None:
+    def __init__(self, chosen: Chosen = ()) -> None:
         super().__init__()
-        self.choice = Choice(patterns)
+        self.choice = Choice(chosen)
         self._lanes, self._touching = Lanes("sleep", SLEEP), Lanes("touching", {NOBODY: (90, 90, 90)})
         self._there: dict[int, str] = {}
         self._names: dict[int, str] = {}
@@ -77,7 +77,7 @@ class Promoted(RowTrack):
 
     def silent(self, simulation: Simulation) -> bool:
         """Tell whether nobody was chosen."""
-        return not self.choice.patterns
+        return self.choice.nobody
 
     def lay_out(self, world: World, layout: Layout) -> None:
         """Show the plots of each that is there, and the lanes."""
