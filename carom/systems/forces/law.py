@@ -16,7 +16,7 @@ from carom.systems.bodies import centers_of_mass
 from carom.systems.forces.reach import NOBODY, Reach
 from carom.systems.parameters import WordFault, number_fault, parameter, unknown_keys, vector
 from carom.systems.progress import Progress
-from carom.systems.registry import enter
+from carom.systems.registry import Keyed
 
 LAWS: dict[str, type[Law]] = {}
 L = TypeVar("L", bound="Law")
@@ -26,17 +26,11 @@ __all__ = ["LAWS", "Forces", "Law", "parameter", "vector"]
 
 
 @dataclass(frozen=True)
-class Law:
+class Law(Keyed, registry=LAWS, kinds="force laws"):
     """One force of a world; parameters are fields declared by `parameter`, and ``key`` is its word in files."""
 
-    key: ClassVar[str] = ""
     conservative: ClassVar[bool] = False  # it has a potential energy, see `energy`
     moves_medium: ClassVar[bool] = False  # it adds to the velocity of the medium, to which all drags are relative
-
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        if "key" in vars(cls):
-            enter(LAWS, cls.key, cls, clash="force laws have the key", mend="give one of them another key")
 
     def __post_init__(self) -> None:
         """Refuse parameters outside their bounds; raise DeclarationError naming all of them. Kernels take floats."""

@@ -6,14 +6,14 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 from carom.ecs.components.joint import Joint
 from carom.systems.declared import Stated, Steps, flag, whom
 from carom.systems.joints.held import Held
 from carom.systems.joints.ways import Ways
 from carom.systems.parameters import parameter, same, vector
-from carom.systems.registry import enter
+from carom.systems.registry import Keyed
 
 JOINTS: dict[str, type[JointKind]] = {}
 Vector = tuple[float, float, float]
@@ -21,24 +21,18 @@ NOWHERE = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
-class JointKind(Stated, ABC):
+class JointKind(Stated, Keyed, ABC, registry=JOINTS, kinds="joints"):
     """What holds b to a; ``key`` is its word in files, and its words are declared fields.
 
     Angles and distances are those of b against a, and 0 at the poses at which the joint is stated.
     """
 
-    key: ClassVar[str] = ""
     a: Any = whom(doc="who holds, the world by default")
     b: Any = whom(doc="who is held, the world by default")
     anchor_a: Vector | None = vector(unit="m", doc="anchor in the frame of a", default=None)
     anchor_b: Vector | None = vector(unit="m", doc="anchor in the frame of b", default=None)
     break_force: float = parameter(unit="N", doc="force beyond which it breaks", default=math.inf, above=0.0)
     collide: bool = flag(doc="whether a and b touch each other")
-
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        if "key" in vars(cls):
-            enter(JOINTS, cls.key, cls, clash="joints have the key", mend="give one of them another key")
 
     def joint(self, a: Held, b: Held) -> Joint:
         """Return the component, the anchors and frames being where both are now."""

@@ -17,7 +17,7 @@ from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.errors import DeclarationError
 from carom.systems.kernels.submersion import FOUND
 from carom.systems.parameters import number_fault, parameter, words_of
-from carom.systems.registry import enter
+from carom.systems.registry import Keyed, enter
 
 __all__ = ["BY_NUMBER", "NO_AXES", "SHAPES", "Bounds", "MassProperties", "Shape", "Surface", "parameter"]
 
@@ -63,13 +63,12 @@ NO_AXES = (0.0, 0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True)
-class Shape(ABC):
+class Shape(Keyed, ABC, registry=SHAPES, kinds="shapes"):
     """A geometry, centred, with its axis along local y; parameters are fields declared by `parameter`.
 
     ``key`` is its word in files. States hold its ``number``; a shape outside carom has one made from its key.
     """
 
-    key: ClassVar[str] = ""
     number: ClassVar[int] = -1
     solid: ClassVar[bool] = True  # False: has no volume, so a dynamic body needs a stated mass and does not rotate
     static: ClassVar[bool] = False  # True: only an entity without a body may have it
@@ -77,12 +76,10 @@ class Shape(ABC):
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        if "key" not in vars(cls):
-            return
-        if "number" not in vars(cls):  # by its key alone, so that states mean the same wherever it is installed
-            cls.number = FIRST_OWN_NUMBER + crc32(cls.key.encode())
-        enter(SHAPES, cls.key, cls, clash="shapes have the key", mend="give one of them another key")
-        enter(BY_NUMBER, cls.number, cls, clash="shapes have the number", mend="let one of them state none")
+        if "key" in vars(cls):
+            if "number" not in vars(cls):  # by its key alone, so that states mean the same wherever it is installed
+                cls.number = FIRST_OWN_NUMBER + crc32(cls.key.encode())
+            enter(BY_NUMBER, cls.number, cls, clash="shapes have the number", mend="let one of them state none")
 
     def __post_init__(self) -> None:
         """Refuse parameters outside their bounds; raise DeclarationError naming all of them."""

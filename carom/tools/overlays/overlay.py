@@ -6,14 +6,13 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
 
 import numpy as np
 
 from carom.ecs import Transform, World
 from carom.ecs.column import Floats, Integers
 from carom.systems.bodies import centers_of_mass
-from carom.systems.registry import enter
+from carom.systems.registry import Keyed
 from carom.systems.simulation import Simulation
 from carom.tools.batch import Batch
 from carom.tools.marks import Color, Inset, Mark
@@ -48,17 +47,10 @@ class Seen:
         return share * self.view.height * self.view.metres_per_pixel
 
 
-class Overlay(ABC):
+class Overlay(Keyed, ABC, registry=OVERLAYS, kinds="overlays"):
     """One kind of marks; ``key`` is its word in files and commands. An instance belongs to one film or picture."""
 
-    key: ClassVar[str] = ""
-
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        if "key" in vars(cls):
-            enter(OVERLAYS, cls.key, cls, clash="overlays have the key", mend="give one of them another key")
-
-    def watch(self, world: World) -> None:  # noqa: B027
+    def watch(self, world: World) -> None:
         """See the world at the start and after every step; most overlays only look when a picture is taken."""
 
     @abstractmethod

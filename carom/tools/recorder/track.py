@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from carom.ecs import World
-from carom.systems.registry import enter
+from carom.systems.registry import Keyed
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.choice import Choice
 from carom.tools.recorder.layout import Layout
@@ -16,7 +16,7 @@ from carom.tools.recorder.stream import Stamp, Stream
 TRACKS: dict[str, type[Track]] = {}
 
 
-class Track(ABC):
+class Track(Keyed, ABC, registry=TRACKS, kinds="tracks"):
     """What samples the world cheaply in recorded frames, and writes its samples in blocks about once a second.
 
     ``key`` is its name and ``detail`` the least level that has it. One with ``every_step`` sees every step, recorded
@@ -24,31 +24,25 @@ class Track(ABC):
     that keeps much counts how many bytes are ``kept``, and writes when these make a block.
     """
 
-    key: ClassVar[str] = ""
     detail: ClassVar[str] = "light"
     every_step: ClassVar[bool] = False
     only: Choice | None = None
     kept: int = 0
 
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        if "key" in vars(cls):
-            enter(TRACKS, cls.key, cls, clash="tracks have the key", mend="give one of them another key")
-
-    def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:  # noqa: B027
+    def begin(self, simulation: Simulation, stream: Stream, tracks: Mapping[str, Track]) -> None:
         """Write what holds at all times, before the first frame; ``tracks`` are all of the recording, by key."""
 
     def silent(self, simulation: Simulation) -> bool:
         """Tell at the beginning whether it will never have anything to say, so that it is not asked in each frame."""
         return False
 
-    def lay_out(self, world: World, layout: Layout) -> None:  # noqa: B027
+    def lay_out(self, world: World, layout: Layout) -> None:
         """Add what is seen of it when the recording is opened; most need nothing but the view of the world."""
 
-    def watch(self, simulation: Simulation) -> None:  # noqa: B027
+    def watch(self, simulation: Simulation) -> None:
         """See the world at the start and after every step; most tracks only look when a frame is recorded."""
 
-    def end(self, simulation: Simulation) -> None:  # noqa: B027
+    def end(self, simulation: Simulation) -> None:
         """Let go of the simulation; most tracks hold nothing of it."""
 
     @abstractmethod
