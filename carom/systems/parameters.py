@@ -30,6 +30,13 @@ class WordFault(NamedTuple):
         return ": ".join(filter(None, (".".join(map(str, self.steps)), "; ".join(parts))))
 
 
+def make_plain(of: Any, names: Iterable[str]) -> None:
+    """Make these parameters of a frozen dataclass floats or tuples of them, which is what kernels are compiled for."""
+    for name in names:
+        value = np.asarray(getattr(of, name), np.float64).tolist()
+        object.__setattr__(of, name, tuple(value) if isinstance(value, list) else value)
+
+
 def refusal(faults: Iterable[WordFault]) -> DeclarationError:
     """Return the error that tells all of these faults."""
     return DeclarationError("; ".join(map(str, faults)))

@@ -14,7 +14,7 @@ from carom.ecs.component import Resource
 from carom.ecs.errors import DeclarationError, did_you_mean
 from carom.systems.bodies import centers_of_mass
 from carom.systems.forces.reach import NOBODY, Reach
-from carom.systems.parameters import WordFault, number_fault, parameter, unknown_keys, vector
+from carom.systems.parameters import WordFault, make_plain, number_fault, parameter, unknown_keys, vector
 from carom.systems.progress import Progress
 from carom.systems.registry import Keyed
 
@@ -38,9 +38,7 @@ class Law(Keyed, registry=LAWS, kinds="force laws"):
         faults = [(one.name, number_fault(one.metadata, getattr(self, one.name))) for one in stated]
         if any(fault for _, fault in faults):
             raise DeclarationError("; ".join(f"{self.key}.{name}: {fault}" for name, fault in faults if fault))
-        for one in stated:
-            value = np.asarray(getattr(self, one.name), np.float64).tolist()
-            object.__setattr__(self, one.name, tuple(value) if isinstance(value, list) else value)
+        make_plain(self, (one.name for one in stated))
 
     @property
     def steady(self) -> bool:

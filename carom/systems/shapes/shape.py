@@ -16,7 +16,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.errors import DeclarationError
 from carom.systems.kernels.submersion import FOUND
-from carom.systems.parameters import number_fault, parameter, words_of
+from carom.systems.parameters import make_plain, number_fault, parameter, words_of
 from carom.systems.registry import Keyed, enter
 
 __all__ = ["BY_NUMBER", "NO_AXES", "SHAPES", "Bounds", "MassProperties", "Shape", "Surface", "parameter"]
@@ -86,9 +86,7 @@ class Shape(Keyed, ABC, registry=SHAPES, kinds="shapes"):
         faults = self.faults()
         if faults:
             raise DeclarationError("; ".join(f"{self.key}.{name}: {fault}" for name, fault in faults))
-        for field in self.parameters():
-            value = np.asarray(getattr(self, field.name), np.float64).tolist()
-            object.__setattr__(self, field.name, tuple(value) if isinstance(value, list) else value)
+        make_plain(self, (field.name for field in self.parameters()))
         if self.parameters() and self.solid and not self.static:
             self._refuse_volume()
 
