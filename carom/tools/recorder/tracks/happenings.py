@@ -13,7 +13,7 @@ from carom.ecs.relations.enter import Enter, Exit
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.joint_break import JointBreak
 from carom.ecs.relations.touching import ContactBegin, ContactEnd
-from carom.systems.settings import Settings, time_of
+from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.tools.recorder.layout import Layout
 from carom.tools.recorder.stream import TIME, Stamp, Stream
@@ -81,37 +81,38 @@ class Happenings(Track):
 
     def _tell_pairs(self, world: World, stamp: Stamp) -> None:
         """Tell of impacts first, which say that a pair begins to touch."""
-        impact, begin, end = world[Impact], world[ContactBegin], world[ContactEnd]
-        quiet = np.nonzero(begin.time[: begin.count] == time_of(world))[0]
-        tables = (impact, slice(0, impact.count)), (begin, quiet), (end, slice(0, end.count))
-        a, b, time = (np.concatenate([getattr(table, of)[rows] for table, rows in tables]) for of in ("a", "b", "time"))
-        rows = self._kept(world, a, b)
-        told = rows[:MOST_LINES]
-        if not len(told):
-            return
-        names, times = self._told(world, np.concatenate([a[told], b[told]])), time[told].tolist()
-        one, other = names[: len(told)], names[len(told) :]
-        struck, touch = np.searchsorted(told, (impact.count, impact.count + len(quiet))).tolist()
-        speeds, impulses = (values[told[:struck]].tolist() for values in (impact.speed, impact.impulse))
-        loud = world[Settings].hit_speed
-        levels = ["INFO" if speed >= loud else "DEBUG" for speed in speeds]
-        strikes = slice(0, struck)
-        self._tell(stamp.frame, times[strikes], levels, STRIKE, one[strikes], other[strikes], speeds, impulses)
-        for words, part in ((TOUCH, slice(struck, touch)), (PART, slice(touch, len(told)))):
-            self._tell(stamp.frame, times[part], ["DEBUG"] * len(times[part]), words, one[part], other[part])
-        if len(rows) > len(told):
-            self._tell(stamp.frame, [stamp.time], ["DEBUG"], MORE, [len(rows) - len(told)])
+        left, more = MOST_LINES, 0
+        for table, words in ((world[Impact], STRIKE), (world[ContactBegin], TOUCH), (world[ContactEnd], PART)):
+            if not table.count:
+                continue
+            rows = self._kept(world, table.a[: table.count], table.b[: table.count])
+            if isinstance(table, ContactBegin):  # without an impact, in which case it is at the end of the step
+                rows = rows[table.time[rows] == stamp.time]
+            told = rows[:left]
+            left, more = left - len(told), more + len(rows) - len(told)
+            if not len(told):
+                continue
+            names = self._told(world, table.a[told].tolist() + table.b[told].tolist())
+            values: list[list[Any]] = [names[: len(told)], names[len(told) :]]
+            levels = ["DEBUG"] * len(told)
+            if isinstance(table, Impact):
+                speeds, loud = table.speed[told].tolist(), world[Settings].hit_speed
+                values += speeds, table.impulse[told].tolist()
+                levels = ["INFO" if speed >= loud else "DEBUG" for speed in speeds]
+            self._tell(stamp.frame, table.time[told].tolist(), levels, words, *values)
+        if more:
+            self._tell(stamp.frame, [stamp.time], ["DEBUG"], MORE, [more])
 
-    def _told(self, world: World, entities: Integers) -> list[str]:
+    def _told(self, world: World, entities: list[int]) -> list[str]:
         """Return names; as soon as nobody comes or goes those of all are asked for at once."""
         if self._structure != world.structure:
             self._structure, self._names = world.structure, {}
-            return world.names_told(entities)
+            return world.names_told(np.array(entities))
         if not self._names:
             everybody = world.handles()
             self._names = dict(zip(everybody.tolist(), world.names_told(everybody), strict=True))
         names = self._names
-        return [names[handle] if handle in names else world.name(handle) for handle in entities.tolist()]
+        return [names[handle] if handle in names else world.name(handle) for handle in entities]
 
     def _kept(self, world: World, a: Integers, b: Integers) -> Integers:
         """Return the rows of a table of pairs in which somebody is chosen."""
