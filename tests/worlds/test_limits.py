@@ -207,3 +207,22 @@ def test_a_ring_starts_within_a_few_turns() -> None:
     with pytest.raises(WorldError) as told:
         load_text("carom: 1\nentities: [{name: a, ring: {count: 2, radius: 1, start: -3e9}}]\n", "w.yaml")
     assert str(told.value) == "w.yaml:2:50: entities.0.ring.start: must be at least -1e+06 rad; received -3000000000.0"
+
+
+def test_who_carries_himself_is_held_by_nobody_for_ever() -> None:
+    """A joint looks for the body that carries whom it holds; a circle beside another fault ends that search."""
+    entities = [
+        "{name: a, parent: {entity: b}, transform: {}}",
+        "{name: b, parent: {entity: a}, transform: {}}",
+        "{name: c, body: {mass: 1}}",
+        "{name: pin, joint: {ball: {a: a, b: c, at: [0, 0, 0]}}}",
+    ]
+    circle = f"carom: 1\nentities: [{', '.join(entities)}]\n"
+    with pytest.raises(WorldError) as told:
+        load_text(f"{circle}seed: x\n", "w.yaml")
+    assert str(told.value) == "w.yaml:3:1: seed: must be a whole number; received 'x'; accepted: 0 or more"
+    with pytest.raises(WorldError) as told:
+        load_text(circle, "w.yaml")
+    assert str(told.value) == (
+        "w.yaml:2:1: entities: entities carry each other in a circle: 'a', 'b'; detach one from its parent"
+    )

@@ -48,8 +48,9 @@ def find_held(world: World, whom: Any) -> Held | WordFault:
     bodies, carried, placed = (world.table(kind).present for kind in (RigidBody, Parent, Transform))
     if not placed[row]:
         return WordFault((), f"'{world.name(world.entity(row))}' is at no place; hold what has a transform")
-    carrier = row
-    while carried[carrier] and not bodies[carrier]:
+    carrier, passed = row, set[int]()
+    while carried[carrier] and not bodies[carrier] and carrier not in passed:  # a circle is told of when it is placed
+        passed.add(carrier)
         carrier = world.row(int(world[Parent].entity[carrier]))
     row = carrier if bodies[carrier] else row
     inverse_mass = float(world[RigidBody].inverse_mass[row]) if bodies[row] else 0.0
