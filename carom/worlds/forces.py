@@ -11,7 +11,7 @@ from carom.systems.layers import Layers
 from carom.systems.parameters import WordFault
 from carom.systems.simulation import Simulation
 from carom.worlds.errors import WordError
-from carom.worlds.names import matching
+from carom.worlds.names import matching, whole_of_copy
 from carom.worlds.source import Source
 
 
@@ -32,6 +32,8 @@ def add_forces(source: Source, simulation: Simulation, forces: list[Any]) -> Non
             try:
                 found += matching(pattern, names)
             except WordError as fault:
+                if whole_of_copy(pattern) in _brought(source):
+                    fault.hint = "it comes by an event; state its layer in layers instead"
                 source.report_value(("forces", index, "entities", number), fault)
         ((key, parameters),) = stated.items()
         entities = None if patterns is None else [simulation.world.find(name) for name in found]
@@ -43,3 +45,10 @@ def add_forces(source: Source, simulation: Simulation, forces: list[Any]) -> Non
             simulation.world[Forces].add(LAWS[key](**parameters), reach)
         except DeclarationError as fault:
             source.report(("forces", index, key), str(fault))
+
+
+def _brought(source: Source) -> set[str]:
+    """Return the names of whom events bring."""
+    events = source.data.get("events")
+    spawned = [event.get("spawn") for event in (events if isinstance(events, list) else ()) if isinstance(event, dict)]
+    return {str(words["name"]) for words in spawned if isinstance(words, dict) and "name" in words}

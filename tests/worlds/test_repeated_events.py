@@ -103,3 +103,13 @@ def test_check_tells_of_times_after_the_end() -> None:
     """Of the event that has them, once."""
     told = lint(load_text(f"{HEAD}{RAIN}  - {{at: 0.5 s, every: 0.2 s, times: 5, despawn: [rain]}}\n", "w"))
     assert told == ["w:8:6: events.1.at: comes after the end of the run, 1 s"]
+
+
+def test_a_force_on_who_comes_is_told_to_go_by_layers() -> None:
+    """Forces look for names at the start; layers are those of whoever comes."""
+    with pytest.raises(WorldError) as caught:
+        load_text(f"{HEAD}{RAIN}forces: [{{wind: {{velocity: [1, 0, 0]}}, entities: ['rain[1,0]', ran]}}]\n", "w")
+    assert str(caught.value).split("\n") == [
+        "w:8:51: forces.0.entities.0: unknown entity; received 'rain[1,0]'; accepted: ball; it comes by an event; state its layer in layers instead",
+        "w:8:64: forces.0.entities.1: unknown entity; received 'ran'; accepted: ball",
+    ]
