@@ -22,7 +22,7 @@ from carom.tools.recording import Recording
 FRAMES, DT, SEED = 12, 1 / 60, 3
 PUSHED_FROM = 0.1  # s, when the whirlwind ends
 BOX = {"size": (2.0, 1.0, 1.0), "position": (0.0, 5.0, 0.0)}
-LOWER, UPPER = (-3.0, -1.0, -2.5), (4.0, 6.0, 1.0)  # of what is there at the start
+LOWER, UPPER = (-4.75, -2.75, -3.375), (5.75, 7.75, 1.875)  # a quarter more than what is there at the start, each way
 GUST, GUST_TIME, DRAG = 0.5, 0.8, 0.25
 
 
@@ -135,18 +135,18 @@ def test_drags_push_who_is_at_rest_in_a_medium(table: Any) -> None:
 
 
 def test_points_fill_the_region_of_a_law_or_the_world(table: Any) -> None:
-    """Six along the longest edge, evenly, those of a sphere within it; what flies nowhere, such as wings, has none."""
+    """Nine along the longest edge, evenly, those of a sphere within it; what flies nowhere, such as wings, has none."""
     point, _, _ = told(table, "wind 2")
-    assert len(point) == 6 * 6 * 3
-    for axis, count in enumerate((6, 6, 3)):
+    assert len(point) == 9 * 9 * 4
+    for axis, count in enumerate((9, 9, 4)):
         half = 0.5 * (UPPER[axis] - LOWER[axis]) / count
         middles = np.linspace(LOWER[axis] + half, UPPER[axis] - half, count)
         assert np.unique(point[:, axis]) == pytest.approx(middles, rel=1e-6)
     point, _, _ = told(table, "wind")
-    assert np.ptp(point, axis=0) == pytest.approx((2.0 * 5 / 6, 1.0 * 2 / 3, 1.0 * 2 / 3))
+    assert np.ptp(point, axis=0) == pytest.approx((2.0 * 8 / 9, 1.0 * 3 / 4, 1.0 * 3 / 4))
     point, _, _ = told(table, "constant push")
     assert np.linalg.norm(point, axis=1).max() <= 2.0
-    assert len(point) > 0.4 * 6**3  # pi / 6 of a cube
+    assert len(point) > 0.4 * 9**3  # pi / 6 of a cube
     assert "lift" not in table["field"].to_list()
 
 
@@ -190,8 +190,8 @@ def test_arrows_point_along_fields_and_are_cut(path: Path, table: Any) -> None:
     arrows = series["/world/fields", "Arrows3D:vectors"].at(FRAMES)[1][names == "gravity well"]
     _, force, _ = told(table, "gravity well")
     lengths, sizes = np.linalg.norm(arrows, axis=1), np.linalg.norm(force, axis=1)
-    assert np.median(lengths) == pytest.approx(0.6 * 7.0 / 6, rel=1e-6)
-    assert lengths.max() == pytest.approx(1.2 * 7.0 / 6, rel=1e-6)
+    assert np.median(lengths) == pytest.approx(0.6 * 10.5 / 9, rel=1e-6)
+    assert lengths.max() == pytest.approx(1.2 * 10.5 / 9, rel=1e-6)
     assert arrows / lengths[:, None] == pytest.approx(force / sizes[:, None], abs=1e-6)
 
 

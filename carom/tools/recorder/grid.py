@@ -10,9 +10,10 @@ from carom.ecs import Collider, Transform, World
 from carom.ecs.column import Floats
 from carom.systems.compound import bounding_radii
 
-ACROSS = 6  # points along the longest edge
+ACROSS = 9  # points along the longest edge
 MOST = ACROSS**3
 FLATTEST = 0.5  # of the longest edge: so that there is something to see around what lies flat
+AROUND = 0.25  # of the box around all who are there, which is shown on each side of it
 
 
 class Grid(NamedTuple):
@@ -33,7 +34,7 @@ def grid(lower: Floats, upper: Floats) -> Grid:
 
 
 def extent(world: World) -> tuple[Floats, Floats]:
-    """Return the corners (3,) in m of a box around all who are somewhere and have an end; nobody fills one of 1 m."""
+    """Return the corners (3,) in m of a box well around all who are somewhere and have an end; of 1 m around nobody."""
     rows = world.row_numbers(Transform)
     position, reach = world[Transform].position[rows], np.zeros(len(rows))
     touched = world.table(Collider).present[rows]
@@ -42,4 +43,5 @@ def extent(world: World) -> tuple[Floats, Floats]:
     if not len(position):
         return np.full(3, -0.5), np.full(3, 0.5)
     lower, upper = (position - reach).min(axis=0), (position + reach).max(axis=0)
-    return (lower, upper) if (upper > lower).any() else (lower - 0.5, upper + 0.5)
+    more = AROUND * (upper - lower) if (upper > lower).any() else 0.5
+    return lower - more, upper + more
