@@ -11,6 +11,7 @@ from carom.ecs import Collider, Material, Visual, World
 from carom.ecs.column import Floats
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial import quaternion
+from carom.systems.constants import FARTHEST
 from carom.systems.layers import EVERYTHING, Layers
 from carom.systems.materials import opaque
 from carom.systems.shapes import SHAPES, Shape
@@ -29,7 +30,11 @@ def collider_of(world: World, words: Words, shapes: Sequence[Shape]) -> Collider
     layer = words.get("layer", "default")
     mask = layers.mask(words["collides_with"]) if "collides_with" in words else layers.masks.get(layer, EVERYTHING)
     values = _shape_columns(world, shapes)
-    center, half, radius = _offset_bounds(stacked([shape.bounds() for shape in shapes]), words)
+    bounds = stacked([shape.bounds() for shape in shapes])
+    reach = float(np.max(np.asarray(bounds.half) + np.asarray(bounds.radius)[..., None], initial=0.0))
+    if FARTHEST < reach < np.inf:
+        raise DeclarationError(f"collider: reaches {reach:.3g} m, farther than detection can tell, {FARTHEST:g} m")
+    center, half, radius = _offset_bounds(bounds, words)
     values |= {key: words[key] for key in COLLIDER_COLUMNS if key in words}
     values |= {"layer": layers.bit(layer), "mask": mask}
     values |= {"bound_center": center, "bound_half": half, "bound_radius": radius}

@@ -226,3 +226,17 @@ def test_who_carries_himself_is_held_by_nobody_for_ever() -> None:
     assert str(told.value) == (
         "w.yaml:2:1: entities: entities carry each other in a circle: 'a', 'b'; detach one from its parent"
     )
+
+
+@pytest.mark.parametrize(
+    "shape", ["cylinder: {radius: 0.4, length: 18446744073709551616}", "sphere: {radius: 9.223372e+18}"]
+)
+def test_a_collider_ends_somewhere(shape: str) -> None:
+    """FCL would look for the contacts of larger ones without end; planes have none, and what is only seen may be vast."""
+    with pytest.raises(WorldError) as told:
+        load_text(
+            f"carom: 1\nentities: [{{name: a, collider: {{{shape}}}}}, {{name: b, visual: {{{shape}}}}}]\n", "w.yaml"
+        )
+    assert str(told.value) == (
+        "w.yaml:2:22: entities.0.collider: reaches 9.22e+18 m, farther than detection can tell, 1e+12 m"
+    )

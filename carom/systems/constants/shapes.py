@@ -39,3 +39,7 @@ LEAST_FCL_RADIUS = 1e-9
 # Most triangles of a mesh or height field. Reading, joining and weighing one takes 6 to 11 us for each, and FCL 10 us
 # more to build its tree: this many load in 20 s. Larger ones look like a program that hangs.
 MOST_TRIANGLES = 1_000_000
+
+# m. How far a collider may reach, but a plane: there doubles are 0.1 mm apart. Larger: FCL looks without end for where
+# a bar of 1e19 m touches a box. Smaller: refuses what stands for a planet.
+FARTHEST = 1e12
