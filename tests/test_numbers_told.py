@@ -7,10 +7,11 @@ import re
 from pages import ROOT
 
 from carom.ecs import Material
-from carom.systems.constants import MOST_BORN, MOST_TRIANGLES
+from carom.systems.constants import FARTHEST, MOST_BORN, MOST_TRIANGLES
 from carom.systems.settings import MOST_SUBSTEPS, Settings
 from carom.worlds import amounts, expression, include, parsing, reader, run, unfold, values, variables
 
+NUMBER = r"\d{1,3}(?:,\d{3})*(?:e\d+)?"
 LIMITS = {
     "a file, and all that it includes": [reader.MOST_CHARACTERS],
     "nesting of lists and mappings": [reader.DEEPEST],
@@ -23,6 +24,7 @@ LIMITS = {
     "name of a file beside the world": [values.LONGEST_FILE_NAME],
     "triangles of a mesh or a height field": [MOST_TRIANGLES],
     "particles that an emitter brings forth in a step": [MOST_BORN],
+    "reach of a collider, but a plane": [FARTHEST],
     "substeps of a step; steps of a run": [MOST_SUBSTEPS, run.MOST_FRAMES],
 }
 
@@ -31,7 +33,7 @@ def test_the_limits_of_worlds_are_those_that_hold() -> None:
     """Row by row of the table of docs/authoring.md."""
     (section,) = re.findall(r"^## Limits\n(.*?)^## ", (ROOT / "docs/authoring.md").read_text("utf-8"), re.M | re.S)
     rows = re.findall(r"^\| (\w.*?) \| (.*) \|$", section, re.MULTILINE)
-    told = {what: [int(n.replace(",", "")) for n in re.findall(r"\d{1,3}(?:,\d{3})*", most)] for what, most in rows}
+    told = {what: [float(n.replace(",", "")) for n in re.findall(NUMBER, most)] for what, most in rows}
     assert told == LIMITS
 
 
