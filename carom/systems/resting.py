@@ -106,11 +106,13 @@ class Resting(Resource):
         """Return the rows of bodies that are awake and have contacts or joints: the only ones that are packed."""
         awake, linkage, of = world[Awake].now(world), world[Linkage], self.bound_of
         if of is None or of[0] is not awake or of[1] is not linkage.index_a:
-            self.bound, self.bound_of = np.empty_like(awake), (awake, linkage.index_a)
-            self.bound = self.bound[: find_bound(
+            found, self.bound_of = np.empty_like(awake), (awake, linkage.index_a)
+            count = find_bound(
                 awake, len(self.bodies) - 1, self.groups, self.index_a, self.index_b,
-                linkage.groups, linkage.index_a, linkage.index_b, self.bound,
-            )]  # fmt: skip
+                linkage.groups, linkage.index_a, linkage.index_b, found,
+            )  # fmt: skip
+            if not np.array_equal(found[:count], self.bound):  # else they may be packed already
+                self.bound = found[:count]
         return self.bound
 
     def pack(self, world: World) -> None:
