@@ -54,7 +54,7 @@ def _pair_term(text: str, function: str, pair: Cast) -> Term:
     unit, between = PAIRS[function]
 
     def read(world: World) -> Floats:
-        both = pair.every(world).all()
+        both = pair.every(world)[0]
         return np.array([[between(world, pair.rows(world)) if both else np.nan]])
 
     return Term(text, unit, 1, (text,), read, pair, pair.every)

@@ -23,7 +23,7 @@ class Cast:
         self.known: set[int] = set()  # handles
         self._seen = (-1, -1)
         self._rows: Integers = np.zeros(0, np.int64)
-        self._there: Booleans = np.zeros(0, np.bool_)
+        self._there, self._every, self._some = (np.zeros(0, np.bool_) for _ in range(3))
         self.rows(world)
 
     def rows(self, world: World) -> Integers:
@@ -34,6 +34,7 @@ class Cast:
             self._there = world.slots.live(found)
             self._rows = np.full(len(found), NOBODY)
             self._rows[self._there] = world.slots.rows(found[self._there])
+            self._every, self._some = np.array([self._there.all()]), np.array([self._there.any()])
             self.known.update(found[self._there].tolist())
             self._seen = (world.structure, world.restored)
         return self._rows
@@ -45,16 +46,18 @@ class Cast:
 
     def every(self, world: World) -> Booleans:
         """Tell whether all are there (1,)."""
-        return np.array([self.each(world).all()])
+        self.rows(world)
+        return self._every
 
     def some(self, world: World) -> Booleans:
         """Tell whether anybody is there (1,)."""
-        return np.array([self.each(world).any()])
+        self.rows(world)
+        return self._some
 
     def values(self, world: World, size: int, measure: Callable[[Integers], Floats]) -> Floats:
         """Return what ``measure`` says of rows (n, size), no number of who is not there."""
         rows, there = self.rows(world), self._there
-        if there.all():
+        if self._every[0]:
             return measure(rows)
         values = np.full((len(rows), size), np.nan)
         if there.any():

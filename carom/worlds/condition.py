@@ -68,7 +68,9 @@ class Condition:
         """Return what holds now."""
         there = reduce(np.logical_and, (term.there(world) for term in self.terms))
         holds, margin = self.compare(world)
-        return Verdict(np.broadcast_to(there, holds.shape), holds, margin)
+        if there.shape != holds.shape:
+            there = np.broadcast_to(there, holds.shape)
+        return Verdict(there, holds, margin)
 
     def of(self, index: int) -> tuple[str, ...]:
         """Return whom its terms are of where it speaks of one of the entities."""
