@@ -16,7 +16,7 @@ from carom.tools.look import Look, look_of
 from carom.tools.moments import Moments, every
 from carom.tools.painter import Painter
 from carom.tools.recorder.blueprint import default_camera
-from carom.tools.rigs import Rig
+from carom.tools.rigs import AbsentError, Rig
 from carom.worlds.builder import LoadedWorld
 
 
@@ -97,7 +97,7 @@ class Photographer:
         """Return the camera at a time, where it was last once whom it follows or looks at is gone."""
         try:
             self._last = self._shot.camera(self._simulation.world, time, poses)
-        except CaromError:
+        except AbsentError:
             if self._last is None:
                 raise
         return self._last

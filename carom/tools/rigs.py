@@ -26,6 +26,10 @@ from carom.worlds.source import Source
 from carom.worlds.writing.columns import plain
 
 
+class AbsentError(CaromError):
+    """Somebody whom a camera follows or looks at is gone."""
+
+
 @dataclass(frozen=True)
 class Rig:
     """A camera in the words of a world file, its ``name`` there, and the direction that is up in that world."""
@@ -116,7 +120,7 @@ class Rig:
         except EntityError as fault:
             if (coming := pose_of_comer(name, world)) is not None:
                 return coming
-            raise CaromError(f"camera {self.name}: {fault}") from None
+            raise AbsentError(f"camera {self.name}: {fault}") from None
         return poses.position[row], poses.rotation[row]
 
     def _upright(self, sight: Floats, toward: Floats) -> Vector:

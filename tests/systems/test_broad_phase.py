@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from broad_pairs import agree, crowd, move, pairs_now
+from broad_pairs import DT, agree, crowd, move, pairs_now
 
 from carom.ecs import Motion, Transform
 from carom.systems.detection.broad import BroadPhase
@@ -54,6 +54,20 @@ def test_one_large_body_does_not_spoil_the_grid() -> None:
     index = simulation.world[BroadPhase].index
     assert index.cell[1].max() < 1.2
     assert len(index.grid_rows) >= 400
+
+
+def test_who_flies_is_looked_up_anew_only_every_few_steps() -> None:
+    """Bounds of the pair cache reach ahead for four steps of 0.1 m; the pairs are those of the moment."""
+    simulation = Simulation(dt=DT, gravity=(0.0, 0.0, 0.0))
+    places = np.stack(np.meshgrid(np.arange(0.0, 9.0, 1.5), [0.0], np.arange(0.0, 9.0, 1.5)), axis=-1).reshape(-1, 3)
+    simulation.add_many(places, collider={"sphere": {"radius": 0.5}}, body={}, motion={"linear": (6.0, 0.0, 0.0)})
+    simulation.add(collider={"box": {"size": (1.0, 1.0, 20.0)}}, transform={"position": (16.0, 0.0, 4.0)})
+    seen = set()
+    for _ in range(24):
+        agree(simulation.world)
+        seen.add(simulation.world[BroadPhase].fat_lower[0].tobytes())
+        move(simulation, slice(0, len(places)), np.tile([6.0 * DT, 0.0, 0.0], (len(places), 1)))
+    assert len(seen) <= 24 // 3
 
 
 def test_all_in_one_place() -> None:

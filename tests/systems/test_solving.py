@@ -151,3 +151,22 @@ def test_levels_hold_what_rests() -> None:
     assert len(upper) >= 2
     assert sum(level.manifolds for level in levels) == 4
     assert sum(level.points for level in levels) == tower.world[Contact].count
+
+
+def test_only_who_has_contacts_or_joints_is_packed() -> None:
+    """Who lies and who hangs, not who flies; and who lands from then on."""
+    simulation = on_the_ground(collider={"box": {"size": (1.0, 1.0, 1.0)}})
+    ball: dict[str, Any] = {"body": {}, "collider": {"sphere": {"radius": 0.1}}}
+    hung = simulation.add(transform={"position": (5.0, 5.0, 0.0)}, **ball)
+    simulation.add(joint={"ball": {"b": int(hung), "at": (5.0, 6.0, 0.0)}})
+    lands = simulation.add(transform={"position": (9.0, 0.3, 0.0)}, **ball)
+    simulation.add(transform={"position": (13.0, 9.0, 0.0)}, **ball)
+    world = simulation.world
+
+    def packed() -> list[int]:
+        return world[resting.Resting].rows(world).tolist()
+
+    simulation.step()
+    assert packed() == [world.row(world.find("body")), world.row(hung)]
+    simulation.step(30)
+    assert packed() == [world.row(world.find("body")), world.row(hung), world.row(lands)]

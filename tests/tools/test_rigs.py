@@ -202,6 +202,16 @@ def test_a_film_goes_on_where_its_camera_was_when_whom_it_follows_is_gone() -> N
     assert np.array_equal(pictures[2], pictures[3])
 
 
+def test_a_film_ends_with_a_fault_where_its_target_reaches_the_camera() -> None:
+    """Only who is gone leaves the camera where it was."""
+    quarters = WORLD.replace("linear: [2, 0, 0]", "linear: [2.5, 0, 0]")  # a quarter of a metre a step, exactly
+    loaded = load_text(f"{quarters}cameras: {{main: {{position: [2, 2, 3], target: ball}}}}\n")
+    shot = replace(shot_of(loaded), width=64, height=48)
+    with pytest.raises(CaromError) as caught:
+        list(frames(loaded.simulation, shot, (0.0, 0.4)))
+    assert str(caught.value) == "camera main: it stands where it looks at, (2.0, 2.0, 3.0)"
+
+
 def test_python_states_cameras_in_the_same_words() -> None:
     """Tuples and arrays as well; the camera is that of a file that says so, and faults are told in whole sentences."""
     loaded = world("{keyframes: [{at: 0, position: [0, 0, 9], target: ball}, {at: 1, target: stone, fov: 20 deg}]}")

@@ -21,7 +21,7 @@ class BoxRegion(Stated):
 
     def contains(self, points: Floats) -> Booleans:
         """Tell which points (n, 3) in m are inside."""
-        return np.asarray((np.abs(points - self.position) <= 0.5 * np.array(self.size)).all(axis=1))
+        return np.asarray((np.abs(points - self.position) <= self.half).all(axis=1))
 
     @property
     def half(self) -> Floats:
