@@ -96,7 +96,7 @@ class Resting(Resource):
         if len(self.lanes) < rows:
             self.lanes = aligned(2 * rows, WIDTH)
         fill_groups(
-            self.count, self.groups, self.start, self.group_of, self.lane_of, self.row, self.points,
+            self.groups, self.first, self.size, self.row, self.points,
             contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.kind,
             contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
@@ -239,7 +239,7 @@ class Resting(Resource):
     def hand_over(self, contact: Contact) -> None:
         """Write the impulses of the resting stage into the contact table, those of the step added to what is there."""
         hand_over(
-            self.count, self.start, self.group_of, self.lane_of, self.row, self.lanes,
+            self.groups, self.first, self.size, self.row, self.lanes,
             contact.impulse, contact.friction_impulse,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling,
         )  # fmt: skip

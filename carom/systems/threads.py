@@ -16,7 +16,7 @@ from carom.ecs.component import Resource
 from carom.systems.settings import Settings
 
 Result = TypeVar("Result")
-FEWEST = 64  # groups of eight below which handing some of them over takes longer than it saves
+FEWEST = 2048  # groups of eight contacts or bodies below which handing some of them over takes longer than it saves
 
 
 class Threads(Resource):
@@ -40,16 +40,19 @@ def processors() -> int:
     return os.cpu_count() or 1
 
 
-def parts_for(world: World, count: int) -> int:
+def parts_for(world: World, count: int, fewest: int | None = None) -> int:
     """Return how many threads share ``count`` groups of eight; what they compute does not depend on it."""
-    if count < FEWEST or numba.config.DISABLE_JIT:
+    if count < (FEWEST if fewest is None else fewest) or numba.config.DISABLE_JIT:
         return 1
     return min(world[Settings].threads, processors())
 
 
-def share_out(world: World, count: int, run: Callable[[int, int], Result]) -> list[Result]:
-    """Run ``run(begin, end)`` over slices of ``count`` groups of eight that do not touch each other, a thread each."""
-    parts = parts_for(world, count)
+def share_out(world: World, count: int, run: Callable[[int, int], Result], fewest: int | None = None) -> list[Result]:
+    """Run ``run(begin, end)`` over slices of ``count`` groups of eight that do not touch each other, a thread each.
+
+    Fewer than ``fewest``, of contacts or bodies `FEWEST`, are not worth it.
+    """
+    parts = parts_for(world, count, fewest)
     if parts == 1:
         return [run(0, count)]
     return world[Threads].run(parts, lambda part: run(count * part // parts, count * (part + 1) // parts))

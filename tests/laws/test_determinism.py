@@ -13,7 +13,6 @@ import pytest
 from carom.ecs import state_hash
 from carom.systems.resting import Resting
 from carom.systems.simulation import Simulation
-from carom.systems.threads import FEWEST
 
 TESTS = Path(__file__).parents[1]
 FRAMES = 240
@@ -112,6 +111,9 @@ def test_kernels_do_the_same_without_the_jit(here: list[str]) -> None:
     assert plain == [line for line in here if int(line.split()[1]) <= frames] + hashes(frames, "shapes")
 
 
+FEWEST = 64  # groups of eight that are shared out here, fewer than pays
+
+
 def crowd(threads: int) -> list[str]:
     """Return the hashes of 8 steps of 343 cubes and balls that fall on each other, shared by so many threads."""
     simulation = Simulation(threads=threads)
@@ -134,6 +136,7 @@ def crowd(threads: int) -> list[str]:
 def test_threads_share_the_work_and_not_a_bit_changes(monkeypatch: pytest.MonkeyPatch) -> None:
     """One and two threads, four, and five from the fourth step on, lead a crowd the same way, whatever is here."""
     monkeypatch.setattr("carom.systems.threads.processors", lambda: 8)
+    monkeypatch.setattr("carom.systems.threads.FEWEST", FEWEST)
     alone = crowd(1)
     assert crowd(2) == alone
     assert crowd(4) == alone

@@ -5,6 +5,14 @@
 # Smaller: more detections in the middle of a step, twice as many in falling piles.
 REACH_SLACK, REACH_STIRRED = 3e-3, 0.125
 
+# Bodies that may leave their reach at once and are asked one by one whether they meet somebody new: if not, as most,
+# the detection of the step still holds. More: asked in vain where many are struck, by an explosion.
+MOST_WIDENED = 16
+
+# Factor on the way of such a body until the end of the step, for its new reach. Larger: more of them meet somebody who
+# is far off. Smaller: rounding has them leave at once again.
+REACH_WIDENED = 1.02
+
 # Factor on the motion foreseen within a step. Below 1 a falling body leaves its bounds in every step.
 REACH_FACTOR = 1.25
 

@@ -15,6 +15,7 @@ from carom.systems.settings import Settings
 from carom.systems.threads import Threads, share_out
 
 NEWTON = 6.67430e-11  # m3/(kg s2), CODATA 2018
+FEWEST_LEAVES = 64  # of eight bodies in the tree, below which handing some of them to other threads does not pay
 
 
 @dataclass(frozen=True)
@@ -48,4 +49,4 @@ def apply_mutual_gravitation(world: World, dt: float) -> None:
     for law, rows in world[Forces].acting(MutualGravitation, world):
         mass, center = world[RigidBody].mass[rows], centers_of_mass(world, rows)
         words = law.constant, law.softening, law.opening
-        world[Force].force[rows] += attract(mass, center, *words, partial(share_out, world))[0]
+        world[Force].force[rows] += attract(mass, center, *words, partial(share_out, world, fewest=FEWEST_LEAVES))[0]

@@ -87,7 +87,7 @@ def group_manifolds(
     for k in range(1, len(begin)):
         begin[k] += begin[k - 1]
     order = np.empty(count, np.int64)
-    for m in shuffled:
+    for m in range(count):  # neighbours next to each other, which no result depends on, but memory does
         k = (stands[m] * levels + level[m] + 1) * MANIFOLD_POINTS - (start[m + 1] - start[m])
         order[begin[k]] = m
         begin[k] += 1
@@ -155,7 +155,7 @@ def is_moving(i, inverse_mass):
 
 @kernel("lanes")
 def fill_groups(
-    count, groups, start, group_of, lane_of, row, points, normal, depth, offset_a, offset_b, kind,
+    groups, first, size, row, points, normal, depth, offset_a, offset_b, kind,
     friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
 ):  # fmt: skip
     """Write what contacts hold into the lanes of their groups."""
@@ -168,29 +168,41 @@ def fill_groups(
             for k in range(POINT_FILLED):
                 store(rows, q + k, spread(0.0))
             store(rows, q + DEPTH, spread(ABSENT))
-    for m in range(count):
-        r, lane, c = row[group_of[m]], lane_of[m], start[m]
-        write_normal(r, lane, normal[c, 0], normal[c, 1], normal[c, 2], lanes)
-        lanes[r + FRICTION, lane], lanes[r + RESTITUTION, lane] = friction[c], restitution[c]
-        lanes[r + ROLLING, lane], lanes[r + SPINNING, lane] = rolling[c], spinning[c]
-        lanes[r + BALL, lane], lanes[r + SHARE, lane] = 1.0 if kind[c] >= 0 else 0.0, 1.0 / (start[m + 1] - c)
-        for k in range(3):
-            lanes[r + SURFACE + k, lane] = surface[c, k]
-        fx, fy, fz, wx, wy, wz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        write_points(r, lane, c, start[m + 1] - c, offset_a, offset_b, depth, lanes)
-        for p in range(start[m + 1] - c):
-            lanes[r + MANIFOLD_ROWS + POINT_ROWS * p + WARM, lane] = warm_normal[c + p]
-            fx, fy, fz = fx + warm_friction[c + p, 0], fy + warm_friction[c + p, 1], fz + warm_friction[c + p, 2]
-            wx, wy, wz = wx + warm_rolling[c + p, 0], wy + warm_rolling[c + p, 1], wz + warm_rolling[c + p, 2]
-        for k in range(2):
-            t = r + TANGENT + 3 * k
-            lanes[r + RUB + k, lane] = fx * lanes[t, lane] + fy * lanes[t + 1, lane] + fz * lanes[t + 2, lane]
-        nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
-        along = nx * wx + ny * wy + nz * wz
-        lanes[r + SPUN, lane] = along
-        lanes[r + ROLLED, lane] = wx - along * nx
-        lanes[r + ROLLED + 1, lane] = wy - along * ny
-        lanes[r + ROLLED + 2, lane] = wz - along * nz
+        for lane in range(WIDTH):
+            if first[g, lane] >= 0:
+                fill_lane(
+                    row[g], lane, first[g, lane], size[g, lane], normal, depth, offset_a, offset_b, kind,
+                    friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
+                )  # fmt: skip
+
+
+@woven
+def fill_lane(
+    r, lane, c, count, normal, depth, offset_a, offset_b, kind,
+    friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
+):  # fmt: skip
+    """Write what the ``count`` contacts of a manifold, from c on, hold into its lane."""
+    write_normal(r, lane, normal[c, 0], normal[c, 1], normal[c, 2], lanes)
+    lanes[r + FRICTION, lane], lanes[r + RESTITUTION, lane] = friction[c], restitution[c]
+    lanes[r + ROLLING, lane], lanes[r + SPINNING, lane] = rolling[c], spinning[c]
+    lanes[r + BALL, lane], lanes[r + SHARE, lane] = 1.0 if kind[c] >= 0 else 0.0, 1.0 / count
+    for k in range(3):
+        lanes[r + SURFACE + k, lane] = surface[c, k]
+    fx, fy, fz, wx, wy, wz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    write_points(r, lane, c, count, offset_a, offset_b, depth, lanes)
+    for p in range(count):
+        lanes[r + MANIFOLD_ROWS + POINT_ROWS * p + WARM, lane] = warm_normal[c + p]
+        fx, fy, fz = fx + warm_friction[c + p, 0], fy + warm_friction[c + p, 1], fz + warm_friction[c + p, 2]
+        wx, wy, wz = wx + warm_rolling[c + p, 0], wy + warm_rolling[c + p, 1], wz + warm_rolling[c + p, 2]
+    for k in range(2):
+        t = r + TANGENT + 3 * k
+        lanes[r + RUB + k, lane] = fx * lanes[t, lane] + fy * lanes[t + 1, lane] + fz * lanes[t + 2, lane]
+    nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
+    along = nx * wx + ny * wy + nz * wz
+    lanes[r + SPUN, lane] = along
+    lanes[r + ROLLED, lane] = wx - along * nx
+    lanes[r + ROLLED + 1, lane] = wy - along * ny
+    lanes[r + ROLLED + 2, lane] = wz - along * nz
 
 
 @woven
@@ -223,23 +235,22 @@ def write_points(r, lane, c, count, offset_a, offset_b, depth, lanes):
 
 
 @kernel("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
-def hand_over(
-    count, start, group_of, lane_of, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling
-):
+def hand_over(groups, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling):
     """Write the impulses that the resting stage has found back into the contact table."""
-    for m in range(count):
-        r, lane = row[group_of[m]], lane_of[m]
-        share, spun = lanes[r + SHARE, lane], lanes[r + SPUN, lane]
-        rub, rub_across = share * lanes[r + RUB, lane], share * lanes[r + RUB + 1, lane]
-        for c in range(start[m], start[m + 1]):
-            q = r + MANIFOLD_ROWS + POINT_ROWS * (c - start[m])
-            warm_normal[c] = lanes[q + WARM, lane]
-            impulse[c] += lanes[q + SUM, lane]
-            lanes[q + SUM, lane] = 0.0
+    for g in range(groups):
+        r = row[g]
+        for lane in range(WIDTH):
+            share, spun = lanes[r + SHARE, lane], lanes[r + SPUN, lane]
+            rub, rub_across = share * lanes[r + RUB, lane], share * lanes[r + RUB + 1, lane]
+            for p in range(size[g, lane]):
+                c, q = first[g, lane] + p, r + MANIFOLD_ROWS + POINT_ROWS * p
+                warm_normal[c] = lanes[q + WARM, lane]
+                impulse[c] += lanes[q + SUM, lane]
+                lanes[q + SUM, lane] = 0.0
+                for k in range(3):
+                    t = r + TANGENT + k
+                    warm_friction[c, k] = rub * lanes[t, lane] + rub_across * lanes[t + 3, lane]
+                    friction_impulse[c, k] += share * lanes[r + RUBBED + k, lane]
+                    warm_rolling[c, k] = share * (spun * lanes[r + NORMAL + k, lane] + lanes[r + ROLLED + k, lane])
             for k in range(3):
-                t = r + TANGENT + k
-                warm_friction[c, k] = rub * lanes[t, lane] + rub_across * lanes[t + 3, lane]
-                friction_impulse[c, k] += share * lanes[r + RUBBED + k, lane]
-                warm_rolling[c, k] = share * (spun * lanes[r + NORMAL + k, lane] + lanes[r + ROLLED + k, lane])
-        for k in range(3):
-            lanes[r + RUBBED + k, lane] = 0.0
+                lanes[r + RUBBED + k, lane] = 0.0

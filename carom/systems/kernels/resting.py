@@ -30,7 +30,9 @@ def start_warm(part, parts, gate, levels, level_ends, index_a, index_b, points, 
     """
     lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
     for level in range(levels):
-        for g in range((level_ends[level - 1] if level else 0) + part, level_ends[level], parts):
+        first, last = level_ends[level - 1] if level else 0, level_ends[level]
+        count = last - first
+        for g in range(first + count * part // parts, first + count * (part + 1) // parts):
             if asks[g] != IDLE:
                 press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
         if parts > 1:
@@ -72,7 +74,9 @@ def press_groups(
     scratch = np.empty((SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH))
     for sweep in range(sweeps):
         for level in range(levels):
-            for g in range((level_ends[level - 1] if level else 0) + part, level_ends[level], parts):
+            first, last = level_ends[level - 1] if level else 0, level_ends[level]
+            count = last - first
+            for g in range(first + count * part // parts, first + count * (part + 1) // parts):
                 if asks[g] != IDLE:
                     rate, hardness = soft if g < ends[0] else rigid
                     press(
