@@ -7,6 +7,7 @@ import pytest
 from broad_pairs import DT, agree, crowd, move, pairs_now
 
 from carom.ecs import Motion, Transform
+from carom.ecs.relations.contact import Contact
 from carom.systems.detection.broad import BroadPhase
 from carom.systems.simulation import Simulation
 
@@ -114,3 +115,15 @@ def test_speed_beyond_all_bounds_meets_everyone() -> None:
     with simulation.world.edit(Motion) as motion:
         motion.linear[3] = 1e308
     assert len(agree(simulation.world)) == 20
+
+
+def test_gravel_has_no_contacts_with_all_that_is_near() -> None:
+    """Cubes of 1 cm, their own size apart, find the corners of each on the ground and no neighbours."""
+    simulation = Simulation(sleeping=False)
+    simulation.add(collider={"plane": {}})
+    for k in range(16):
+        place = (0.02 * (k % 4), 0.005, 0.02 * (k // 4))
+        simulation.add(transform={"position": place}, body={}, collider={"box": {"size": (0.01, 0.01, 0.01)}})
+    simulation.step()
+    contact = simulation.world[Contact]
+    assert contact.row_a[: contact.count].tolist() == [0] * 64

@@ -5,6 +5,10 @@
 # Smaller: more detections in the middle of a step, twice as many in falling piles.
 REACH_SLACK, REACH_STIRRED = 3e-3, 0.125
 
+# Part of a body's least radius of gyration beyond which neither makes its bounds reach further. Larger: gravel, which
+# is as small as these lengths, has contacts with all that is near. Smaller: it leaves its reach in every step.
+REACH_SMALL = 0.3
+
 # Bodies that may leave their reach at once and are asked one by one whether they meet somebody new: if not, as most,
 # the detection of the step still holds. More: asked in vain where many are struck, by an explosion.
 MOST_WIDENED = 16

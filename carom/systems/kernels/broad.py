@@ -7,8 +7,8 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import REACH_FACTOR, REACH_SLACK, REACH_STIRRED
-from carom.systems.kernels.kernel import kernel
+from carom.systems.constants import REACH_FACTOR, REACH_SLACK, REACH_SMALL, REACH_STIRRED
+from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.spatial import product, turn
 
 
@@ -20,13 +20,12 @@ def foresee_reach(
     """Say how far each body may travel within ``dt``: its speed and acceleration, or gravity's ``pull`` if greater.
 
     Those that are struck travel farther. Where many move they all are given more: the mean of the ways of all, each up
-    to REACH_STIRRED of its least radius of gyration.
+    to REACH_STIRRED of its least radius of gyration. But small ones are given no more than REACH_SMALL of theirs.
     """
     stirred = 0.0
     for i in rows:
         way = sqrt(linear[i, 0] ** 2 + linear[i, 1] ** 2 + linear[i, 2] ** 2) * dt
-        most = REACH_STIRRED * sqrt(min(inertia[i, 0], inertia[i, 1], inertia[i, 2]) * inverse_mass[i])
-        stirred += way if way < most else most
+        stirred += min(way, REACH_STIRRED * least_gyration(i, inertia, inverse_mass))
     slack = REACH_SLACK + stirred / max(1, len(rows))
     for i in rows:
         ox, oy, oz = turn(
@@ -36,11 +35,19 @@ def foresee_reach(
         detected_center[i, 0], detected_center[i, 1], detected_center[i, 2] = (
             position[i, 0] + ox, position[i, 1] + oy, position[i, 2] + oz,
         )  # fmt: skip
+        small = REACH_SMALL * least_gyration(i, inertia, inverse_mass)
+        own = min(slack, small) if small > 0.0 else slack
         speed, push = 0.0, 0.0
         for k in range(3):
             speed += linear[i, k] * linear[i, k]
             push += last_acceleration[i, k] * last_acceleration[i, k]
-        reach[i] = slack + REACH_FACTOR * (sqrt(speed) + max(pull, sqrt(push)) * dt) * dt
+        reach[i] = own + REACH_FACTOR * (sqrt(speed) + max(pull, sqrt(push)) * dt) * dt
+
+
+@woven
+def least_gyration(i, inertia, inverse_mass):
+    """Return the least radius of gyration of body i about its axes (m); 0 of who is moved by nothing."""
+    return sqrt(min(inertia[i, 0], inertia[i, 1], inertia[i, 2]) * inverse_mass[i])
 
 
 @kernel("pose_position", "pose_rotation", "lower", "upper", "body_row", "moved")
