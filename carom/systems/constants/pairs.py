@@ -13,11 +13,8 @@ REACH_SMALL = 0.3
 # the detection of the step still holds. More: asked in vain where many are struck, by an explosion.
 MOST_WIDENED = 16
 
-# Factor on the way of such a body until the end of the step, for its new reach. Larger: more of them meet somebody who
-# is far off. Smaller: rounding has them leave at once again.
-REACH_WIDENED = 1.02
-
-# Factor on the motion foreseen within a step. Below 1 a falling body leaves its bounds in every step.
+# Factor on the motion foreseen within a step, or in what is left of it. Below 1 a falling body leaves its bounds in
+# every step. Larger: more of those who leave theirs meet somebody new, far off.
 REACH_FACTOR = 1.25
 
 # Part of a bound's smallest half extent by which the pair cache sees it wider. Larger: more pairs are kept in vain, as

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import REACH_WIDENED, ROOT_GAP
+from carom.systems.constants import REACH_FACTOR, ROOT_GAP
 from carom.systems.kernels.kernel import kernel, woven
 
 WELL_WITHIN = 3.001  # a little more than 3, whatever rounding does
@@ -81,7 +81,7 @@ def find_leaving(rows, span, center, detected_center, reach, linear, acceleratio
 def widen_reach(leaving, span, center, linear, acceleration, reach, detected_center):
     """Give bodies the reach that they need for ``span`` seconds as they fly now, around where they are."""
     for i in leaving:
-        reach[i] = REACH_WIDENED * way_within(i, span, linear, acceleration)
+        reach[i] = REACH_FACTOR * way_within(i, span, linear, acceleration)
         for k in range(3):
             detected_center[i, k] = center[i, k]
 
