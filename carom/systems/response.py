@@ -46,7 +46,7 @@ from carom.systems.ties import Ties
     ),
 )  # fmt: skip
 def look_ahead(world: World, dt: float) -> None:
-    """Detect anew, once for all bodies, where one may leave what detection foresaw before the step ends.
+    """Detect anew, once for all bodies, where one may leave what detection foresaw and meet somebody new.
 
     So too where commands have brought or taken entities since: rows may be of others now.
     """
@@ -120,7 +120,7 @@ def hand_impulses_over(world: World, dt: float) -> None:
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:
-    """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""
+    """Fly every body along its arc, reflected at each impact; detect anew where one may meet whom nobody foresaw."""
     contact = world[Contact]
     if contact.count:
         contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0

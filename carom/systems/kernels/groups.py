@@ -87,7 +87,7 @@ def group_manifolds(
     for k in range(1, len(begin)):
         begin[k] += begin[k - 1]
     order = np.empty(count, np.int64)
-    for m in range(count):  # neighbours next to each other, which no result depends on, but memory does
+    for m in range(count):  # within a level in their order: neighbours' bodies are near each other in memory
         k = (stands[m] * levels + level[m] + 1) * MANIFOLD_POINTS - (start[m + 1] - start[m])
         order[begin[k]] = m
         begin[k] += 1
