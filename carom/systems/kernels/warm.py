@@ -54,8 +54,7 @@ def compile_measuring() -> None:
 
     import numpy as np
 
-    from carom.ecs import Collider, Motion
-    from carom.systems.detection.leaving import detection_holds
+    from carom.ecs import Collider
     from carom.systems.detection.narrow import measure_pairs
     from carom.systems.detection.seams import without_seams
     from carom.systems.kernels.broad_pairs import renew_pairs
@@ -81,8 +80,6 @@ def compile_measuring() -> None:
     pairs = np.array([(a, b) for a in rows for b in rows if a < b and b > 1])
     with world.faces(None):
         found = without_seams(world, measure_pairs(world, pairs, np.ones(len(pairs))))
-        world[Motion].linear[:] = 1.0
-        detection_holds(world, 1.0)  # with everybody leaving
     count = len(found.row_a)
     merge_contacts(count, *found[:-1], *found[:-1], *found.room(2 * count))
     room = np.empty((2 * len(pairs), 2), np.int64)
