@@ -26,17 +26,24 @@ IMPULSE, TARGET, STIFF, SCRATCH_ROWS = 0, 1, 2, 3
 def start_warm(part, parts, gate, levels, level_ends, index_a, index_b, points, row, asks, lanes, bodies):
     """Apply the impulses of the substep before.
 
-    One of ``parts`` threads takes every so many groups of a level, and waits at the ``gate`` for the others after it.
+    One of ``parts`` threads takes its share of each level, and waits at the ``gate`` for the others after it.
     """
     lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
     for level in range(levels):
-        first, last = level_ends[level - 1] if level else 0, level_ends[level]
-        count = last - first
-        for g in range(first + count * part // parts, first + count * (part + 1) // parts):
+        begin, end = share_of(level, level_ends, part, parts)
+        for g in range(begin, end):
             if asks[g] != IDLE:
                 press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
         if parts > 1:
             wait_for_all(gate, parts, level + 1)
+
+
+@woven
+def share_of(level, level_ends, part, parts):
+    """Return where the run of groups of a level begins and ends that is one thread's: bodies stay in its cache."""
+    first = level_ends[level - 1] if level else 0
+    count = level_ends[level] - first
+    return first + count * part // parts, first + count * (part + 1) // parts
 
 
 @woven
@@ -74,9 +81,8 @@ def press_groups(
     scratch = np.empty((SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH))
     for sweep in range(sweeps):
         for level in range(levels):
-            first, last = level_ends[level - 1] if level else 0, level_ends[level]
-            count = last - first
-            for g in range(first + count * part // parts, first + count * (part + 1) // parts):
+            begin, end = share_of(level, level_ends, part, parts)
+            for g in range(begin, end):
                 if asks[g] != IDLE:
                     rate, hardness = soft if g < ends[0] else rigid
                     press(
