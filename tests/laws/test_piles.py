@@ -7,25 +7,32 @@ import pytest
 
 from carom.ecs import Motion
 from carom.ecs.relations.contact import Contact
-from carom.tools.bench.contact_scenes import box_pile, sphere_pile
+from carom.systems.kernels.manifolds import find_manifolds
+from carom.tools.bench.contact_scenes import SEED, box_pile, sphere_pile
 from carom.tools.bench.engines import Carom
 from carom.tools.bench.overlap import lost
 
 
 @pytest.mark.slow
-def test_a_pile_of_a_thousand_boxes_comes_to_rest() -> None:
-    """After 15 s, nobody asleep, all are slower than 1 mm/s, no overlap is deeper than 2 cm, and none is lost."""
-    scene = box_pile(1000)
+@pytest.mark.parametrize("seed", [SEED, 2, 7])
+def test_a_pile_of_a_thousand_boxes_comes_to_rest(seed: int) -> None:
+    """After 15 s, nobody asleep, all are slower than 1 mm/s, no overlap is deeper than 2 cm, and none is lost.
+
+    Whatever heap it is: with corners left out of manifolds on which boxes lean, some fluttered in one heap of six.
+    """
+    scene = box_pile(1000, seed)
     engine = Carom(scene, 1)
     world = engine.simulation.world
     for _ in range(900):
         engine.step()
     contact = world[Contact]
     assert contact.depth[: contact.count].max() <= 0.02
-    normals = np.column_stack([contact.row_a, contact.row_b, contact.normal])[: contact.count]
-    alike = (normals[1:] == normals[:-1]).all(axis=1)  # points of one manifold rest together or not at all
-    assert alike.any()
-    assert (contact.resting[1 : contact.count] == contact.resting[: contact.count - 1])[alike].all()
+    start = np.empty(contact.count + 1, np.int64)
+    number = find_manifolds(contact.count, contact.row_a, contact.row_b, contact.normal, start)
+    resting = np.add.reduceat(contact.resting[: contact.count].astype(np.int64), start[:number])
+    points = np.diff(start[: number + 1])
+    assert np.bincount(points)[2:].all()  # manifolds of two, three and four points, which rest together or not at all
+    assert ((resting == 0) | (resting == points)).all()
     assert np.linalg.norm(world[Motion].linear[engine.rows], axis=1).max() < 1e-3
     assert not world[Motion].asleep[engine.rows].any()
     assert lost(scene, engine.poses()[0]) == 0

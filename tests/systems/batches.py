@@ -13,6 +13,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import pack
 from carom.systems.detection.meshes import joined
 from carom.systems.detection.narrow import STAND_INS
+from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes import Shape
 from carom.systems.shapes.orientation import Z_TO_Y
 from carom.systems.shapes.plane import Plane
@@ -63,10 +64,10 @@ def measure_batch(
     rotation = np.concatenate([batch.rotation_a, batch.rotation_b])
     start, count = np.zeros(n, np.int64), np.zeros(n, np.int64)
     feature, normal, depth, point = (
-        np.zeros(4 * n, np.int64),
-        np.zeros((4 * n, 3)),
-        np.zeros(4 * n),
-        np.zeros((4 * n, 3)),
+        np.zeros(MOST_POINTS * n, np.int64),
+        np.zeros((MOST_POINTS * n, 3)),
+        np.zeros(MOST_POINTS * n),
+        np.zeros((MOST_POINTS * n, 3)),
     )
     rows = np.arange(n), np.arange(n, 2 * n)
     taken = STAND_INS[type(a), type(b)](

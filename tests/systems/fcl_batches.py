@@ -7,7 +7,8 @@ from batches import Answer, Batch
 
 from carom.ecs import ColliderPose
 from carom.systems.detection.fcl_pairs import measure_by_fcl
-from carom.systems.detection.narrow import MOST_POINTS, Points
+from carom.systems.detection.narrow import Points
+from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes import Shape
 from carom.systems.simulation import Simulation
 

@@ -12,6 +12,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import pack
 from carom.systems.detection.meshes import joined
 from carom.systems.detection.narrow import STAND_INS
+from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes import Shape
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
@@ -80,14 +81,14 @@ class Measured(NamedTuple):
 
     def deepest(self) -> Integers:
         """Return the row of each pair's deepest point; of pairs without points, any."""
-        rows = self.start[:, None] + np.minimum(np.arange(4), np.maximum(self.count[:, None] - 1, 0))
+        rows = self.start[:, None] + np.minimum(np.arange(MOST_POINTS), np.maximum(self.count[:, None] - 1, 0))
         return rows[np.arange(len(rows)), np.argmax(self.depth[rows], axis=1)]
 
 
 def measure(a: str, b: str, placed: Placed, reach: float = 0.0) -> Measured:
     """Measure poses by the function that stands in for a pair in this order."""
     n = len(placed.position_a)
-    room = 4 * n
+    room = MOST_POINTS * n
     found = Measured(
         np.zeros(n, np.int64), np.zeros(n, np.int64), np.zeros(room, np.int64),
         np.zeros((room, 3)), np.zeros(room), np.zeros((room, 3)),

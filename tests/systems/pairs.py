@@ -13,6 +13,7 @@ from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.fcl_pairs import measure_by_fcl
 from carom.systems.detection.narrow import Points as Room
+from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes import Shape
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
@@ -26,7 +27,6 @@ from carom.systems.shapes.point import Point
 from carom.systems.shapes.sphere import Sphere
 from carom.systems.simulation import Simulation
 
-ROOM = 4  # points of a pair
 STAND_IN = 0.1  # m, radius of the ball that stands for a point: the distance to its surface is less by just that
 Points = list[tuple[Floats, Floats, float]]
 
@@ -85,7 +85,7 @@ class Pair:
         with self.world.edit(ColliderPose) as pose:
             pose.position[0], pose.rotation[0] = poses.position_a, poses.rotation_a
             pose.position[1], pose.rotation[1] = poses.position_b, poses.rotation_b
-        points = Room(1, ROOM)
+        points = Room(1, MOST_POINTS)
         pairs = np.array([[1, 0]] if swapped else [[0, 1]])
         with self.world.faces(None):
             taken = measure_by_fcl(self.world, np.arange(1), pairs, np.array([reach]), points)

@@ -19,6 +19,7 @@ from pairs import SHAPES, degrees_between
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.systems.constants import ASKEW, OVER_EDGE
+from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes import Shape
 from carom.systems.shapes.cone import Cone
 from carom.systems.shapes.ellipsoid import Ellipsoid
@@ -114,7 +115,7 @@ def test_every_contact_is_valid(posed: Posed) -> None:
     assert np.abs((answer.normal**2).sum(axis=1) - 1.0).max() < 1e-12
     assert (answer.depth >= -REACH - 1e-12).all()
     assert (answer.depth <= np.maximum(-posed.distance[pose], 0.0) + DEPTH)[posed.distance[pose] < 0.0].all()
-    assert (answer.count <= 4).all()
+    assert (answer.count <= MOST_POINTS).all()
     assert len(np.unique(np.stack([pose, answer.feature]), axis=1).T) == len(pose)
 
 

@@ -31,14 +31,14 @@ CUBE = Box((1.0, 1.0, 1.0))
 
 @pytest.mark.parametrize("gap", [-0.01, 0.0, 0.01])
 def test_a_box_on_a_box_touches_at_the_corners_of_the_overlap(gap: float) -> None:
-    """Two cubes shifted sideways share a rectangle; turned by 45 degrees an octagon, of which four corners stay."""
+    """Two cubes shifted sideways share a rectangle; turned by 45 degrees an octagon, of which four stay if apart."""
     answer = lone(CUBE, CUBE, (0.2, 1.0 + gap, 0.3), reach=0.02)
     middle = 0.5 + 0.5 * gap
     assert rounded(answer.point) == {(x, round(middle, 5), z) for x in (-0.3, 0.5) for z in (-0.2, 0.5)}
     assert answer.depth == pytest.approx(np.full(4, -gap), abs=1e-12)
     assert answer.normal == pytest.approx(np.tile(Y, (4, 1)), abs=1e-12)
     answer = lone(CUBE, CUBE, (0.0, 1.0 + gap, 0.0), rotation_b=about(Y, 45.0), reach=0.02)
-    assert answer.count == [4]
+    assert answer.count == [4 if gap > 0.0 else 8]
     width = np.sqrt(((answer.point[:, None] - answer.point[None]) ** 2).sum(axis=2))
     assert width.max() > 1.08  # across the octagon, whose inner circle is 1 m wide
 
@@ -142,17 +142,17 @@ def test_parallel_capsules_have_two_points() -> None:
 
 
 @pytest.mark.parametrize(
-    ("a", "b", "at", "turned"),
+    ("a", "b", "at", "turned", "count"),
     [
-        (CUBE, CUBE, (0.0, 1.0, 0.0), LEVEL),
-        (CUBE, CUBE, (0.2, 1.0, 0.1), about(Y, 20.0)),
-        (Box((5.0, 1.0, 5.0)), CUBE, (0.0, 1.0, 0.0), LEVEL),
-        (CUBE, Plane((0.0, -1.0, 0.0), -0.5), (0.0, 0.0, 0.0), LEVEL),
-        (Capsule(0.5, 1.0), CUBE, (1.0, 0.0, 0.0), LEVEL),
-        (Capsule(0.5, 1.0), Capsule(0.5, 1.0), (1.0, 0.0, 0.0), LEVEL),
+        (CUBE, CUBE, (0.0, 1.0, 0.0), LEVEL, 4),
+        (CUBE, CUBE, (0.2, 1.0, 0.1), about(Y, 20.0), 5),
+        (Box((5.0, 1.0, 5.0)), CUBE, (0.0, 1.0, 0.0), LEVEL, 4),
+        (CUBE, Plane((0.0, -1.0, 0.0), -0.5), (0.0, 0.0, 0.0), LEVEL, 4),
+        (Capsule(0.5, 1.0), CUBE, (1.0, 0.0, 0.0), LEVEL, 2),
+        (Capsule(0.5, 1.0), Capsule(0.5, 1.0), (1.0, 0.0, 0.0), LEVEL, 2),
     ],
 )
-def test_features_stay_while_the_pair_moves_little(a: Shape, b: Shape, at: Any, turned: Any) -> None:
+def test_features_stay_while_the_pair_moves_little(a: Shape, b: Shape, at: Any, turned: Any, count: int) -> None:
     """What rests and trembles by a tenth of a micrometre keeps the numbers of its points, so that warm starts hold."""
     generator = np.random.default_rng(5)
     seen = set()
@@ -162,7 +162,7 @@ def test_features_stay_while_the_pair_moves_little(a: Shape, b: Shape, at: Any, 
         answer = lone(a, b, place, LEVEL, tremble, reach=0.01)
         seen.add(tuple(sorted(answer.feature.tolist())))
     assert len(seen) == 1
-    assert len(seen.pop()) == (2 if isinstance(a, Capsule) else 4)
+    assert len(seen.pop()) == count
 
 
 @pytest.mark.parametrize("degrees", [0.5, 1.0, 2.0, 4.0])

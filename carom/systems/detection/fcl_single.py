@@ -86,7 +86,7 @@ def corner_features(places: list[tuple[float, float, float]]) -> list[int]:
 
 
 def measure(a: Side, b: Side, reach: float) -> Manifold:
-    """Return up to four points (point, normal from a to b, depth) of a pair nearer than ``reach``."""
+    """Return up to eight points (point, normal from a to b, depth) of a pair nearer than ``reach``."""
     if isinstance(b.shape, Plane) or (isinstance(b.shape, Mesh) and not isinstance(a.shape, Plane)):
         return [(point, -normal, depth) for point, normal, depth in measure(b, a, reach)]
     if isinstance(a.shape, Mesh):

@@ -6,10 +6,9 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.systems.constants import SAME_NORMAL, SAME_SPOT
+from carom.systems.kernels.reduction import choose_of_area
 
 Points = list[tuple[Floats, Floats, float]]
-
-MOST_POINTS = 4
 
 
 def under_plane(corners: Floats, radius: float, normal: Floats, origin: Floats, reach: float) -> Points:
@@ -21,17 +20,13 @@ def under_plane(corners: Floats, radius: float, normal: Floats, origin: Floats, 
 
 
 def reduce_points(points: Points) -> Points:
-    """Keep at most four points that span the area: the deepest, the farthest from it, and the widest to both sides."""
-    if len(points) <= MOST_POINTS:
+    """Keep the points that stand for the area (`reduce_area`)."""
+    if not points:
         return points
-    place = np.array([p for p, _, _ in points])
-    depth = np.array([d for _, _, d in points])
-    normal = points[0][1]
-    first = int(np.argmax(depth))
-    second = int(np.argmax(((place - place[first]) ** 2).sum(axis=1)))
-    side = (np.cross(place - place[first], place[second] - place[first]) * normal).sum(axis=1)
-    chosen = list(dict.fromkeys([first, second, int(np.argmax(side)), int(np.argmin(side))]))
-    return [points[k] for k in sorted(chosen)]
+    place = np.array([p for p, _, _ in points]).ravel()
+    names = np.arange(len(points))
+    kept = choose_of_area(place, -np.array([d for _, _, d in points]), names, *points[0][1])
+    return [points[k] for k in sorted(names[:kept].tolist())]
 
 
 def merge_triangles(points: Points) -> Points:

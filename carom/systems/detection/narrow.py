@@ -24,6 +24,7 @@ from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.mesh_points import MOST_MESH_POINTS
 from carom.systems.kernels.narrow import collect_points, sort_by_function
 from carom.systems.kernels.planes_narrow import measure_boxes_on_planes, measure_capsules_on_planes
+from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.kernels.rounds_on_meshes import measure_rounds_on_meshes
 from carom.systems.kernels.solids_on_meshes import measure_solids_on_meshes
 from carom.systems.settings import Settings
@@ -40,7 +41,6 @@ from carom.systems.shapes.point import Point
 from carom.systems.shapes.shape import Shape
 from carom.systems.shapes.sphere import Sphere
 
-MOST_POINTS = 4  # of a pair, unless its function is in ROOM
 BY_FCL = 0  # the place in the table of what no function stands in for
 
 #: Which function measures a pair; it takes the collider of the first shape first.
@@ -59,7 +59,7 @@ STAND_INS: dict[tuple[type[Shape], type[Shape]], Kernel] = {
     **{(one, land): measure_rounds_on_meshes for one in (Cylinder, Cone, Ellipsoid) for land in (Mesh, HeightField)},
 }
 
-#: How many points a pair may have that a function measures.
+#: How many points a pair may have that a function measures; of others MOST_POINTS.
 ROOM = dict.fromkeys((measure_balls_on_meshes, measure_solids_on_meshes, measure_rounds_on_meshes), MOST_MESH_POINTS)
 
 

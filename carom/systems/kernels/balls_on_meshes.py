@@ -39,6 +39,7 @@ def measure_balls_on_meshes(
     root, bounds, nodes = meshes.root, meshes.bounds, meshes.nodes  # taken out once: each time counts references
     found = np.empty(FEW, np.uint32)
     points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
+    place, gaps, alike = np.empty(3 * FEW), np.empty(FEW), np.empty(FEW, np.int64)
     for k in range(len(which)):
         p, i, m = which[k], first[k], second[k]
         start[p] = taken
@@ -87,7 +88,9 @@ def measure_balls_on_meshes(
             touching = add_point(
                 points, names, touching, nx, ny, nz, cx + half * nx, cy + half * ny, cz + half * nz, 2.0 * half, 0
             )
-        chosen = choose_points(points, names, touching, SAME_PLACE * radius + LEAST_PART, kept)
+        while touching > len(alike):
+            place, gaps, alike = grown(place), grown(gaps), grown(alike)
+        chosen = choose_points(points, names, touching, SAME_PLACE * radius + LEAST_PART, kept, place, gaps, alike)
         count[p] = chosen
         taken = write_chosen(
             points, names, kept, chosen, px, py, pz, qx, qy, qz, qw, taken, feature, normal, depth, point

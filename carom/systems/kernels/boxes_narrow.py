@@ -27,7 +27,7 @@ def measure_boxes(
 
     The depth is that of the least way out, however deep or concentric the pose: the 15 axes are all there are
     (Gottschalk, Collision Queries using Oriented Bounding Boxes, 2000, section 3.3). A gap is that of the nearest
-    points, along the line between them. A face within FACE_CONE of the way out gives up to four points, that of the
+    points, along the line between them. A face within FACE_CONE of the way out gives up to eight points, that of the
     box with the longer diagonal if both do. Edges of faces that are level to FLAT_COSINE give the points between these
     faces, other edges and corners one. Since that box also goes first in the
     arithmetic, swapping boxes of different size turns normals and changes no other bit.

@@ -1,16 +1,15 @@
-"""The points at which a body meets a mesh's triangles, made into few manifolds of up to four."""
+"""The points at which a body meets a mesh's triangles, made into few manifolds of up to eight."""
 
 from __future__ import annotations
-
-import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BETTER, SAME_NORMAL
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.spatial import cross, turn
+from carom.systems.kernels.reduction import MOST_POINTS, span_area, swap
+from carom.systems.kernels.spatial import turn
 
 MOST_MANIFOLDS = 4
-MOST_MESH_POINTS = 4 * MOST_MANIFOLDS
+MOST_MESH_POINTS = MOST_POINTS * MOST_MANIFOLDS
 WIDTH = 7  # numbers per point: normal from mesh to body, place midway between their surfaces, gap
 TWIN = 1 << 50  # tells features apart that two manifolds share
 
@@ -26,12 +25,12 @@ def add_point(points, names, count, nx, ny, nz, x, y, z, gap, name):
 
 
 @inlined
-def choose_points(points, names, count, least, kept):
+def choose_points(points, names, count, least, kept, place, gaps, which):
     """Write into ``kept`` which of the points stand for all; return how many.
 
     The deepest point's manifold takes all whose normal is within SAME_NORMAL, then the deepest left begins the next.
-    Of each the deepest stays, the farthest from it, and the widest to both sides; points nearer than ``least`` (m) are
-    one. Names of points that are in a manifold become -1 - name.
+    Of each those stay that `span_area` chooses; points nearer than ``least`` (m) are one. Names of points that are in a
+    manifold become -1 - name. ``place``, ``gaps`` and ``which`` are for the points of one manifold.
     """
     if count == 1:
         kept[0], names[0] = 0, -1 - names[0]
@@ -43,47 +42,23 @@ def choose_points(points, names, count, least, kept):
             if names[k] >= 0 and points[WIDTH * k + 6] < gap - least * BETTER:
                 deepest, gap = k, points[WIDTH * k + 6]
         if deepest < 0:
-            return taken
-        d = WIDTH * deepest
-        nx, ny, nz, ox, oy, oz = points[d], points[d + 1], points[d + 2], points[d + 3], points[d + 4], points[d + 5]
-        kept[taken] = deepest
-        taken += 1
-        farthest, most = -1, least * least
+            break
+        d, alike = WIDTH * deepest, 0
+        nx, ny, nz = points[d], points[d + 1], points[d + 2]
         for k in range(count):
-            if names[k] < 0:
-                continue
             i = WIDTH * k
-            if nx * points[i] + ny * points[i + 1] + nz * points[i + 2] < SAME_NORMAL:
-                continue
-            names[k] = -1 - names[k]
-            x, y, z = points[i + 3] - ox, points[i + 4] - oy, points[i + 5] - oz
-            squared = x * x + y * y + z * z
-            if squared > most:
-                farthest, most = k, squared * (1.0 + BETTER)
-        if farthest < 0:
-            continue
-        kept[taken] = farthest
-        taken += 1
-        f = WIDTH * farthest
-        ux, uy, uz = points[f + 3] - ox, points[f + 4] - oy, points[f + 5] - oz
-        sx, sy, sz = cross(nx, ny, nz, ux, uy, uz)
-        limit = least * np.sqrt(ux * ux + uy * uy + uz * uz)
-        left, right, leftmost, rightmost = -1, -1, limit, -limit
-        for k in range(count):
-            if names[k] >= 0:
-                continue
-            i = WIDTH * k
-            if nx * points[i] + ny * points[i + 1] + nz * points[i + 2] < SAME_NORMAL:
-                continue
-            side = sx * (points[i + 3] - ox) + sy * (points[i + 4] - oy) + sz * (points[i + 5] - oz)
-            if side > leftmost:
-                left, leftmost = k, side * (1.0 + BETTER)
-            if side < rightmost:
-                right, rightmost = k, side * (1.0 + BETTER)
-        for k in (left, right):
-            if k >= 0:
-                kept[taken] = k
-                taken += 1
+            if names[k] >= 0 and nx * points[i] + ny * points[i + 1] + nz * points[i + 2] >= SAME_NORMAL:
+                names[k] = -1 - names[k]
+                which[alike], gaps[alike] = k, points[i + 6]
+                for x in range(3):
+                    place[3 * alike + x] = points[i + 3 + x]
+                if k == deepest:
+                    swap(0, alike, place, gaps, which)
+                alike += 1
+        found = span_area(place, gaps, which, alike, nx, ny, nz, least)
+        for k in range(found):
+            kept[taken] = which[k]
+            taken += 1
     return taken
 
 

@@ -22,7 +22,7 @@ from carom.systems.kernels.cores import (
     out_of,
 )
 from carom.systems.kernels.kernel import inlined
-from carom.systems.shapes.rim import RIM_POINTS, RIM_TURNS
+from carom.systems.shapes.rim import RIM_NUMBERS, RIM_POINTS, RIM_TURNS
 
 LABELS = 4096  # more than any outline has edges; those of the second body are numbered on from here
 
@@ -147,6 +147,6 @@ def round_outline(core, at, kind, x, y, z, polygon, tag, plane):
         polygon[3 * k] = radius * (cosine * first_x - sine * first_z)
         polygon[3 * k + 1] = sign * half
         polygon[3 * k + 2] = radius * (cosine * first_z + sine * first_x)
-        tag[k] = k if sign < 0.0 else RIM_POINTS + k
+        tag[k] = RIM_NUMBERS[k] if sign < 0.0 else RIM_POINTS + RIM_NUMBERS[k]
     plane[0], plane[1], plane[2], plane[3] = 0.0, sign, 0.0, half
     return RIM_POINTS, flat

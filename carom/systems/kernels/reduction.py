@@ -2,44 +2,80 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import BIAS
-from carom.systems.kernels.kernel import woven
+from carom.systems.constants import BETTER, BIAS
+from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.spatial import cross
 
-MOST = 4
+SPANNING, MOST_POINTS = 4, 8
+
+
+@kernel("place", "gaps", "names")
+def choose_of_area(place, gaps, names, nx, ny, nz):
+    """Do what `reduce_area` does with points found one by one."""
+    return reduce_area(place, gaps, names, len(gaps), nx, ny, nz)
 
 
 @woven
 def reduce_area(place, gaps, names, count, nx, ny, nz):
-    """Keep at most four points that span the area, moved to the front: deepest, farthest from it, widest either side.
-
-    Of points as good to BIAS the first is taken, so that noise does not change the choice, which is made without
-    branches, past foreseeing as it is. ``place`` holds three numbers a point.
-    """
-    if count <= MOST:
+    """Keep at most eight points that stand for the area, the deepest and those of `span_area`; return their number."""
+    if count <= SPANNING:
         return count
     deepest, least = 0, gaps[0]
-    for k in range(1, count):
+    for k in range(1, count):  # chosen, not branched on: which it is is past foreseeing
         deepest, least = (k, gaps[k]) if gaps[k] < least - BIAS else (deepest, least)
-    ox, oy, oz = place[3 * deepest], place[3 * deepest + 1], place[3 * deepest + 2]
-    farthest, most = deepest, 0.0
-    for k in range(count):
-        x, y, z = place[3 * k] - ox, place[3 * k + 1] - oy, place[3 * k + 2] - oz
+    swap(0, deepest, place, gaps, names)
+    return span_area(place, gaps, names, count, nx, ny, nz, BIAS)
+
+
+@woven
+def span_area(place, gaps, names, count, nx, ny, nz, least):
+    """Move the points that stand for the area to the front, after the first, around it as seen against the normal.
+
+    They are the first, the farthest from it, and again and again the point that adds most area to the polygon of all
+    chosen before: of those that touch up to eight, of others until there are four. A body would lean on a corner that
+    is left out, which sinks until it is chosen for its depth, and then on that left out for it, and never come to rest.
+
+    Points touch that are no farther than ``least`` (m), and add nothing where they stick out by less. Of points as good
+    to BETTER the first is taken, so that noise does not change the choice. ``place`` holds three numbers a point. Return
+    how many are chosen.
+    """
+    farthest, most = -1, least * least
+    for k in range(1, count):
+        x, y, z = place[3 * k] - place[0], place[3 * k + 1] - place[1], place[3 * k + 2] - place[2]
         squared = x * x + y * y + z * z
-        farthest, most = (k, squared) if squared > most * (1.0 + BIAS) else (farthest, most)
-    ux, uy, uz = place[3 * farthest] - ox, place[3 * farthest + 1] - oy, place[3 * farthest + 2] - oz
-    sx, sy, sz = cross(nx, ny, nz, ux, uy, uz)
-    slack = BIAS * most
-    left, right, leftmost, rightmost = -1, -1, 0.0, 0.0
-    for k in range(count):
-        side = sx * (place[3 * k] - ox) + sy * (place[3 * k + 1] - oy) + sz * (place[3 * k + 2] - oz)
-        left, leftmost = (k, side) if side > leftmost + slack else (left, leftmost)
-        right, rightmost = (k, side) if side < rightmost - slack else (right, rightmost)
-    kept = 0
-    for k in range(count):
-        gaps[kept], names[kept] = gaps[k], names[k]
-        for d in range(3):
-            place[3 * kept + d] = place[3 * k + d]
-        kept += 1 if k in (deepest, farthest, left, right) else 0
+        farthest, most = (k, squared * (1.0 + BETTER)) if squared > most else (farthest, most)
+    if farthest < 0:
+        return 1
+    swap(1, farthest, place, gaps, names)
+    kept = 2
+    while kept < min(MOST_POINTS, count):
+        widest, before, most = -1, 0, 0.0
+        for e in range(kept):
+            o = e + 1 if e + 1 < kept else 0
+            ox, oy, oz = place[3 * e], place[3 * e + 1], place[3 * e + 2]
+            ux, uy, uz = place[3 * o] - ox, place[3 * o + 1] - oy, place[3 * o + 2] - oz
+            limit = max(most, least * sqrt(ux * ux + uy * uy + uz * uz))
+            sx, sy, sz = cross(ux, uy, uz, nx, ny, nz)
+            for k in range(kept, count):
+                area = sx * (place[3 * k] - ox) + sy * (place[3 * k + 1] - oy) + sz * (place[3 * k + 2] - oz)
+                if area > limit and (kept < SPANNING or gaps[k] <= least):
+                    widest, before, limit = k, e, area * (1.0 + BETTER)
+                    most = limit
+        if widest < 0:
+            break
+        for k in range(kept, before, -1):
+            swap(k, widest if k == kept else k + 1, place, gaps, names)
+        kept += 1
     return kept
+
+
+@woven
+def swap(k, o, place, gaps, names):
+    """Swap two points."""
+    gaps[k], gaps[o] = gaps[o], gaps[k]
+    names[k], names[o] = names[o], names[k]
+    for d in range(3):
+        place[3 * k + d], place[3 * o + d] = place[3 * o + d], place[3 * k + d]

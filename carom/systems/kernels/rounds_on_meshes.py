@@ -30,7 +30,7 @@ from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles, grown
 from carom.systems.kernels.outlines import outline
 from carom.systems.kernels.rounds_and_triangles import NOTHING, ON_EDGE, ON_FACE, parted_from_triangle
 from carom.systems.kernels.rounds_on_edges import points_on_edge
-from carom.systems.shapes.rim import RIM_POINTS
+from carom.systems.shapes.rim import RIM_NUMBERS, RIM_POINTS
 
 
 @kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
@@ -52,6 +52,7 @@ def measure_rounds_on_meshes(
     polygon, tags = np.empty(6 * room), np.empty(4 * room, np.int64)
     found = np.empty(FEW, np.uint32)
     points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
+    place, gaps, alike = np.empty(3 * FEW), np.empty(FEW), np.empty(FEW, np.int64)
     for index in range(len(which)):
         pair, b, m = which[index], first[index], second[index]
         start[pair] = taken
@@ -86,7 +87,7 @@ def measure_rounds_on_meshes(
                     half = 0.5 * gap
                     touching = add_point(
                         points, names, touching, nx, ny, nz,
-                        v[3 * i] - half * nx, v[3 * i + 1] - half * ny, v[3 * i + 2] - half * nz, gap, i,
+                        v[3 * i] - half * nx, v[3 * i + 1] - half * ny, v[3 * i + 2] - half * nz, gap, RIM_NUMBERS[i],
                     )  # fmt: skip
             near = 0
         for c in range(near):
@@ -106,9 +107,13 @@ def measure_rounds_on_meshes(
                 names, points = grown(names), grown(points)
             if kind == ON_FACE:
                 end, _ = outline(core, SECOND, place, hulls, -nx, -ny, -nz, v, tag, plane)
+                before = touching
                 touching = points_over_triangle(
                     v, corners, 0, end, triangles, links, t, 0.0, reach, polygon, tags, room, points, names, touching
                 )
+                for i in range(before, touching):
+                    corner = names[i] % MOST_CORNERS
+                    names[i] += RIM_NUMBERS[corner] - corner
             elif kind == ON_EDGE:
                 touching = points_on_edge(
                     core, place, hulls, triangles, links, t, edge, nx, ny, nz, gap, px, py, pz, reach,
@@ -122,7 +127,9 @@ def measure_rounds_on_meshes(
                     points, names, touching, nx, ny, nz, x + px, y + py, z + pz, gap,
                     MOST_CORNERS + 16 * MOST_CORNERS * links[8 * t + 7],
                 )  # fmt: skip
-        chosen = choose_points(points, names, touching, SAME_PLACE * width, kept)
+        while touching > len(alike):
+            place, gaps, alike = grown(place), grown(gaps), grown(alike)
+        chosen = choose_points(points, names, touching, SAME_PLACE * width, kept, place, gaps, alike)
         count[pair] = chosen
         taken = write_chosen(
             points, names, kept, chosen, position[m, 0], position[m, 1], position[m, 2],

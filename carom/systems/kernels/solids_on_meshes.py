@@ -50,6 +50,7 @@ def measure_solids_on_meshes(
     own, ends = np.empty(BOX_ROOM), np.array([0, 1])
     found = np.empty(FEW, np.uint32)
     points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
+    place, gaps, alike = np.empty(3 * FEW), np.empty(FEW), np.empty(FEW, np.int64)
     for index in range(len(which)):
         pair, b, m = which[index], first[index], second[index]
         start[pair] = taken
@@ -153,7 +154,9 @@ def measure_solids_on_meshes(
                         names[k] = names[touching]
                         for d in range(WIDTH):
                             points[i + d] = points[WIDTH * touching + d]
-        chosen = choose_points(points, names, touching, SAME_PLACE * width, kept)
+        while touching > len(alike):
+            place, gaps, alike = grown(place), grown(gaps), grown(alike)
+        chosen = choose_points(points, names, touching, SAME_PLACE * width, kept, place, gaps, alike)
         count[pair] = chosen
         taken = write_chosen(
             points, names, kept, chosen, ox, oy, oz, qx, qy, qz, qw, taken, feature, normal, depth, point

@@ -55,6 +55,7 @@ def compile_measuring() -> None:
     import numpy as np
 
     from carom.ecs import Collider
+    from carom.systems.detection.manifolds import reduce_points
     from carom.systems.detection.narrow import measure_pairs
     from carom.systems.detection.seams import without_seams
     from carom.systems.kernels.broad_pairs import renew_pairs
@@ -82,6 +83,7 @@ def compile_measuring() -> None:
         found = without_seams(world, measure_pairs(world, pairs, np.ones(len(pairs))))
     count = len(found.row_a)
     merge_contacts(count, *found[:-1], *found[:-1], *found.room(2 * count))
+    reduce_points([(np.zeros(3), np.ones(3), 0.0)])  # of shapes that only FCL measures
     room = np.empty((2 * len(pairs), 2), np.int64)
     simulation.space.cast_ray((0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
     simulation.space.cast_shape(shapes[0], (0.0, 2.0, 0.0), (0.0, -1.0, 0.0))

@@ -12,7 +12,8 @@ from carom.ecs import ColliderPose
 from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.fcl_pairs import measure_by_fcl
-from carom.systems.detection.narrow import MOST_POINTS, Points
+from carom.systems.detection.narrow import Points
+from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
 from carom.systems.shapes.cone import Cone

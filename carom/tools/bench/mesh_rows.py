@@ -11,7 +11,8 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.fcl_pairs import measure_by_fcl
 from carom.systems.detection.meshes import tree_of
-from carom.systems.detection.narrow import MOST_POINTS, Points, measure_pairs
+from carom.systems.detection.narrow import Points, measure_pairs
+from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.land import land

@@ -12,7 +12,8 @@ from carom.ecs.components.collider import SHAPE_PARAMETERS
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import pack
 from carom.systems.detection.meshes import joined
-from carom.systems.detection.narrow import MOST_POINTS, STAND_INS
+from carom.systems.detection.narrow import STAND_INS
+from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
 from carom.systems.shapes.convex import Convex
