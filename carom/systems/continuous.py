@@ -31,14 +31,10 @@ class Fast(Resource):
 
     def find(self, world: World, pairs: Integers, found: Found, span: float) -> None:
         """Find who of ``pairs`` (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them."""
-        collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
-        center, fast, numbers = world[Flight].detected_center, np.empty_like(pairs), np.empty((len(pairs), NUMBERS))
-        count = find_fast(
-            pairs, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
-            collider.bound_radius, pose.position, pose.body_row, center, body.inverse_mass, body.continuous,
-            motion.linear, motion.angular, fast, numbers,
-        )  # fmt: skip
-        self.pairs, self.numbers, self.turns = fast[:count], numbers[:count], np.full(len(motion.asleep), np.inf)
+        collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
+        center = world[Flight].detected_center
+        self.pairs, self.numbers = fast_of(world, pairs, span)
+        self.turns, count = np.full(len(motion.asleep), np.inf), len(self.pairs)
         if not count:
             return
         given, reaches = self.pairs.copy(), self.numbers.copy()
@@ -101,3 +97,15 @@ class Fast(Resource):
             world[Flight].felt, self.position, self.rotation, hulls, meshes, room, times,
         )  # fmt: skip
         return times
+
+
+def fast_of(world: World, pairs: Integers, span: float) -> tuple[Integers, Floats]:
+    """Return who of ``pairs`` (n, 2) is fast enough within ``span`` seconds to be looked after, and their numbers."""
+    collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
+    fast, numbers = np.empty_like(pairs), np.empty((len(pairs), NUMBERS))
+    count = find_fast(
+        pairs, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
+        collider.bound_radius, pose.position, pose.body_row, world[Flight].detected_center, body.inverse_mass,
+        body.continuous, motion.linear, motion.angular, fast, numbers,
+    )  # fmt: skip
+    return fast[:count], numbers[:count]

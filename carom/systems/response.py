@@ -18,14 +18,14 @@ from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
+from carom.systems.detection.leaving import detection_holds
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impact_log import write_impacts
-from carom.systems.kernels.impacts import DONE, fly
+from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, fly
 from carom.systems.kernels.lane_widths import WIDTH
-from carom.systems.kernels.reach import may_leave_reach
 from carom.systems.kernels.settling import finish_drift
 from carom.systems.landings import Landings
 from carom.systems.ledger import Ledger
@@ -46,16 +46,13 @@ from carom.systems.ties import Ties
     ),
 )  # fmt: skip
 def look_ahead(world: World, dt: float) -> None:
-    """Detect anew, once for all bodies, where one may leave what detection foresaw before the step ends.
+    """Detect anew, once for all bodies, where one may leave what detection foresaw and meet somebody new.
 
     So too where commands have brought or taken entities since: rows may be of others now.
     """
-    flight, motion, progress = world[Flight], world[Motion], world[Progress]
+    progress = world[Progress]
     left = progress.left + dt
-    if world[Resting].structure != world.structure or (progress.substep > 1 and may_leave_reach(
-        world[Awake].now(world), left, flight.center, flight.detected_center, flight.reach,
-        motion.linear, flight.felt,
-    )):  # fmt: skip
+    if world[Resting].structure != world.structure or (progress.substep > 1 and not detection_holds(world, left)):
         world[Resting].hand_over(world[Contact])
         detect_again(world, left)
 
@@ -123,7 +120,7 @@ def hand_impulses_over(world: World, dt: float) -> None:
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:
-    """Fly every body along its arc, reflected at each impact; detect anew where one leaves what detection foresaw."""
+    """Fly every body along its arc, reflected at each impact; detect anew where one may meet whom nobody foresaw."""
     contact = world[Contact]
     if contact.count:
         contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
@@ -138,9 +135,12 @@ def drift(world: World, dt: float) -> None:
         if reason == DONE:
             return
         _finish(world, dt, ended=False)
+        left = world[Progress].left + dt - at
+        if reason == OUT_OF_REACH and (at, events) != before and detection_holds(world, left):
+            continue
         world[Landings].tell(world, dt)
         world[Resting].hand_over(contact)
-        detect_again(world, world[Progress].left + dt - at)
+        detect_again(world, left)
         world[Fast].let_go(contact)
         rows, flight = world[Awake].now(world), world[Flight]
         flight.start_center[rows], flight.turned[rows] = flight.center[rows], 0.0  # depths are those of now

@@ -9,7 +9,12 @@ REACH_SLACK, REACH_STIRRED = 3e-3, 0.125
 # is as small as these lengths, has contacts with all that is near. Smaller: it leaves its reach in every step.
 REACH_SMALL = 0.3
 
-# Factor on the motion foreseen within a step. Below 1 a falling body leaves its bounds in every step.
+# Bodies that may leave their reach at once and are asked one by one whether they meet somebody new: if not, as most,
+# the detection of the step still holds. More: asked in vain where many are struck, by an explosion.
+MOST_WIDENED = 16
+
+# Factor on the motion foreseen within a step, or in what is left of it. Below 1 a falling body leaves its bounds in
+# every step. Larger: more of those who leave theirs meet somebody new, far off.
 REACH_FACTOR = 1.25
 
 # Part of a bound's smallest half extent by which the pair cache sees it wider. Larger: more pairs are kept in vain, as

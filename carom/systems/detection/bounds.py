@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 from carom.ecs import Collider, ColliderPose, Motion, Parent, RigidBody, Transform, World, system
+from carom.ecs.column import Floats, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.hierarchy import compose
 from carom.systems.awake import Awake
@@ -21,18 +22,28 @@ def place_colliders(world: World, dt: float) -> None:
 
 def reach_within(world: World, dt: float) -> None:
     """Place every collider and bound what it can reach within the next ``dt`` seconds; who is carried goes along."""
+    flight = world[Flight]
     compose(world)
+    foresee_ways(world, world[Awake].now(world), dt)
+    bound(world, world.row_numbers(Collider), bodies_of(world), dt, flight.reach, flight.detected_center)
+
+
+def foresee_ways(world: World, rows: Integers, dt: float) -> None:
+    """Say how far bodies (rows) may travel within ``dt`` seconds from where they are now."""
     transform, motion, body, flight = world[Transform], world[Motion], world[RigidBody], world[Flight]
-    collider, pose = world[Collider], world[ColliderPose]
-    gravity = world[Settings].gravity
-    pull = sqrt(sum(g * g for g in gravity))
+    pull = sqrt(sum(g * g for g in world[Settings].gravity))
     foresee_reach(
-        world[Awake].now(world), dt, pull, transform.position, transform.rotation, motion.linear,
+        rows, dt, pull, transform.position, transform.rotation, motion.linear,
         body.center_of_mass, body.inertia, body.inverse_mass, motion.linear_acceleration,
         flight.reach, flight.detected_center,
     )  # fmt: skip
+
+
+def bound(world: World, rows: Integers, bodies: Integers, dt: float, reach: Floats, center: Floats) -> None:
+    """Place colliders (rows) and bound them by how far from their centres of mass the ``bodies`` they are of reach."""
+    transform, collider, pose = world[Transform], world[Collider], world[ColliderPose]
     place_bounds(
-        world.row_numbers(Collider), dt, bodies_of(world), motion.angular, flight.reach, flight.detected_center,
+        rows, dt, bodies, world[Motion].angular, reach, center,
         transform.position, transform.rotation, collider.position, collider.rotation,
         collider.bound_center, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, pose.lower, pose.upper, pose.body_row, pose.moved,

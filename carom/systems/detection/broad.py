@@ -17,12 +17,16 @@ from carom.systems.settings import Settings
 
 
 def overlapping(world: World) -> Integers:
-    """Return the pairs (n, 2) of collider rows whose bounds overlap, lower row first, sorted.
+    """Return the pairs (n, 2) of collider rows whose bounds overlap, lower row first, sorted."""
+    return still_overlapping(world, world[BroadPhase].renewed(world))
+
+
+def still_overlapping(world: World, pairs: Integers) -> Integers:
+    """Return which ``pairs`` (n, 2) of collider rows have bounds that overlap.
 
     One of a pair can be pushed, or is a sensor and one moves; each is on a layer that the other accepts, and they are
     of two bodies and not both sensors. Those of which nobody is awake are left out (`find_lively`).
     """
-    pairs = world[BroadPhase].renewed(world)
     collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
     found: Integers = np.empty_like(pairs)
     lively: Booleans = np.ones(len(collider.shape), np.bool_)

@@ -59,3 +59,14 @@ def renew_pairs(old, new, leaves, pairs):
         pairs[count, 0], pairs[count, 1] = new[n, 0], new[n, 1]
         count, n = count + 1, n + 1
     return count
+
+
+@kernel("found")
+def pairs_of(pairs, body_row, leaves, found):
+    """Write the pairs of which a body leaves, and return their count."""
+    count = 0
+    for p in range(len(pairs)):
+        if leaves[body_row[pairs[p, 0]]] or leaves[body_row[pairs[p, 1]]]:
+            found[count, 0], found[count, 1] = pairs[p, 0], pairs[p, 1]
+            count += 1
+    return count

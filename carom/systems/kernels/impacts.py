@@ -16,7 +16,7 @@ from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.reach import are_apart, time_within_all, time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
 
-DONE, OUT_OF_REACH = 0, 1
+DONE, OUT_OF_REACH, TO_LOOK = 0, 1, 2  # why a flight ends
 
 # A row of the log: time, speed, impulse, work, and where the three vectors of 3 begin.
 TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 10, 13
@@ -64,12 +64,12 @@ def fly(
 
     # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
     log, log_pair, log_count, kept = np.empty((64, WIDTH)), np.empty(64, np.int64), 0, np.empty((1, KEPT))
-    now, end, cut = start, min(h, until), 0
+    now, end, cut, whirls = start, min(h, until), 0, False
     within = time_within_all(rows, h - now, center, detected_center, reach, linear, acceleration)
     if within < end - now:
         end = now + within
     if not taken:
-        return end, DONE if end >= h else OUT_OF_REACH, events, cut, log_count, log_pair, log
+        return end, reason_of(end, h, until, whirls), events, cut, log_count, log_pair, log
 
     # A tournament of the foreseen times: node k is the sooner of 2k and 2k + 1, the leaves are the pairs.
     leaves = 1
@@ -218,8 +218,16 @@ def fly(
                 end = min(end, now + within)
             spin = sqrt(angular[body, 0] ** 2 + angular[body, 1] ** 2 + angular[body, 2] ** 2)
             if spin * (h - now) > turns[body]:
-                end = now
-    return now, DONE if now >= h else OUT_OF_REACH, events, cut, log_count, log_pair, log
+                end, whirls = now, True
+    return now, reason_of(now, h, until, whirls), events, cut, log_count, log_pair, log
+
+
+@woven
+def reason_of(now, h, until, whirls):
+    """Return why a flight of h seconds ends at ``now``: to look at who is fast, or ``whirls``, goes before reach."""
+    if now >= h:
+        return DONE
+    return TO_LOOK if whirls or now >= until else OUT_OF_REACH
 
 
 @making

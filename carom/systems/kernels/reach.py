@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import ROOT_GAP
+from carom.systems.constants import REACH_FACTOR, ROOT_GAP
 from carom.systems.kernels.kernel import kernel, woven
 
 WELL_WITHIN = 3.001  # a little more than 3, whatever rounding does
@@ -64,7 +64,35 @@ def time_within_all(rows, span, center, detected_center, reach, linear, accelera
     return least
 
 
-@kernel()
-def may_leave_reach(rows, span, center, detected_center, reach, linear, acceleration):
-    """Tell whether any body may leave its reach within ``span`` seconds."""
-    return time_within_all(rows, span, center, detected_center, reach, linear, acceleration) < span
+@kernel("leaving")
+def find_leaving(rows, span, center, detected_center, reach, linear, acceleration, leaving):
+    """Write which bodies may leave their reach within ``span`` seconds, as many as there is room for; count them."""
+    count = 0
+    for i in rows:
+        if time_within_reach(i, span, center, detected_center, reach, linear, acceleration) < span:
+            leaving[count] = i
+            count += 1
+            if count == len(leaving):
+                break
+    return count
+
+
+@kernel("reach", "detected_center")
+def widen_reach(leaving, span, center, linear, acceleration, reach, detected_center):
+    """Give bodies the reach that they need for ``span`` seconds as they fly now, around where they are."""
+    for i in leaving:
+        reach[i] = REACH_FACTOR * way_within(i, span, linear, acceleration)
+        for k in range(3):
+            detected_center[i, k] = center[i, k]
+
+
+@kernel("ways")
+def find_ways(colliders, body_row, center, detected_center, reach, ways):
+    """Write how far (m) at most the bodies of colliders come, within their reach, from where they are now."""
+    for c in colliders:
+        i = body_row[c]
+        if i >= 0:
+            away = 0.0
+            for k in range(3):
+                away += (center[i, k] - detected_center[i, k]) ** 2
+            ways[i] = reach[i] + sqrt(away)

@@ -39,8 +39,9 @@ def span_area(place, gaps, names, count, nx, ny, nz, least):
     is left out, which sinks until it is chosen for its depth, and then on that left out for it, and never come to rest.
 
     Points touch that are no farther than ``least`` (m), and add nothing where they stick out by less. Of points as good
-    to BETTER the first is taken, so that noise does not change the choice. ``place`` holds three numbers a point. Return
-    how many are chosen.
+    to BETTER the first is taken, so that noise does not change the choice. ``place`` holds three numbers a point.
+
+    Return how many are chosen.
     """
     farthest, most = -1, least * least
     for k in range(1, count):
