@@ -15,20 +15,29 @@ EVENTS = (Impact, Hit, Enter, Exit, ContactBegin, ContactEnd, JointBreak)
 
 
 class Progress(Resource):
-    """Simulated time at the start of the substep, what the step has left after it (s), and its resting manifolds."""
+    """Simulated time at the start of the substep, what the step has left after it (s), and its resting manifolds.
+
+    Where it is ``crowded``, so many may meet within the step that detection foresees a substep only.
+    """
 
     clock: float = 0.0
     left: float = 0.0
     substep: int = 0
     resting: int = 0
     balls_resting: int = 0
+    crowded: bool = False
+
+    @property
+    def foreseen(self) -> float:
+        """For how long after the substep (s) detection is to foresee."""
+        return 0.0 if self.crowded else self.left
 
 
 @system(reads=(Settings,), writes=(Progress, *EVENTS))
 def begin_step(world: World, dt: float) -> None:
     """Forget the events of the step before and set the clock."""
     progress = world[Progress]
-    progress.substep = 0
+    progress.substep, progress.crowded = 0, False
     for kind in EVENTS:
         if world[kind].count:
             world.resize(kind, 0)

@@ -39,10 +39,10 @@ from carom.systems.ties import Ties
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Joint),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Joint),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, ColliderPose, Answered, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ties,
+        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ties,
     ),
 )  # fmt: skip
 def look_ahead(world: World, dt: float) -> None:
@@ -51,10 +51,11 @@ def look_ahead(world: World, dt: float) -> None:
     So too where commands have brought or taken entities since: rows may be of others now.
     """
     progress = world[Progress]
-    left = progress.left + dt
-    if world[Resting].structure != world.structure or (progress.substep > 1 and not detection_holds(world, left)):
+    if world[Resting].structure != world.structure or (
+        progress.substep > 1 and not detection_holds(world, dt + progress.foreseen)
+    ):
         world[Resting].hand_over(world[Contact])
-        detect_again(world, left)
+        detect_again(world, dt)
 
 
 @system(
@@ -113,15 +114,15 @@ def hand_impulses_over(world: World, dt: float) -> None:
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Progress, Threads, Joint, Linkage),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint, Linkage),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ledger, Ties, Landings,
+        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ledger, Ties, Landings,
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one may meet whom nobody foresaw."""
-    contact = world[Contact]
+    contact, progress = world[Contact], world[Progress]
     if contact.count:
         contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
     at, events, looks, stuck = 0.0, 0, 0, 0
@@ -135,8 +136,8 @@ def drift(world: World, dt: float) -> None:
         if reason == DONE:
             return
         _finish(world, dt, ended=False)
-        left = world[Progress].left + dt - at
-        if reason == OUT_OF_REACH and (at, events) != before and detection_holds(world, left):
+        left = dt - at
+        if reason == OUT_OF_REACH and (at, events) != before and detection_holds(world, left + progress.foreseen):
             continue
         world[Landings].tell(world, dt)
         world[Resting].hand_over(contact)

@@ -8,7 +8,9 @@ from broad_pairs import DT, agree, crowd, move, pairs_now
 
 from carom.ecs import Motion, Transform
 from carom.ecs.relations.contact import Contact
+from carom.systems.detection import contacts
 from carom.systems.detection.broad import BroadPhase
+from carom.systems.progress import Progress
 from carom.systems.simulation import Simulation
 
 
@@ -127,3 +129,34 @@ def test_gravel_has_no_contacts_with_all_that_is_near() -> None:
     simulation.step()
     contact = simulation.world[Contact]
     assert contact.row_a[: contact.count].tolist() == [0] * 64
+
+
+def falling_gravel() -> Simulation:
+    """Return 216 cubes of 1 cm that fall at 3 m/s, a centimetre apart."""
+    simulation = Simulation(sleeping=False)
+    simulation.add(collider={"plane": {}})
+    for k in range(216):
+        place = (0.02 * (k % 6), 0.3 + 0.02 * (k // 36), 0.02 * (k // 6 % 6) + 0.001 * (k // 36 % 2))
+        simulation.add(
+            transform={"position": place}, motion={"linear": (0.0, -3.0, 0.0)}, body={},
+            collider={"box": {"size": (0.01, 0.01, 0.01)}},
+        )  # fmt: skip
+    return simulation
+
+
+def test_gravel_that_falls_meets_only_what_it_may_within_a_substep(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It falls to the same bit with a third of the contacts, and lies on the ground in the end."""
+    simulation = falling_gravel()
+    contact, places = simulation.world[Contact], simulation.world[Transform].position
+    simulation.step(4)
+    assert simulation.world[Progress].crowded
+    with monkeypatch.context() as patched:
+        patched.setattr(contacts, "CROWDED", 1e9)
+        other = falling_gravel()
+        other.step(4)
+    assert not other.world[Progress].crowded
+    assert other.world[Contact].count > 2.5 * contact.count
+    assert (places[1:217] == other.world[Transform].position[1:217]).all()
+    simulation.step(60)
+    assert not simulation.world[Progress].crowded
+    assert places[1:217, 1].min() == pytest.approx(0.005, abs=5e-4)

@@ -13,6 +13,11 @@ REACH_SMALL = 0.3
 # the detection of the step still holds. More: asked in vain where many are struck, by an explosion.
 MOST_WIDENED = 16
 
+# Pairs for each collider that is in any, beyond which detection foresees what may be within the substep only, and not
+# within the step, in which gravel that falls by 5 cm would have 250 contacts a cube: all that may pile up by then.
+# Larger: slower from there on. Smaller: piles, which have up to 12, are detected anew in every substep.
+CROWDED = 16
+
 # Factor on the motion foreseen within a step, or in what is left of it. Below 1 a falling body leaves its bounds in
 # every step. Larger: more of those who leave theirs meet somebody new, far off.
 REACH_FACTOR = 1.25

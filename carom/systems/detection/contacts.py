@@ -10,6 +10,7 @@ from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake
+from carom.systems.constants import CROWDED
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
@@ -25,6 +26,7 @@ from carom.systems.kernels.contacts import complete_contacts
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.kernels.renewal import renew_contacts
+from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
@@ -36,7 +38,7 @@ from carom.systems.ties import Ties
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Joint),
     writes=(
         Transform, Motion, ColliderPose, Contact, SleepingContact, Answered, Flight, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Resting, Sensing, Awake, Fast, Ties,
+        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ties,
     ),
 )  # fmt: skip
 def find_contacts(world: World, dt: float) -> None:
@@ -45,25 +47,33 @@ def find_contacts(world: World, dt: float) -> None:
     world[Sensing].forget()
     contact.impulse[: contact.count] = 0.0
     contact.friction_impulse[: contact.count] = 0.0
-    detect(world, dt)
+    detect(world, dt, dt / world[Settings].substeps)
 
 
-def detect_again(world: World, left: float) -> None:
-    """Detect anew in the middle of a step with ``left`` seconds to go, keeping what the step has summed so far."""
+def detect_again(world: World, soon: float) -> None:
+    """Detect anew ``soon`` seconds before a substep ends, keeping what the step has summed so far."""
+    left = soon + world[Progress].foreseen
     reach_within(world, left)
-    detect(world, left)
+    detect(world, left, soon)
 
 
-def detect(world: World, left: float) -> None:
+def detect(world: World, left: float, soon: float) -> None:
     """Replace the contact table by one for the current poses, carrying over what known contacts hold.
 
-    Who sleeps and is found by somebody who does not is woken, and looked for in turn.
+    It holds for ``left`` seconds; where too many may meet in that time, until the substep ends in ``soon`` seconds. Who
+    sleeps and is found by somebody who does not is woken, and looked for in turn.
     """
+    progress, pose = world[Progress], world[ColliderPose]
     world[Answered].detections += 1
     while True:
         pairs = world[Ties].without_joined(world, without_sensors(world, overlapping(world)))
+        if soon < left and len(pairs) > CROWDED * np.count_nonzero(np.bincount(pairs.ravel())):
+            progress.crowded, left, moved = True, soon, np.array(pose.moved)
+            reach_within(world, left)
+            pose.moved[:] |= moved
+            continue
         reaches = np.empty(len(pairs))
-        reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
+        reach_of_pairs(pairs, pose.body_row, world[Flight].reach, reaches)
         found = measure_what_moved(world, pairs, reaches)
         if not rouse(world, found):
             break
