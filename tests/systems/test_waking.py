@@ -11,6 +11,7 @@ from sleepers import BALL, BOX, asleep, choose, sleeping, stacks
 
 from carom.ecs import ExternalForce, Motion, RigidBody, restore_snapshot, take_snapshot
 from carom.systems.constants import SLEEP_SPEED
+from carom.systems.progress import Progress
 from carom.systems.simulation import Simulation
 from carom.systems.why_awake import why_awake
 
@@ -97,6 +98,24 @@ def test_a_change_wakes_whom_it_concerns(change: Callable[[Simulation], Any]) ->
     simulation = sleeping(0.0)
     change(simulation)
     simulation.step()
+    assert asleep(simulation, "a1", "a2") == [False, False]
+
+
+def test_a_wall_that_comes_wakes_sleepers_where_it_is_crowded() -> None:
+    """Where gravel falls, detection bounds everybody twice: who has come since the last step has come still."""
+    simulation = sleeping(0.0)
+    for k in range(216):
+        place = (20.0 + 0.02 * (k % 6), 9.0 + 0.02 * (k // 36), 0.02 * (k // 6 % 6))
+        simulation.add(
+            collider={"box": {"size": (0.01, 0.01, 0.01)}}, body={},
+            transform={"position": place}, motion={"linear": (0.0, -4.0, 0.0)},
+        )  # fmt: skip
+    simulation.step()
+    assert simulation.world[Progress].crowded
+    assert asleep(simulation, "a1", "a2") == [True, True]
+    _put_wall(simulation)
+    simulation.step()
+    assert simulation.world[Progress].crowded
     assert asleep(simulation, "a1", "a2") == [False, False]
 
 

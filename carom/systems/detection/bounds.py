@@ -22,21 +22,15 @@ def place_colliders(world: World, dt: float) -> None:
 
 def reach_within(world: World, dt: float) -> None:
     """Place every collider and bound what it can reach within the next ``dt`` seconds; who is carried goes along."""
-    flight = world[Flight]
     compose(world)
-    foresee_ways(world, world[Awake].now(world), dt)
-    bound(world, world.row_numbers(Collider), bodies_of(world), dt, flight.reach, flight.detected_center)
-
-
-def foresee_ways(world: World, rows: Integers, dt: float) -> None:
-    """Say how far bodies (rows) may travel within ``dt`` seconds from where they are now."""
     transform, motion, body, flight = world[Transform], world[Motion], world[RigidBody], world[Flight]
     pull = sqrt(sum(g * g for g in world[Settings].gravity))
     foresee_reach(
-        rows, dt, pull, transform.position, transform.rotation, motion.linear,
+        world[Awake].now(world), dt, pull, transform.position, transform.rotation, motion.linear,
         body.center_of_mass, body.inertia, body.inverse_mass, motion.linear_acceleration,
         flight.reach, flight.detected_center,
     )  # fmt: skip
+    bound(world, world.row_numbers(Collider), bodies_of(world), dt, flight.reach, flight.detected_center)
 
 
 def bound(world: World, rows: Integers, bodies: Integers, dt: float, reach: Floats, center: Floats) -> None:

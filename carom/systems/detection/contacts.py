@@ -70,7 +70,7 @@ def detect(world: World, left: float, soon: float) -> None:
         if soon < left and len(pairs) > CROWDED * np.count_nonzero(np.bincount(pairs.ravel())):
             progress.crowded, left, moved = True, soon, np.array(pose.moved)
             reach_within(world, left)
-            pose.moved[:] |= moved
+            pose.moved[:] |= moved  # nothing has since it was placed just now, but since the step before
             continue
         reaches = np.empty(len(pairs))
         reach_of_pairs(pairs, pose.body_row, world[Flight].reach, reaches)

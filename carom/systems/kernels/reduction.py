@@ -58,13 +58,12 @@ def span_area(place, gaps, names, count, nx, ny, nz, least):
             o = e + 1 if e + 1 < kept else 0
             ox, oy, oz = place[3 * e], place[3 * e + 1], place[3 * e + 2]
             ux, uy, uz = place[3 * o] - ox, place[3 * o + 1] - oy, place[3 * o + 2] - oz
-            limit = max(most, least * sqrt(ux * ux + uy * uy + uz * uz))
+            slack = least * sqrt(ux * ux + uy * uy + uz * uz)
             sx, sy, sz = cross(ux, uy, uz, nx, ny, nz)
             for k in range(kept, count):
                 area = sx * (place[3 * k] - ox) + sy * (place[3 * k + 1] - oy) + sz * (place[3 * k + 2] - oz)
-                if area > limit and (kept < SPANNING or gaps[k] <= least):
-                    widest, before, limit = k, e, area * (1.0 + BETTER)
-                    most = limit
+                if area > max(most, slack) and (kept < SPANNING or gaps[k] <= least):
+                    widest, before, most = k, e, area * (1.0 + BETTER)
         if widest < 0:
             break
         for k in range(kept, before, -1):
