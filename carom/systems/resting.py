@@ -74,6 +74,7 @@ class Resting(Resource):
         self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.points, self.row = np.empty(count, np.int64), np.empty(count, np.int64)
         self.asks, self.level_ends = np.zeros(count, np.int64), np.empty(count, np.int64)
+        self.order = np.empty(count, np.int64)
         self.fresh, self.stale, self.looks = (np.ones(count, np.bool_) for _ in range(3))
         self.ends = np.zeros(2, np.int64)
 
@@ -90,13 +91,13 @@ class Resting(Resource):
         self.groups, rows, self.levels = group_manifolds(
             self.count, self.start, contact.a, contact.b, contact.body_a, contact.body_b, inverse_mass, nobody,
             self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
-            self.points, self.row, self.ends, self.level_ends,
+            self.points, self.row, self.ends, self.level_ends, self.order,
         )  # fmt: skip
         self.asks[:], self.fresh[:], self.stale[:], self.bound_of = 0, True, True, None
         if len(self.lanes) < rows:
             self.lanes = aligned(2 * rows, WIDTH)
         fill_groups(
-            self.groups, self.first, self.size, self.row, self.points,
+            self.order[: self.groups], self.first, self.size, self.row, self.points,
             contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.kind,
             contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
@@ -136,7 +137,7 @@ class Resting(Resource):
 
         def sort(begin: int, end: int) -> tuple[int, int]:
             found: tuple[int, int] = sort_groups(
-                begin, end, h, settings.integrator == "verlet", last, float(settings.response == "full"), joined,
+                self.order[begin:end], h, settings.integrator == "verlet", last, float(settings.response == "full"), joined,
                 self.ends, self.index_a, self.index_b, self.first, self.size, self.points, self.row,
                 self.fresh, self.stale, self.looks, self.asks, self.lanes, self.bodies,
                 flight.center, world[Transform].rotation,
@@ -173,7 +174,7 @@ class Resting(Resource):
             share_out(
                 world, self.groups,
                 lambda begin, end: find_closing(
-                    begin, end, h, self.index_a, self.index_b, self.first, self.points, self.row,
+                    self.order[begin:end], h, self.index_a, self.index_b, self.first, self.points, self.row,
                     self.lanes, self.bodies, self.closes,
                 ),
             )  # fmt: skip
@@ -188,7 +189,7 @@ class Resting(Resource):
         share_out(
             world, self.groups,
             lambda begin, end: sink_contacts(
-                begin, end, self.index_a, self.index_b, self.first, self.size, self.points, self.row,
+                self.order[begin:end], self.index_a, self.index_b, self.first, self.size, self.points, self.row,
                 contact.kind, self.bodies, self.lanes, contact.depth,
             ),
         )  # fmt: skip
@@ -239,7 +240,7 @@ class Resting(Resource):
     def hand_over(self, contact: Contact) -> None:
         """Write the impulses of the resting stage into the contact table, those of the step added to what is there."""
         hand_over(
-            self.groups, self.first, self.size, self.row, self.lanes,
+            self.order[: self.groups], self.first, self.size, self.row, self.lanes,
             contact.impulse, contact.friction_impulse,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling,
         )  # fmt: skip

@@ -46,11 +46,12 @@ BUCKETS = 256  # of manifolds that are shuffled
     "row",
     "ends",
     "level_ends",
+    "order",
     makes_arrays=True,
 )
 def group_manifolds(
     count, start, a, b, body_a, body_b, inverse_mass, nobody,
-    group_of, lane_of, index_a, index_b, first, size, points, row, ends, level_ends,
+    group_of, lane_of, index_a, index_b, first, size, points, row, ends, level_ends, order,
 ):  # fmt: skip
     """Put manifolds into groups that, one after the other, do what the manifolds would in a shuffled order.
 
@@ -61,7 +62,8 @@ def group_manifolds(
 
     Return (groups, rows of all, levels). Of a level first come those with the most points. ``row`` is where the rows of
     a group begin, ``ends`` (2,) where the groups of either kind end, ``level_ends`` where those of each level do;
-    ``nobody`` is the index of what has no body.
+    ``nobody`` is the index of what has no body. Where levels do not matter, groups are gone through in ``order``: by
+    where in the contact table they begin, so that bodies of one are still in the cache when they are met in the next.
     """
     shuffled = shuffle(count, start, a, b)
     reached = np.zeros((2, len(inverse_mass)), np.int64)
@@ -86,14 +88,14 @@ def group_manifolds(
         begin[(stands[m] * levels + level[m] + 1) * MANIFOLD_POINTS - (start[m + 1] - start[m]) + 1] += 1
     for k in range(1, len(begin)):
         begin[k] += begin[k - 1]
-    order = np.empty(count, np.int64)
+    by_level = np.empty(count, np.int64)
     for m in range(count):  # within a level in their order: neighbours' bodies are near each other in memory
         k = (stands[m] * levels + level[m] + 1) * MANIFOLD_POINTS - (start[m + 1] - start[m])
-        order[begin[k]] = m
+        by_level[begin[k]] = m
         begin[k] += 1
     group, lane, rows, last, begun = -1, WIDTH, 0, -1, 0
     ends[0] = 0
-    for m in order:
+    for m in by_level:
         if lane == WIDTH or stands[m] * levels + level[m] != last:
             if stands[m] * levels + level[m] != last:
                 level_ends[begun] = level_ends[begun - 1] if begun else 0
@@ -112,6 +114,11 @@ def group_manifolds(
         size[group, lane] = start[m + 1] - start[m]
         lane += 1
     ends[1] = group + 1
+    begun_at = 0
+    for m in range(count):
+        if lane_of[m] == 0:
+            order[begun_at] = group_of[m]
+            begun_at += 1
     return group + 1, rows, begun
 
 
@@ -155,12 +162,12 @@ def is_moving(i, inverse_mass):
 
 @kernel("lanes")
 def fill_groups(
-    groups, first, size, row, points, normal, depth, offset_a, offset_b, kind,
+    order, first, size, row, points, normal, depth, offset_a, offset_b, kind,
     friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
 ):  # fmt: skip
     """Write what contacts hold into the lanes of their groups."""
     rows = address(lanes)
-    for g in range(groups):
+    for g in order:
         for k in range(FILLED):
             store(rows, row[g] + k, spread(0.0))
         for p in range(points[g]):
@@ -235,9 +242,9 @@ def write_points(r, lane, c, count, offset_a, offset_b, depth, lanes):
 
 
 @kernel("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
-def hand_over(groups, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling):
+def hand_over(order, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling):
     """Write the impulses that the resting stage has found back into the contact table."""
-    for g in range(groups):
+    for g in order:
         r = row[g]
         for lane in range(WIDTH):
             share, spun = lanes[r + SHARE, lane], lanes[r + SPUN, lane]

@@ -42,13 +42,13 @@ def finish_drift(
 
 
 @kernel("lanes", "depth")
-def sink_contacts(begin, end, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
+def sink_contacts(order, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
     """Write the depths that contacts have come to be; those of balls on exact arcs are measured.
 
     A point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
     """
     rows, moved, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
-    for g in range(begin, end):
+    for g in order:
         r = row[g]
         parting = parting_of(r, rows, gather(moved, index_a, g, WAY), gather(moved, index_b, g, WAY))
         for p in range(points[g]):

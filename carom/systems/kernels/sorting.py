@@ -42,7 +42,7 @@ from carom.systems.kernels.rubbing import IDLE, RESTING, ROLLING, RUBBING, TWIST
     "touching",
 )  # fmt: skip
 def sort_groups(
-    begin, end, h, bends, last, resting_stage, joined, ends, index_a, index_b, first, size, points, row,
+    order, h, bends, last, resting_stage, joined, ends, index_a, index_b, first, size, points, row,
     fresh, stale, looks, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
     normal, depth, point, offset_a, offset_b, resting, on_joint, touching,
@@ -57,7 +57,7 @@ def sort_groups(
     """
     rows, packed, of_a, of_b = address(lanes), address(bodies), address(index_a), address(index_b)
     number, balls = 0, 0
-    for g in range(begin, end):
+    for g in order:
         r = row[g]
         changed = fresh[g]
         if changed:
