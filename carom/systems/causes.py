@@ -160,7 +160,7 @@ class _Account:
         for axis, unit in enumerate(UNITS):
             momentum = np.zeros_like(world[Motion].linear)
             momentum[self.row, axis] = 1.0
-            momenta = aligned(*world[Resting].bodies.shape)
+            momenta = aligned(*world[Resting].bodies.shape[1:])
             pack_velocities(np.array([self.row]), momentum, np.zeros_like(momentum), momenta)
             part = self._moving.by_contacts(self._earlier, momenta)
             for a, b, along, across in zip(part.a.tolist(), part.b.tolist(), part.contacts, part.friction, strict=True):

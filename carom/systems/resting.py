@@ -18,10 +18,11 @@ from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, RELAX_SW
 from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
 from carom.systems.kernels.kernel import Kernel
+from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
 from carom.systems.kernels.packing import (
-    BODY_WIDTH,
+    VELOCITY,
     find_bound,
     pack_bodies,
     pack_moving,
@@ -65,7 +66,7 @@ class Resting(Resource):
         self.bound_of: tuple[Integers, Integers] | None = None  # who was awake and joined when they were found
         self.packed: Integers | None = None  # the rows of bodies whose poses are packed: those of this step
         self.start, self.closes = np.zeros(1, np.int64), np.ones(1, np.bool_)
-        self.bodies, self.lanes = aligned(1, BODY_WIDTH), aligned(0, WIDTH)
+        self.bodies, self.lanes = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH)
         self._reserve(0)
 
     def _reserve(self, count: int) -> None:
@@ -84,8 +85,8 @@ class Resting(Resource):
         if len(self.start) <= points:
             self.start, self.closes = np.empty(2 * points + 1, np.int64), np.empty(2 * points + 1, np.bool_)
         self.count = find_manifolds(points, contact.row_a, contact.row_b, contact.normal, self.start)
-        if len(self.bodies) != nobody + 1:
-            self.bodies, self.packed = aligned(nobody + 1, BODY_WIDTH), None
+        if self.bodies.shape[1] != nobody + 1:
+            self.bodies, self.packed = aligned(PLANES, nobody + 1, BLOCK), None
         if len(self.group_of) < self.count:
             self._reserve(2 * self.count)
         self.groups, rows, self.levels = group_manifolds(
@@ -109,7 +110,7 @@ class Resting(Resource):
         if of is None or of[0] is not awake or of[1] is not linkage.index_a:
             found, self.bound_of = np.empty_like(awake), (awake, linkage.index_a)
             count = find_bound(
-                awake, len(self.bodies) - 1, self.groups, self.index_a, self.index_b,
+                awake, self.bodies.shape[1] - 1, self.groups, self.index_a, self.index_b,
                 linkage.groups, linkage.index_a, linkage.index_b, found,
             )  # fmt: skip
             if not np.array_equal(found[:count], self.bound):  # else they may be packed already
@@ -137,8 +138,8 @@ class Resting(Resource):
 
         def sort(begin: int, end: int) -> tuple[int, int]:
             found: tuple[int, int] = sort_groups(
-                self.order[begin:end], h, settings.integrator == "verlet", last, float(settings.response == "full"), joined,
-                self.ends, self.index_a, self.index_b, self.first, self.size, self.points, self.row,
+                self.order[begin:end], h, settings.integrator == "verlet", last, float(settings.response == "full"),
+                joined, self.ends, self.index_a, self.index_b, self.first, self.size, self.points, self.row,
                 self.fresh, self.stale, self.looks, self.asks, self.lanes, self.bodies,
                 flight.center, world[Transform].rotation,
                 contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
@@ -154,7 +155,7 @@ class Resting(Resource):
     def press(self, world: World, h: float) -> None:
         """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
         rows, motion, linkage = self.rows(world), world[Motion], world[Linkage]
-        pack_velocities(rows, motion.linear, motion.angular, self.bodies)
+        pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         if linkage.groups:
             linkage.measure(self.bodies)
             linkage.start_warm(self.bodies)
@@ -163,14 +164,14 @@ class Resting(Resource):
             self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
         )  # fmt: skip
         self._solve(world, Stage("solve", 1, h, *yielding(h)))
-        unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
+        unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
     def closing(self, world: World, at: float, h: float) -> Booleans:
         """Tell which manifolds, by their first contacts, may strike; all of them in the middle of a substep."""
         self.closes[:] = True
         if at == 0.0 and self.groups:
             motion = world[Motion]
-            pack_velocities(self.rows(world), motion.linear, motion.angular, self.bodies)
+            pack_velocities(self.rows(world), motion.linear, motion.angular, self.bodies[VELOCITY])
             share_out(
                 world, self.groups,
                 lambda begin, end: find_closing(
@@ -201,11 +202,11 @@ class Resting(Resource):
             self.pack(world)
             linkage.measure(self.bodies)
         else:
-            pack_velocities(rows, motion.linear, motion.angular, self.bodies)
+            pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         self._solve(world, Stage("relax", RELAX_SWEEPS, h, hard, hard))
         if linkage.groups:
             linkage.finish(self.bodies)
-        unpack_velocities(rows, self.bodies, motion.linear, motion.angular)
+        unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
     def _solve(self, world: World, stage: Stage) -> None:
         """Do all sweeps of a stage, one by one for joints, which come first, and for those who are to hear of each."""

@@ -116,7 +116,7 @@ class Moving:
         momentum, spin = np.zeros_like(motion.linear), np.zeros_like(motion.angular)
         momentum[self.rows] = self.mass[:, None] * mean.linear
         spin[self.rows] = self.angular_momentum(mean.angular)
-        momenta = aligned(*self._world[Resting].bodies.shape)
+        momenta = aligned(*self._world[Resting].bodies.shape[1:])
         pack_velocities(self.rows, momentum, spin, momenta)
         return momenta
 

@@ -12,8 +12,7 @@ from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.impulses import pressed, rolled, rubbed, spun
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_vectors import dot
-from carom.systems.kernels.lanes import address, gather, load, spread, store
-from carom.systems.kernels.packing import VELOCITY
+from carom.systems.kernels.lanes import address, gather, load, planes, spread, store
 from carom.systems.kernels.rubbing import ROLLING, TWISTING
 from carom.systems.kernels.spatial import product, turn
 
@@ -97,13 +96,13 @@ def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, ea
     ``momenta`` are the momentum and the angular momentum of each body that impulses move, the mean of before and after.
     What counts is by how much its velocities changed: the solver takes inertia for what it was when it was prepared.
     """
-    lanes, bodies, earlier = address(lanes), address(bodies), address(earlier)
+    lanes, bodies, earlier = address(lanes), planes(bodies), address(earlier)
     momenta, work, index_a, index_b = address(momenta), address(work), address(index_a), address(index_b)
     zero = spread(0.0)
     rest = (zero, zero, zero, zero, zero, zero, zero, zero)
     for g in range(begin, end):
         r = row[g]
-        p_a, p_b = gather(momenta, index_a, g, VELOCITY), gather(momenta, index_b, g, VELOCITY)
+        p_a, p_b = gather(momenta, index_a, g), gather(momenta, index_b, g)
         total, by_t, by_u = zero, zero, zero
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p

@@ -39,7 +39,7 @@ def are_balls(r, lanes):
 @woven
 def measure_balls_in_lanes(g, r, index_a, index_b, lanes, bodies):
     """Measure the contacts of a group where the balls are; as `measure_ball` does, one by one."""
-    a, b = gather(bodies, index_a, g, CENTER), gather(bodies, index_b, g, CENTER)
+    a, b = gather(bodies[CENTER], index_a, g), gather(bodies[CENTER], index_b, g)
     reach = load(lanes, r + of.MIDDLE_A + 2) - load(lanes, r + of.MIDDLE_B + 2)
     there, zero = load(lanes, r + of.SHARE), spread(0.0)
     way = (b[0] - a[0], b[1] - a[1], b[2] - a[2])

@@ -9,7 +9,7 @@ from carom.systems.kernels.balls_in_lanes import are_balls
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.lane_vectors import dot, three
-from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, some, spread, store
+from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
 
@@ -20,15 +20,15 @@ def find_closing(order, h, index_a, index_b, first, points, row, lanes, bodies, 
 
     What `foresee_blow` finds is among them: forces count in full where they press. Groups of balls alone are left out.
     """
-    rows, packed, of_a, of_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    rows, packed, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     one, none = spread(1.0), spread(0.0)
     for g in order:
         r = row[g]
         free = choose(load(rows, r + of.SHARE), one - load(rows, r + of.RESTS), none)
         if are_balls(r, lanes) or not some(free):
             continue
-        a, b = gather(packed, of_a, g, VELOCITY), gather(packed, of_b, g, VELOCITY)
-        felt_a, felt_b = gather(packed, of_a, g, MASS_AND_FELT)[3:6], gather(packed, of_b, g, MASS_AND_FELT)[3:6]
+        a, b = gather(packed[VELOCITY], of_a, g), gather(packed[VELOCITY], of_b, g)
+        felt_a, felt_b = gather(packed[MASS_AND_FELT], of_a, g)[3:6], gather(packed[MASS_AND_FELT], of_b, g)[3:6]
         n, parting, closes = three(rows, r + of.NORMAL), parting_of(r, rows, a, b), none
         pressed = (larger(none, dot(n, felt_a)) + larger(none, -dot(n, felt_b))) * (0.5 * h * h)
         for p in range(points[g]):

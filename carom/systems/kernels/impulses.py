@@ -92,6 +92,6 @@ def struck(r, lanes, a, b, along, across, j, by_t, by_u, by_n):
 @woven
 def rolled(g, index_a, index_b, bodies, a, b, x, y, z):
     """Return velocities of both bodies after a twist on b and its opposite on a."""
-    ax, ay, az = about(gather(bodies, index_a, g, INVERSE), x, y, z)
-    bx, by, bz = about(gather(bodies, index_b, g, INVERSE), x, y, z)
+    ax, ay, az = about(gather(bodies[INVERSE], index_a, g), x, y, z)
+    bx, by, bz = about(gather(bodies[INVERSE], index_b, g), x, y, z)
     return turned(a, -ax, -ay, -az), turned(b, bx, by, bz)

@@ -8,8 +8,7 @@ from carom.systems.kernels.accounting import gained, given
 from carom.systems.kernels.joint_groups import KINDS, bound, slot, slots_of
 from carom.systems.kernels.joint_motion import added, moved
 from carom.systems.kernels.kernel import kernel
-from carom.systems.kernels.lanes import address, gather, spread, store
-from carom.systems.kernels.packing import VELOCITY
+from carom.systems.kernels.lanes import address, gather, planes, spread, store
 
 HELD, DROVE, RUBBED, ENTRIES = 0, 1, 2, 3
 
@@ -20,13 +19,13 @@ def find_joint_work(groups, kinds, row, index_a, index_b, lanes, bodies, earlier
 
     Three rows a group: locks and limits; springs, dampers and motors; friction.
     """
-    lanes, bodies, earlier = address(lanes), address(bodies), address(earlier)
+    lanes, bodies, earlier = address(lanes), planes(bodies), address(earlier)
     momenta, work, index_a, index_b = address(momenta), address(work), address(index_a), address(index_b)
     zero = spread(0.0)
     rest, nothing = (zero, zero, zero, zero, zero, zero, zero, zero), (zero, zero, zero)
     for g in range(groups):
         r, slots = row[g], slots_of(kinds[g])
-        p_a, p_b = gather(momenta, index_a, g, VELOCITY), gather(momenta, index_b, g, VELOCITY)
+        p_a, p_b = gather(momenta, index_a, g), gather(momenta, index_b, g)
         for entry in range(ENTRIES):
             push, twist = nothing, nothing
             for s in range(slots if entry == HELD or kinds[g] >= KINDS else 0):

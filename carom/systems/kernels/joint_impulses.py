@@ -22,17 +22,17 @@ from carom.systems.kernels.joint_motion import added, moved, parting
 from carom.systems.kernels.joint_points import WAYS, finish_point, hold_point, moved_point, three_of
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import dot, three
-from carom.systems.kernels.lanes import WIDTH, address, gather, load, scatter, spread, store
+from carom.systems.kernels.lanes import WIDTH, address, gather, load, planes, scatter, spread, store
 from carom.systems.kernels.packing import VELOCITY
 
 
 @kernel("bodies")
 def start_joints_warm(groups, kinds, row, index_a, index_b, lanes, bodies):
     """Apply the impulses of the substep before."""
-    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     for g in range(groups):
         r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
-        a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+        a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
         if slots == WAYS:
             a, b = moved_point(r, three_of(r, lanes, of.HOLD), a, b, lanes)
         else:
@@ -46,8 +46,8 @@ def start_joints_warm(groups, kinds, row, index_a, index_b, lanes, bodies):
                     j = j + load(lanes, p + of.DRIVE) + load(lanes, p + of.RUB)
                 push, twist = added(s, q, j, push, twist, lanes)
             a, b = moved(g, r, push, twist, a, b, index_a, index_b, lanes, bodies)
-        scatter(bodies, index_a, g, VELOCITY, a)
-        scatter(bodies, index_b, g, VELOCITY, b)
+        scatter(bodies[VELOCITY], index_a, g, a)
+        scatter(bodies[VELOCITY], index_b, g, b)
 
 
 @kernel("lanes", "bodies", makes_arrays=True)
@@ -59,13 +59,13 @@ def solve_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a,
     pushes along the axes at the start of the way, the second takes what goes along those at its end, which keeps energy
     (Andersen, Rattle, J. Comput. Phys. 52, 24, 1983). The groups go in their order, and back when relaxing.
     """
-    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     room = np.empty((SLOTS, WIDTH))
     scratch = address(room)
     for n in range(groups):
         g = groups - 1 - n if relaxing else n
         r, slots = row[g], slots_of(kinds[g])
-        a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+        a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
         if slots == 1:
             a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
         elif slots == WAYS:
@@ -86,17 +86,17 @@ def solve_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a,
                 a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
             else:
                 a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-        scatter(bodies, index_a, g, VELOCITY, a)
-        scatter(bodies, index_b, g, VELOCITY, b)
+        scatter(bodies[VELOCITY], index_a, g, a)
+        scatter(bodies[VELOCITY], index_b, g, b)
 
 
 @kernel("lanes")
 def finish_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
     """Note how fast each way goes, and add the impulses of the substep to those of the step."""
-    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     for g in range(groups):
         r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
-        a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+        a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
         if slots == WAYS:
             finish_point(r, a, b, lanes)
             continue

@@ -35,9 +35,9 @@ def added(s, q, j, push, twist, lanes):
 @woven
 def moved(g, r, push, twist, a, b, index_a, index_b, lanes, bodies):
     """Return the velocities after a push on b at its anchor and a twist, and their opposites on a."""
-    mass, inverse = gather(bodies, index_a, g, MASS_AND_FELT), gather(bodies, index_a, g, INVERSE)
+    mass, inverse = gather(bodies[MASS_AND_FELT], index_a, g), gather(bodies[INVERSE], index_a, g)
     a = moved_one(mass, inverse, r + of.ARM_A, -1.0, push, twist, a, lanes)
-    mass, inverse = gather(bodies, index_b, g, MASS_AND_FELT), gather(bodies, index_b, g, INVERSE)
+    mass, inverse = gather(bodies[MASS_AND_FELT], index_b, g), gather(bodies[INVERSE], index_b, g)
     return a, moved_one(mass, inverse, r + of.ARM_B, 1.0, push, twist, b, lanes)
 
 

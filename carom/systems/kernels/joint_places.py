@@ -12,7 +12,7 @@ from carom.systems.kernels.joint_yielding import SCRATCH_ROWS, find_yielding
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_angles import arc_tangent, nearest_turn
 from carom.systems.kernels.lane_vectors import TINY, dot, keep, three
-from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, root, spread, store
+from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, planes, root, spread, store
 from carom.systems.kernels.packing import POSE
 from carom.systems.kernels.spatial import product, turn
 
@@ -20,12 +20,12 @@ from carom.systems.kernels.spatial import product, turn
 @kernel("lanes", makes_arrays=True)
 def measure_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
     """Find the axes of joints where their bodies are now, where b is on them, and how bodies yield along them."""
-    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     room = np.empty((SCRATCH_ROWS, WIDTH))
     scratch = address(room)
     for g in range(groups):
         r, kind, bounded = row[g], kinds[g] % KINDS, kinds[g] >= KINDS
-        a, b = gather(bodies, index_a, g, POSE), gather(bodies, index_b, g, POSE)
+        a, b = gather(bodies[POSE], index_a, g), gather(bodies[POSE], index_b, g)
         d = between(r, lanes, a, b)
         if kind == LINES:
             place_line(r, lanes, a, d)

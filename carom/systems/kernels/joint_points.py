@@ -28,8 +28,8 @@ def place_point(r, lanes, d):
 @woven
 def find_yielding_of_point(g, r, index_a, index_b, lanes, bodies):
     """Factor the matrix of how fast the point yields to unit impulses."""
-    mass_a, mass_b = gather(bodies, index_a, g, MASS_AND_FELT), gather(bodies, index_b, g, MASS_AND_FELT)
-    inverse_a, inverse_b = gather(bodies, index_a, g, INVERSE), gather(bodies, index_b, g, INVERSE)
+    mass_a, mass_b = gather(bodies[MASS_AND_FELT], index_a, g), gather(bodies[MASS_AND_FELT], index_b, g)
+    inverse_a, inverse_b = gather(bodies[INVERSE], index_a, g), gather(bodies[INVERSE], index_b, g)
     a, b = turning_of(three(lanes, r + of.ARM_A), inverse_a), turning_of(three(lanes, r + of.ARM_B), inverse_b)
     inert = factor(r, WAYS, WAYS, 0)
     for k in range(3):

@@ -27,8 +27,8 @@ def find_yielding(slots, g, r, bounded, index_a, index_b, lanes, bodies, scratch
     L D L^T (Golub and Van Loan, Matrix Computations, 4.1), of which ways that are not locked have rows of the identity.
     A pivot that is rounding is one that nothing moves along: it gets no impulse.
     """
-    mass_a, mass_b = gather(bodies, index_a, g, MASS_AND_FELT), gather(bodies, index_b, g, MASS_AND_FELT)
-    inverse_a, inverse_b = gather(bodies, index_a, g, INVERSE), gather(bodies, index_b, g, INVERSE)
+    mass_a, mass_b = gather(bodies[MASS_AND_FELT], index_a, g), gather(bodies[MASS_AND_FELT], index_b, g)
+    inverse_a, inverse_b = gather(bodies[INVERSE], index_a, g), gather(bodies[INVERSE], index_b, g)
     arm_a, arm_b = three(lanes, r + of.ARM_A), three(lanes, r + of.ARM_B)
     for s in range(slots):
         e, o = three(lanes, slot(r, s) + of.AXIS), OF_EACH * s

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.packing import ANGULAR, AT_MASS
+from carom.systems.kernels.packing import ANGULAR, MASS_AND_FELT, VELOCITY
 from carom.systems.kernels.spatial import spun, turn
 
 
@@ -28,8 +28,8 @@ def follow_turning(c, a, b, time, bodies, normal, center, offset_a, offset_b):
 @inlined
 def turns(i, bodies):
     """Tell whether body i is kinematic and turns."""
-    x, y, z = bodies[i, ANGULAR], bodies[i, ANGULAR + 1], bodies[i, ANGULAR + 2]
-    return bodies[i, AT_MASS] == 0.0 and (x != 0.0 or y != 0.0 or z != 0.0)
+    x, y, z = bodies[VELOCITY, i, ANGULAR], bodies[VELOCITY, i, ANGULAR + 1], bodies[VELOCITY, i, ANGULAR + 2]
+    return bodies[MASS_AND_FELT, i, 0] == 0.0 and (x != 0.0 or y != 0.0 or z != 0.0)
 
 
 @inlined
@@ -37,10 +37,10 @@ def ahead(c, i, o, time, bodies, normal, center, offset, offset_other):
     """Move the offset of contact c from body o along the surface to where body i takes it in ``time`` seconds."""
     along = 0.0
     for k in range(3):
-        to = center[i, k] + offset[c, k] - center[o, k] + time * (bodies[i, k] - bodies[o, k])
+        to = center[i, k] + offset[c, k] - center[o, k] + time * (bodies[VELOCITY, i, k] - bodies[VELOCITY, o, k])
         along += normal[c, k] * (to - offset_other[c, k])
     for k in range(3):
-        to = center[i, k] + offset[c, k] - center[o, k] + time * (bodies[i, k] - bodies[o, k])
+        to = center[i, k] + offset[c, k] - center[o, k] + time * (bodies[VELOCITY, i, k] - bodies[VELOCITY, o, k])
         offset_other[c, k] = to - along * normal[c, k]
 
 

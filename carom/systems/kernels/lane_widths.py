@@ -1,4 +1,4 @@
 """How wide lanes are."""
 
 WIDTH = 8  # numbers in a lane
-BLOCK, BLOCKS = 8, 4  # numbers in a block of a body, and blocks of a body
+BLOCK, PLANES = 8, 4  # numbers of a body in a plane, and planes

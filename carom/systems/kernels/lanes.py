@@ -6,6 +6,8 @@ of eight, so that the same kernels run either way, with the same bits.
 
 from __future__ import annotations
 
+from math import prod
+
 import numba
 import numpy as np
 
@@ -19,6 +21,7 @@ if numba.config.DISABLE_JIT:
         gather,
         larger,
         load,
+        planes,
         root,
         scatter,
         smaller,
@@ -35,6 +38,7 @@ else:
         gather,
         larger,
         load,
+        planes,
         root,
         scatter,
         smaller,
@@ -53,6 +57,7 @@ __all__ = [
     "gather",
     "larger",
     "load",
+    "planes",
     "root",
     "scatter",
     "smaller",
@@ -64,8 +69,9 @@ __all__ = [
 ]
 
 
-def aligned(rows: int, columns: int) -> Floats:
-    """Return zeros (rows, columns) that begin where a line of the cache does: no row of eight lies across two."""
-    room = np.zeros(rows * columns + 8)
+def aligned(*shape: int) -> Floats:
+    """Return zeros of a shape that begin where a line of the cache does: no row of eight lies across two."""
+    count = prod(shape)
+    room = np.zeros(count + 8)
     skip = -room.ctypes.data // room.itemsize % 8
-    return room[skip : skip + rows * columns].reshape(rows, columns)
+    return room[skip : skip + count].reshape(shape)

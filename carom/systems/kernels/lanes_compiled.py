@@ -11,7 +11,7 @@ from numba.core.datamodel import models, register_default
 from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin
 
-from carom.systems.kernels.lane_widths import BLOCK, BLOCKS, WIDTH
+from carom.systems.kernels.lane_widths import BLOCK, PLANES, WIDTH
 
 VECTOR = ir.VectorType(ir.DoubleType(), WIDTH)
 INTEGER = ir.IntType(32)
@@ -113,18 +113,30 @@ def _transposed(builder, vectors):
     return vectors
 
 
-def _blocks(builder, bodies, index, group, block):
-    """Return pointers to the blocks of the bodies of a group, in parts of as many numbers as there are lanes."""
+def _blocks(builder, plane, index, group):
+    """Return pointers to the numbers of the bodies of a group, in parts of as many as there are lanes."""
     places = []
     for lane in range(WIDTH):
         at = builder.add(_row(builder, group), WHOLE(lane))
-        body = builder.load(_place(builder, index, at, WHOLE))
-        first = builder.mul(builder.add(builder.mul(body, WHOLE(BLOCKS)), block), WHOLE(BLOCK))
-        places.append(first)
+        places.append(builder.mul(builder.load(_place(builder, index, at, WHOLE)), WHOLE(BLOCK)))
     return [
-        [_place(builder, bodies, builder.add(first, WHOLE(part)), VECTOR) for first in places]
+        [_place(builder, plane, builder.add(first, WHOLE(part)), VECTOR) for first in places]
         for part in range(0, BLOCK, WIDTH)
     ]
+
+
+@intrinsic
+def planes(typing, bodies):
+    """Return where each plane (n, 8) of an array (4, n, 8) is, as `gather` takes it."""
+
+    def lower(context, builder, sig, values):
+        array = context.make_array(sig.args[0])(context, builder, values[0])
+        first = builder.ptrtoint(array.data, WHOLE)
+        step = cgutils.unpack_tuple(builder, array.strides)[0]
+        places = [builder.add(first, builder.mul(step, WHOLE(plane))) for plane in range(PLANES)]
+        return context.make_tuple(builder, sig.return_type, places)
+
+    return types.UniTuple(types.int64, PLANES)(bodies), lower
 
 
 @intrinsic
@@ -229,8 +241,8 @@ def which(typing, test):
 
 
 @intrinsic
-def gather(typing, bodies, index, group, block):
-    """Return the eight numbers of a block of each body of a group, each number a lane."""
+def gather(typing, plane, index, group):
+    """Return the eight numbers of each body of a group in a plane, each number a lane."""
 
     def lower(context, builder, sig, values):
         lanes = []
@@ -238,19 +250,19 @@ def gather(typing, bodies, index, group, block):
             lanes += _transposed(builder, [builder.load(place, align=8) for place in places])
         return context.make_tuple(builder, sig.return_type, lanes)
 
-    return EIGHT(types.int64, types.int64, types.int64, types.int64), lower
+    return EIGHT(types.int64, types.int64, types.int64), lower
 
 
 @intrinsic
-def scatter(typing, bodies, index, group, block, lanes):
+def scatter(typing, plane, index, group, lanes):
     """Write what `gather` returns."""
 
     def lower(context, builder, sig, values):
-        vectors = cgutils.unpack_tuple(builder, values[4], BLOCK)
-        for part, places in enumerate(_blocks(builder, *values[:4])):
+        vectors = cgutils.unpack_tuple(builder, values[3], BLOCK)
+        for part, places in enumerate(_blocks(builder, *values[:3])):
             columns = _transposed(builder, vectors[part * WIDTH : (part + 1) * WIDTH])
             for place, vector in zip(places, columns, strict=True):
                 builder.store(vector, place, align=8)
         return context.get_dummy_value()
 
-    return types.void(types.int64, types.int64, types.int64, types.int64, EIGHT), lower
+    return types.void(types.int64, types.int64, types.int64, EIGHT), lower

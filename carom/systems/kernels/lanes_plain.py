@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
-from carom.systems.kernels.lane_widths import BLOCK, WIDTH
+from carom.systems.kernels.lane_widths import WIDTH
 
 
 def address(rows):
@@ -63,11 +63,16 @@ def which(test):
     return int(((test > 0.0) << np.arange(WIDTH)).sum())
 
 
-def gather(bodies, index, group, block):
-    """Return the eight numbers of a block of each body of a group, each number a lane."""
-    return tuple(bodies[index[group], BLOCK * block : BLOCK * block + BLOCK].T.copy())
+def planes(bodies):
+    """Return where each plane (n, 8) of an array (4, n, 8) is, as `gather` takes it."""
+    return tuple(bodies)
 
 
-def scatter(bodies, index, group, block, lanes):
+def gather(plane, index, group):
+    """Return the eight numbers of each body of a group in a plane, each number a lane."""
+    return tuple(plane[index[group]].T.copy())
+
+
+def scatter(plane, index, group, lanes):
     """Write what `gather` returns."""
-    bodies[index[group], BLOCK * block : BLOCK * block + BLOCK] = np.array(lanes).T
+    plane[index[group]] = np.array(lanes).T

@@ -82,7 +82,7 @@ def prepare_body(g, r, side, index, masses, lanes, bodies):
 
     Return inverse mass and inertia in the frame, each (tt, tu, uu, tn, un, nn), inverse mass and inertia without locks.
     """
-    inertia = gather(bodies, index, g, INVERSE)
+    inertia = gather(bodies[INVERSE], index, g)
     t, u, n = frame_of(r, lanes)
     by_t, by_u, by_n = about(inertia, *t), about(inertia, *u), about(inertia, *n)
     turns = r + of.TURN_A + 9 * side

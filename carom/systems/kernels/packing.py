@@ -1,4 +1,4 @@
-"""Packing: what the resting stage knows of bodies, in rows that lanes are gathered from."""
+"""Packing: what the resting stage knows of bodies, in planes of rows that lanes are gathered from."""
 
 from __future__ import annotations
 
@@ -8,19 +8,18 @@ import numpy as np
 from carom.systems.kernels.freedom import held_inverse
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_columns import in_a_row, take_four, take_one, take_six, take_three
-from carom.systems.kernels.lane_widths import BLOCK, BLOCKS
-from carom.systems.kernels.lanes import WIDTH, address, choose, larger, scatter, some, spread
+from carom.systems.kernels.lane_widths import BLOCK, PLANES
+from carom.systems.kernels.lanes import WIDTH, address, choose, larger, planes, scatter, some, spread
 from carom.systems.kernels.spatial import product, turn
 
-# The blocks of a body's row. Velocity, and the way since contacts were measured: linear (3), a gap, angular (3), a gap;
-# before it sets out, where its centre is (3).
+# The planes, each of eight numbers a body: what one sweep reads of neighbours lies side by side.
+# Velocity, and the way since contacts were measured: linear (3), a gap, angular (3), a gap.
 # Inverse inertia in the world frame: upper half (6), the largest moment. Inverse mass along the axes (3), acceleration
 # by forces (3), inverse mass without locks. Until it sets out, the way gives place to the pose: centre (3), a gap,
 # rotation (4).
-VELOCITY, WAY, INVERSE, MASS_AND_FELT = range(BLOCKS)
+VELOCITY, WAY, INVERSE, MASS_AND_FELT = range(PLANES)
 CENTER = POSE = WAY
-BODY_WIDTH, ANGULAR = BLOCKS * BLOCK, 4
-AT_WAY, AT_INVERSE, AT_MASS = WAY * BLOCK, INVERSE * BLOCK, MASS_AND_FELT * BLOCK
+ANGULAR = 4  # where what is angular begins
 
 
 @kernel("found", makes_arrays=True)
@@ -43,23 +42,24 @@ def pack_bodies(
     rows, center, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom, rotation, bodies
 ):
     """Write where bodies are, their velocities, inverse masses and inertias; the world is at its origin."""
-    for k in range(BODY_WIDTH):
-        bodies[-1, k] = 0.0
-    bodies[-1, AT_WAY + BLOCK - 1] = 1.0
-    index, packed, zero = np.empty((1, WIDTH), np.int64), address(bodies), spread(0.0)
+    for plane in range(PLANES):
+        for k in range(BLOCK):
+            bodies[plane, -1, k] = 0.0
+    bodies[POSE, -1, BLOCK - 1] = 1.0
+    index, packed, zero = np.empty((1, WIDTH), np.int64), planes(bodies), spread(0.0)
     one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
         for lane in range(WIDTH):  # the last again where there are fewer, as `take_one` reads them
             index[0, lane] = rows[min(n + lane, len(rows) - 1)]
         v, w = take_three(linear, rows, n, near, three), take_three(angular, rows, n, near, three)
-        scatter(packed, address(index), 0, VELOCITY, (v[0], v[1], v[2], zero, w[0], w[1], w[2], zero))
+        scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], zero, w[0], w[1], w[2], zero))
         c, q = take_three(center, rows, n, near, three), take_four(rotation, rows, n, near, four)
-        scatter(packed, address(index), 0, POSE, (c[0], c[1], c[2], zero, q[0], q[1], q[2], q[3]))
+        scatter(packed[POSE], address(index), 0, (c[0], c[1], c[2], zero, q[0], q[1], q[2], q[3]))
         m, free = take_one(inverse_mass, rows, n, near, one), take_six(freedom, rows, n, near, six)
         f = take_three(felt, rows, n, near, three)
         masses = (m * free[0], m * free[1], m * free[2], f[0], f[1], f[2], m, zero)
-        scatter(packed, address(index), 0, MASS_AND_FELT, masses)
+        scatter(packed[MASS_AND_FELT], address(index), 0, masses)
         ix, iy, iz = take_three(inverse_inertia, rows, n, near, three)
         uneven = larger(larger(ix - iy, iy - ix), larger(iy - iz, iz - iy))
         inverse = (ix * free[3], zero, zero, ix * free[4], zero, ix * free[5])
@@ -67,7 +67,7 @@ def pack_bodies(
             a = take_four(principal, rows, n, near, four)
             inverse = inverse_of(q, a, ix, iy, iz, uneven, inverse)
         xx, xy, xz, yy, yz, zz = inverse
-        scatter(packed, address(index), 0, INVERSE, (xx, xy, xz, yy, yz, zz, larger(larger(ix, iy), iz), zero))
+        scatter(packed[INVERSE], address(index), 0, (xx, xy, xz, yy, yz, zz, larger(larger(ix, iy), iz), zero))
         if some(choose(uneven, 3.0 - (free[3] + free[4] + free[5]), zero)):
             for i in index[0]:
                 pack_held(i, inverse_inertia, principal, freedom, rotation, bodies)
@@ -99,7 +99,7 @@ def pack_held(i, inverse_inertia, principal, freedom, rotation, bodies):
     ix, iy, iz = inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2]
     inverse = held_inverse(qx, qy, qz, qw, ix, iy, iz, freedom[i, 3], freedom[i, 4], freedom[i, 5])
     for k, value in enumerate(inverse):
-        bodies[i, AT_INVERSE + k] = value
+        bodies[INVERSE, i, k] = value
 
 
 @kernel("bodies")
@@ -108,37 +108,37 @@ def pack_moving(rows, center, rotation, linear, angular, felt, bodies):
     for i in rows:
         same = True
         for k in range(3):
-            same &= bodies[i, AT_WAY + k] == center[i, k]
-            bodies[i, VELOCITY + k], bodies[i, VELOCITY + ANGULAR + k] = linear[i, k], angular[i, k]
-            bodies[i, AT_MASS + 3 + k] = felt[i, k]
+            same &= bodies[CENTER, i, k] == center[i, k]
+            bodies[VELOCITY, i, k], bodies[VELOCITY, i, ANGULAR + k] = linear[i, k], angular[i, k]
+            bodies[MASS_AND_FELT, i, 3 + k] = felt[i, k]
         for k in range(4):
-            same &= bodies[i, AT_WAY + ANGULAR + k] == rotation[i, k]
+            same &= bodies[POSE, i, ANGULAR + k] == rotation[i, k]
         if not same:
             return False
     return True
 
 
-@kernel("bodies")
-def pack_velocities(rows, linear, angular, bodies):
-    """Write the velocities of bodies."""
+@kernel("velocity")
+def pack_velocities(rows, linear, angular, velocity):
+    """Write the velocities of bodies into their plane."""
     for i in rows:
         for k in range(3):
-            bodies[i, VELOCITY + k], bodies[i, VELOCITY + ANGULAR + k] = linear[i, k], angular[i, k]
+            velocity[i, k], velocity[i, ANGULAR + k] = linear[i, k], angular[i, k]
 
 
 @kernel("linear", "angular")
-def unpack_velocities(rows, bodies, linear, angular):
+def unpack_velocities(rows, velocity, linear, angular):
     """Read the velocities of bodies back."""
     for i in rows:
         for k in range(3):
-            linear[i, k], angular[i, k] = bodies[i, VELOCITY + k], bodies[i, VELOCITY + ANGULAR + k]
+            linear[i, k], angular[i, k] = velocity[i, k], velocity[i, ANGULAR + k]
 
 
 @kernel("bodies")
 def pack_ways(rows, start_center, center, turned, bodies):
     """Write how far bodies have moved and turned since their contacts were measured."""
     for k in range(BLOCK):
-        bodies[-1, AT_WAY + k] = 0.0
+        bodies[WAY, -1, k] = 0.0
     for i in rows:
         for k in range(3):
-            bodies[i, AT_WAY + k], bodies[i, AT_WAY + ANGULAR + k] = center[i, k] - start_center[i, k], turned[i, k]
+            bodies[WAY, i, k], bodies[WAY, i, ANGULAR + k] = center[i, k] - start_center[i, k], turned[i, k]

@@ -8,7 +8,7 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import TINY, dot, three
-from carom.systems.kernels.lanes import address, choose, gather, larger, load, root, smaller, spread, store
+from carom.systems.kernels.lanes import address, choose, gather, larger, load, planes, root, smaller, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import VELOCITY
 from carom.systems.kernels.rubbing import IDLE, ROLLING, RUBBING, TWISTING, slip
@@ -30,14 +30,14 @@ def find_residuals(begin, end, h, ends, soft, rigid, index_a, index_b, points, r
     section 5.10; Erleben, Numerical Methods for Linear Complementarity Problems in Physics-Based Animation, 2013),
     in m/s. Where contacts yield w holds that part of it too (`press_points`).
     """
-    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     found = address(found)
     for g in range(begin, end):
         for k in range(FOUND):
             store(found, FOUND * g + k, spread(0.0))
         if asks[g] != IDLE:
             rate, hardness = soft if g < ends[0] else rigid
-            a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+            a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
             total, twisting = look_at_points(
                 row[g], points[g], 1.0 / h, rate, hardness, a, b, lanes, FOUND * g, found
             )  # fmt: skip

@@ -12,7 +12,19 @@ from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, couplings, p
 from carom.systems.kernels.impulses import pressed, rolled, struck
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import three
-from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, scatter, smaller, spread, store
+from carom.systems.kernels.lanes import (
+    WIDTH,
+    address,
+    choose,
+    gather,
+    larger,
+    load,
+    planes,
+    scatter,
+    smaller,
+    spread,
+    store,
+)
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import VELOCITY
 from carom.systems.kernels.rubbing import IDLE, ROLLING, RUBBING, TWISTING, rub
@@ -28,7 +40,7 @@ def start_warm(part, parts, gate, levels, level_ends, index_a, index_b, points, 
 
     One of ``parts`` threads takes its share of each level, and waits at the ``gate`` for the others after it.
     """
-    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     for level in range(levels):
         begin, end = share_of(level, level_ends, part, parts)
         for g in range(begin, end):
@@ -49,7 +61,7 @@ def share_of(level, level_ends, part, parts):
 @woven
 def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
     """Apply the impulses of a group."""
-    a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     total, by_t, by_u = spread(0.0), spread(0.0), spread(0.0)
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
@@ -62,8 +74,8 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
     if asks == ROLLING:
         x, y, z = three(lanes, r + of.ROLLED)
         a, b = rolled(g, index_a, index_b, bodies, a, b, x, y, z)
-    scatter(bodies, index_a, g, VELOCITY, a)
-    scatter(bodies, index_b, g, VELOCITY, b)
+    scatter(bodies[VELOCITY], index_a, g, a)
+    scatter(bodies[VELOCITY], index_b, g, b)
 
 
 @kernel("gate", "lanes", "bodies", makes_arrays=True)
@@ -77,7 +89,7 @@ def press_groups(
     that cannot move come last, so that what is under a pile has the last word. Where the substep has ``ended`` with
     them, its impulses are added to those of the step.
     """
-    lanes, bodies, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     scratch = np.empty((SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH))
     for sweep in range(sweeps):
         for level in range(levels):
@@ -110,7 +122,7 @@ def sum_impulses(r, points, lanes):
 @woven
 def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lanes, bodies, scratch):
     """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling."""
-    a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     # Loops over a known number of points are unrolled.
     if points == 1:
         a, b, total, twisting = press_points(1, r, per_second, rate, hardness, a, b, lanes, scratch)
@@ -122,8 +134,8 @@ def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lane
         a, b, total, twisting = press_points(4, r, per_second, rate, hardness, a, b, lanes, scratch)
     if asks >= RUBBING:
         a, b = rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies)
-    scatter(bodies, index_a, g, VELOCITY, a)
-    scatter(bodies, index_b, g, VELOCITY, b)
+    scatter(bodies[VELOCITY], index_a, g, a)
+    scatter(bodies[VELOCITY], index_b, g, b)
 
 
 @woven

@@ -7,7 +7,7 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.kinematic import keep_course
-from carom.systems.kernels.lanes import WIDTH, address, gather, load, store
+from carom.systems.kernels.lanes import WIDTH, address, gather, load, planes, store
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import WAY
 from carom.systems.kernels.spatial import turn
@@ -47,10 +47,10 @@ def sink_contacts(order, index_a, index_b, first, size, points, row, kind, bodie
 
     A point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
     """
-    rows, moved, index_a, index_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    rows, moved, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     for g in order:
         r = row[g]
-        parting = parting_of(r, rows, gather(moved, index_a, g, WAY), gather(moved, index_b, g, WAY))
+        parting = parting_of(r, rows, gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g))
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
             store(rows, q + of.DEPTH, load(rows, q + of.DEPTH) - parting_at(q, rows, parting))

@@ -24,6 +24,7 @@ from carom.systems.kernels.lanes import (
     gather,
     larger,
     load,
+    planes,
     root,
     smaller,
     some,
@@ -55,7 +56,7 @@ def sort_groups(
     is ``stale``: someone else has written it since; and where bodies may be ``joined``.
     Return how many manifolds rest, and how many of those are of balls on exact arcs.
     """
-    rows, packed, of_a, of_b = address(lanes), address(bodies), address(index_a), address(index_b)
+    rows, packed, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     number, balls = 0, 0
     for g in order:
         r = row[g]
@@ -100,7 +101,7 @@ def sort_groups(
             recall(g, r, index_a, index_b, first, on_joint, resting, lanes)
         else:
             store(rows, r + of.TOGETHER, before)
-        masses_a, masses_b = gather(packed, of_a, g, MASS_AND_FELT), gather(packed, of_b, g, MASS_AND_FELT)
+        masses_a, masses_b = gather(packed[MASS_AND_FELT], of_a, g), gather(packed[MASS_AND_FELT], of_b, g)
         rests = find_resting(g, r, points[g], h, of_a, of_b, masses_a, masses_b, rows, packed) * resting_stage
         store(rows, r + of.RESTS, rests)
         changed |= some(rests - before) or some(before - rests)
@@ -196,7 +197,7 @@ def find_resting(g, r, points, h, index_a, index_b, masses_a, masses_b, lanes, b
     one would strike: close faster than the rest speed. What was pressed together before and has no exact arc goes on
     resting.
     """
-    a, b = gather(bodies, index_a, g, VELOCITY), gather(bodies, index_b, g, VELOCITY)
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     felt_a, felt_b = masses_a[3:6], masses_b[3:6]
     n, together, zero, one = three(lanes, r + of.NORMAL), load(lanes, r + of.TOGETHER), spread(0.0), spread(1.0)
     joined = together - 1.0
