@@ -155,7 +155,8 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
         wanted = choose(-depth, depth * per_second, smaller(depth * rate, spread(PUSH_SPEED)))
         hard = choose(-depth, one, spread(hardness))
         store(scratch, x + IMPULSE, before)
-        store(scratch, x + TARGET, hard * (before - mass * (parting_at(q, lanes, parting) - wanted)))
+        parts = parting_at(q, lanes, parting) if points > 1 else parting[0]
+        store(scratch, x + TARGET, hard * (before - mass * (parts - wanted)))
         store(scratch, x + STIFF, hard * mass)
     for _ in range(POINT_SWEEPS if points > 1 else 1):
         for p in range(points):
@@ -172,7 +173,9 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
         q, after = r + MANIFOLD_ROWS + POINT_ROWS * p, load(scratch, SCRATCH_ROWS * p + IMPULSE)
         j = after - load(lanes, q + of.WARM)
         store(lanes, q + of.WARM, after)
-        total, twisting, push = total + after, twisting + after * load(lanes, q + of.AWAY), push + j
-        by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
+        total, push = total + after, push + j
+        if points > 1:  # else it is the middle
+            twisting = twisting + after * load(lanes, q + of.AWAY)
+            by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
     a, b = pressed(r, lanes, a, b, push, by_t, by_u)
     return a, b, total, twisting

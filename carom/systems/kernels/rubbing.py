@@ -23,18 +23,19 @@ def rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies):
     Friction that slides twists the less: both share one cone (Goyal, Ruina and Papadopoulos, Wear 143, 307, 1991, as an
     ellipsoid).
     """
-    n = three(lanes, r + of.NORMAL)
-    friction = load(lanes, r + of.FRICTION)
+    n, friction, zero = three(lanes, r + of.NORMAL), load(lanes, r + of.FRICTION), spread(0.0)
     most = friction * total
-    most_twist, most_spin = friction * twisting, load(lanes, r + of.SPINNING) * total
-    per_twist = choose(most_twist, most / larger(most_twist, spread(TINY)), spread(0.0))
+    most_twist, most_spin, per_twist, before, hold = zero, zero, zero, zero, zero
+    if asks >= TWISTING:
+        most_twist, most_spin = friction * twisting, load(lanes, r + of.SPINNING) * total
+        per_twist = choose(most_twist, most / larger(most_twist, spread(TINY)), zero)
+        before, hold = load(lanes, r + of.SPUN), load(lanes, r + of.SPIN)
     give, give_both, give_across = three(lanes, r + of.GIVE)
     along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
     for _ in range(ROLL_SWEEPS if asks == ROLLING else 1):
         t, u, spin = slip(r, lanes, a, b)
         new_along = along - (give * t + give_both * u)
         new_across = across - (give_both * t + give_across * u)
-        before, hold = load(lanes, r + of.SPUN), load(lanes, r + of.SPIN)
         wanted = before - hold * spin
         part = wanted * per_twist
         size = root(new_along * new_along + new_across * new_across + part * part)
@@ -52,10 +53,11 @@ def rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies):
         store(lanes, r + of.SPUN, after)
         j = after - before
         a, b = spun(r, lanes, a, b, j)
+        before = after
         if asks < ROLLING:
             break
         # What slides does not roll.
-        most_roll = choose(size - most, spread(0.0), load(lanes, r + of.ROLLING) * total)
+        most_roll = choose(size - most, zero, load(lanes, r + of.ROLLING) * total)
         x, y, z = three(lanes, r + of.ROLLED)
         up, stiff = dot(n, (x, y, z)), load(lanes, r + of.ROLL)
         wx = x - up * n[0] - stiff * (s[0] - spin * n[0])
