@@ -16,7 +16,6 @@ from carom.systems.kernels.lanes import aligned
 from carom.systems.kernels.packing import pack_velocities
 from carom.systems.linkage import Linkage
 from carom.systems.observer import unobserved
-from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.work import BY_JOINTS, Moving
@@ -173,19 +172,23 @@ class _Account:
                     self._add(name, change * unit, world.entity(row))
 
     def _drift(self) -> None:
-        """Add impacts on the way; forces along arcs are known, but for what a pair that stays together keeps off."""
+        """Add impacts on the way; forces along arcs are known, but for what a pair that stays together keeps off.
+
+        That goes the way of what its arc has lost, and is from the last that struck it, whenever it began.
+        """
         world, impact, colliders = self._world, self._world[Impact], bodies_of(self._world)
-        kept_off = world[Flight].acceleration[self.row] - self._bent
-        together = NOBODY, 0.0
+        kept_off, together = self.velocity() - self._seen - self._h * self._bent, NOBODY
         for k in range(self._impacts, world.count(Impact)):
             a, b = int(impact.a[k]), int(impact.b[k])
             impulse = self._felt(impact.impulse[k] * impact.normal[k] + impact.friction_impulse[k])
             for own, other, sign in ((a, b, -1.0), (b, a, 1.0)):
                 if colliders[world.row(own)] == self.row:
                     self._add("impact", sign * impulse, other)
-                    together = other, world[Progress].clock + self._h - float(impact.time[k])
-        if kept_off.any() and together[0] != NOBODY:
-            self._add("contact", together[1] * kept_off, together[0])
+                    kept_off -= sign * impulse
+                    together = other
+        lost = world[Flight].acceleration[self.row] - self._bent
+        if lost.any() and together != NOBODY:
+            self._add("contact", (kept_off @ lost) / (lost @ lost) * lost, together)
         self._flown = self.velocity()
 
     def _settle(self) -> None:

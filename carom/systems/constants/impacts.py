@@ -12,10 +12,15 @@ REST_SPEED_FACTOR = 2.0
 # its own. Smaller: blows run through piles as endless rows of impacts. Larger: bodies sink in until the next substep.
 BLOW_SPEED_FACTOR = 0.1
 
+# Part of the radius of gyration of the smaller of two bodies by which a blow may sink a resting pair until the substep
+# ends (TOUCH at least); where it would by more it is an impact of its own, also of those who do not bounce. Smaller:
+# blows run through piles. Larger: small bodies that land one on the other are driven into each other.
+BLOW_SINK = 0.02
+
 # Impacts of one pair within a substep after which the rest speed counts all that forces do to its bodies, not only what
-# presses the two together, and plastic ones after which the pair is left to the resting stage. They end the endless
-# rows of ever smaller impacts inside piles; larger numbers only make piles slower.
-PATIENCE = 8
+# presses the two together; and plastic ones after which the pair is left to the resting stage. They end the endless
+# rows of ever smaller impacts inside piles. Larger: piles that land are slower. Fewer plastic ones: columns of ten sink.
+PATIENCE, BLOWS = 8, 32
 
 # m/s. Closing slower than this is not closing. It ends the infinite row of ever smaller impacts between bodies that
 # nothing presses together; at this speed a pair moves 0.3 mm in a year.

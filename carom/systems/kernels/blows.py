@@ -43,15 +43,14 @@ def depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, 
 
 @inlined
 def foresee_blow(
-    first, end, now, h, bend, center, linear, angular, time, acceleration,
+    first, end, now, h, sink, bend, center, linear, angular, time, acceleration,
     body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, resting,
 ):  # fmt: skip
-    """Return when the first point of a manifold closes within the substep, NEVER if none does or it is held.
+    """Return when the first point of a manifold closes within the substep, NEVER if none does.
 
-    Accelerations of the arcs count along the normal, turning as it is now.
+    Accelerations of the arcs count along the normal, turning as it is now. A point of one that rests
+    counts only where a blow makes it sink by more than ``sink`` (m) until the substep ends: the solver holds the rest.
     """
-    if resting[first]:
-        return NEVER
     a, b = body_a[first], body_b[first]
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
     pull, gained, covered = (
@@ -78,6 +77,8 @@ def foresee_blow(
                 speed = sense * (nx * x + ny * y + nz * z)
                 gap -= speed * (now - time[body])
                 closing += speed
+        if resting[first] and closing * (h - now) - max(0.0, gap) <= sink:
+            continue
         if gap <= 0.0:
             if closing > APPROACH:
                 return now

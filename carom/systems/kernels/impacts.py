@@ -7,11 +7,19 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import IMPACTS_AT_LEAST, IMPACTS_PER_PAIR, PATIENCE
+from carom.systems.constants import (
+    APPROACH,
+    BLOW_SINK,
+    BLOW_SPEED_FACTOR,
+    BLOWS,
+    IMPACTS_AT_LEAST,
+    IMPACTS_PER_PAIR,
+    TOUCH,
+)
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import BALL, NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
-from carom.systems.kernels.bodies import advance_body
+from carom.systems.kernels.bodies import advance_body, pushed
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.reach import are_apart, time_within_all, time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
@@ -49,18 +57,17 @@ def fly(
     Nobody flies on beyond ``until``, nor after an impact by which a body turns more than its ``turns`` (rad). Groups
     become ``stale`` in which pairs are struck. An ``arc`` of more than no rows is accounted for (`note_arc`).
     """
-    pairs, number = np.empty(count, np.int64), np.empty(count, np.int64)
-    taken, near = 0, 0
+    pairs, number, held = np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count, np.int64)
+    taken, near, holds = 0, 0, 0
     for m in range(count):
         p = beginning[m]
-        if kind[p] >= 0 or not resting[p]:
-            near += 1
-            if resting[p] and restitution[p] == 0.0:  # no blow makes it an impact
-                continue
-            pairs[taken], number[taken] = p, m
-            taken += 1
-    pairs = pairs[:taken]
-    most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * near
+        near += kind[p] >= 0 or not resting[p]
+        if resting[p] and (kind[p] < 0 or restitution[p] == 0.0):  # only a heavy blow makes it an impact
+            held[holds] = m
+            holds += 1
+            continue
+        pairs[taken], number[taken] = p, m
+        taken += 1
 
     # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
     log, log_pair, log_count, kept = np.empty((64, WIDTH)), np.empty(64, np.int64), 0, np.empty((1, KEPT))
@@ -71,13 +78,8 @@ def fly(
     if not taken:
         return end, reason_of(end, h, until, whirls), events, cut, log_count, log_pair, log
 
-    # A tournament of the foreseen times: node k is the sooner of 2k and 2k + 1, the leaves are the pairs.
-    leaves = 1
-    while leaves < taken:
-        leaves *= 2
-    soonest = np.full(2 * leaves, NEVER)
-    seek = np.empty(2 * taken + 2, np.int64)
-    seek_count = 0
+    seek = np.empty(2 * count + 2, np.int64)
+    seek_count, heavy = 0, False
     for m in range(taken):
         p = pairs[m]
         if kind[p] < 0:
@@ -91,6 +93,24 @@ def fly(
         if may_meet:
             seek[seek_count] = m
             seek_count += 1
+            heavy |= is_heavy(p, body_a, body_b, h - now, linear, inertia, inverse_mass)
+    for k in range(holds if start > 0.0 else 0):  # blows of before
+        heavy |= is_heavy(beginning[held[k]], body_a, body_b, h - now, linear, inertia, inverse_mass)
+    # Only then may those who rest be driven into each other: else they are not asked.
+    for k in range(holds if heavy else 0):
+        pairs[taken], number[taken] = beginning[held[k]], held[k]
+        if start > 0.0:
+            seek[seek_count] = taken
+            seek_count += 1
+        taken += 1
+    pairs = pairs[:taken]
+    most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * max(near, taken)
+
+    # A tournament of the foreseen times: node k is the sooner of 2k and 2k + 1, the leaves are the pairs.
+    leaves = 1
+    while leaves < taken:
+        leaves *= 2
+    soonest = np.full(2 * leaves, NEVER)
     begin, of_body = seek, seek  # found before the first impact
     first = True
     while True:
@@ -98,20 +118,23 @@ def fly(
         for index in range(seek_count):
             m = seek[index]
             p = pairs[m]
+            if resting[p] and ((first and start == 0.0) or plastic[p] >= BLOWS):
+                enter_time(soonest, leaves + m, NEVER)
+                continue
+            sink = sink_allowed(p, body_a, body_b, inertia, inverse_mass)
             if kind[p] < 0:
                 foreseen = foresee_blow(
-                    p, beginning[number[m] + 1], now, h, bend, center, linear, angular, time, acceleration,
+                    p, beginning[number[m] + 1], now, h, sink, bend, center, linear, angular, time, acceleration,
                     body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, resting,
                 )  # fmt: skip
                 enter_time(soonest, leaves + m, foreseen)
                 continue
-            blown = (not first or start > 0.0) and restitution[p] > 0.0 and plastic[p] < PATIENCE
-            if resting[p] and not blown:
-                enter_time(soonest, leaves + m, NEVER)
-                continue
+            limit = sink / (h - now) if now < h else NEVER
+            if restitution[p] > 0.0:
+                limit = APPROACH + BLOW_SPEED_FACTOR * h * pushed(ball[p], other[p], felt)
             foreseen = foresee(
-                p, ball[p], other[p], now, h, blown, bend,
-                center, rotation, linear, angular, time, acceleration, felt,
+                p, ball[p], other[p], now, h, limit, bend,
+                center, rotation, linear, angular, time, acceleration,
                 kind, radius, extent, other_position, other_rotation, resting,
             )  # fmt: skip
             enter_time(soonest, leaves + m, foreseen)
@@ -210,7 +233,8 @@ def fly(
             if body < 0:
                 continue
             for slot in range(begin[body], begin[body + 1]):
-                if of_body[slot] != m or (not together and (body == i or i < 0)):
+                again = kind[p] < 0 or not together  # points that did not touch yet are still to come
+                if of_body[slot] != m or (again and (body == i or i < 0)):
                     seek[seek_count] = of_body[slot]
                     seek_count += 1
             within = time_within_reach(body, h - now, center, detected_center, reach, linear, acceleration)
@@ -228,6 +252,29 @@ def reason_of(now, h, until, whirls):
     if now >= h:
         return DONE
     return TO_LOOK if whirls or now >= until else OUT_OF_REACH
+
+
+@woven
+def sink_allowed(p, body_a, body_b, inertia, inverse_mass):
+    """Return how far (m) a blow may sink the bodies of a pair that rests into each other."""
+    size = NEVER
+    for i in (body_a[p], body_b[p]):
+        if i >= 0 and inverse_mass[i] > 0.0:
+            size = min(size, min(inertia[i, 0], inertia[i, 1], inertia[i, 2]) * inverse_mass[i])
+    return max(TOUCH, BLOW_SINK * sqrt(size))
+
+
+@woven
+def is_heavy(p, body_a, body_b, span, linear, inertia, inverse_mass):
+    """Tell whether the bodies of a pair move so fast against each other that they may drive others into each other."""
+    squared = 0.0
+    for k in range(3):
+        speed = 0.0
+        for i, sense in ((body_a[p], 1.0), (body_b[p], -1.0)):
+            if i >= 0:
+                speed += sense * linear[i, k]
+        squared += speed * speed
+    return sqrt(squared) * span > sink_allowed(p, body_a, body_b, inertia, inverse_mass)
 
 
 @making

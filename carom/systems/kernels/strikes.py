@@ -5,7 +5,6 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import (
     APPROACH,
-    BLOW_SPEED_FACTOR,
     PATIENCE,
     REST_SPEED_FACTOR,
     TOUCH,
@@ -28,16 +27,14 @@ from carom.systems.kernels.spatial import cross, spun
 
 @inlined
 def foresee(
-    p, i, o, now, h, blown, bend, center, rotation, linear, angular, time, acceleration, felt,
+    p, i, o, now, h, limit, bend, center, rotation, linear, angular, time, acceleration,
     kind, radius, extent, other_position, other_rotation, resting,
 ):  # fmt: skip
     """Return when the bodies of pair p strike each other within the substep, NEVER if they do not.
 
-    A resting pair is held by the solver; only a blow on one of its bodies makes it an impact, where it
-    would bounce (``blown``).
+    A resting pair is held by the solver; only a blow on one of its bodies makes it an impact, by which they close
+    faster than ``limit`` (m/s).
     """
-    if resting[p] and not blown:
-        return NEVER
     t = now - time[i]
     c, g = bend * t * t, 2.0 * bend * t
     ax, ay, az = acceleration[i, 0], acceleration[i, 1], acceleration[i, 2]
@@ -63,7 +60,7 @@ def foresee(
     if resting[p]:
         gap, nx, ny, nz = gap_of_ball(kind[p], x, y, z, radius[p], ox, oy, oz, qx, qy, qz, qw, ex, ey, ez)
         closing = -(nx * (vx - ux) + ny * (vy - uy) + nz * (vz - uz))
-        if gap > TOUCH or closing <= APPROACH + BLOW_SPEED_FACTOR * h * pushed(i, o, felt):
+        if gap > TOUCH or closing <= limit:
             return NEVER
         resting[p] = False
     return now + first_touch(
