@@ -19,7 +19,7 @@ BLOW_SINK = 0.02
 
 # Impacts of one pair within a substep after which the rest speed counts all that forces do to its bodies, not only what
 # presses the two together; and plastic ones after which the pair is left to the resting stage. They end the endless
-# rows of ever smaller impacts inside piles. Larger: piles that land are slower. Fewer plastic ones: columns of ten sink.
+# rows of ever smaller impacts inside piles. Larger: piles that land are slower. Fewer plastic ones: columns sink more.
 PATIENCE, BLOWS = 8, 32
 
 # m/s. Closing slower than this is not closing. It ends the infinite row of ever smaller impacts between bodies that

@@ -29,10 +29,11 @@ def refuse_points(
         fault[p] = SOUND
         a, b = pairs[p, 0], pairs[p, 1]
         deepest, farthest = inf, (1.0 + MEASURED) * reaches[p] + MEASURED
-        overlaps = False
+        greatest = 0.0
         for source in range(start[p], start[p] + count[p]):
-            overlaps |= depth[source] > 0.0
-        if overlaps:
+            greatest = max(greatest, depth[source])
+        small = bound_radius[a] + bound_half[a, 0] + bound_radius[b] + bound_half[b, 0]  # less than both balls
+        if greatest > (0.0 if shape[a] == PLANE_SHAPE or shape[b] == PLANE_SHAPE else small):
             ball_a = radius_about(a, local, bound_center, bound_half, bound_radius)
             ball_b = radius_about(b, local, bound_center, bound_half, bound_radius)
             deepest = greatest_depth(a, b, ball_a, ball_b, shape, size, position, rotation)
