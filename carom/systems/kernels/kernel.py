@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from types import FunctionType
+from types import FunctionType, ModuleType
 from typing import Any
 
 import numba
@@ -33,9 +33,13 @@ def source_of(module: str) -> bytes:
 
 @cache
 def called_from(module: str) -> list[str]:
-    """Return the other modules whose functions those of a module may call, in order of their names."""
+    """Return the other modules whose functions those of a module may call, in order of their names.
+
+    It imports names from them, or them as a whole, for their numbers.
+    """
     called: set[str] = set()
-    for name in map(bytes.decode, IMPORTS.findall(source_of(module))):
+    whole = (value.__name__ for value in vars(sys.modules[module]).values() if isinstance(value, ModuleType))
+    for name in (*map(bytes.decode, IMPORTS.findall(source_of(module))), *whole):
         if CALLED.fullmatch(name) and name in sys.modules:
             called.update((name, *called_from(name)))
     return sorted(called)
