@@ -93,9 +93,9 @@ def fly(
         if may_meet:
             seek[seek_count] = m
             seek_count += 1
-            heavy |= is_heavy(p, body_a, body_b, h - now, linear, inertia, inverse_mass)
+            heavy |= is_heavy(p, body_a, body_b, h - now, normal, linear, inertia, inverse_mass)
     for k in range(holds if start > 0.0 else 0):  # blows of before
-        heavy |= is_heavy(beginning[held[k]], body_a, body_b, h - now, linear, inertia, inverse_mass)
+        heavy |= is_heavy(beginning[held[k]], body_a, body_b, h - now, normal, linear, inertia, inverse_mass)
     # Only then may those who rest be driven into each other: else they are not asked.
     for k in range(holds if heavy else 0):
         pairs[taken], number[taken] = beginning[held[k]], held[k]
@@ -265,16 +265,14 @@ def sink_allowed(p, body_a, body_b, inertia, inverse_mass):
 
 
 @woven
-def is_heavy(p, body_a, body_b, span, linear, inertia, inverse_mass):
-    """Tell whether the bodies of a pair move so fast against each other that they may drive others into each other."""
-    squared = 0.0
-    for k in range(3):
-        speed = 0.0
-        for i, sense in ((body_a[p], 1.0), (body_b[p], -1.0)):
-            if i >= 0:
-                speed += sense * linear[i, k]
-        squared += speed * speed
-    return sqrt(squared) * span > sink_allowed(p, body_a, body_b, inertia, inverse_mass)
+def is_heavy(p, body_a, body_b, span, normal, linear, inertia, inverse_mass):
+    """Tell whether the bodies of a pair come at each other so fast that they may drive others into each other."""
+    speed = 0.0
+    for i, sense in ((body_a[p], 1.0), (body_b[p], -1.0)):
+        if i >= 0:
+            for k in range(3):
+                speed += sense * normal[p, k] * linear[i, k]
+    return speed * span > sink_allowed(p, body_a, body_b, inertia, inverse_mass)
 
 
 @making
