@@ -8,8 +8,8 @@ import numpy as np
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import MANIFOLD_POINTS
 from carom.systems.kernels.kernel import kernel, making, woven
-from carom.systems.kernels.lanes import WIDTH, address, spread, store
-from carom.systems.kernels.spatial import plane_axes
+from carom.systems.kernels.lane_vectors import dot, keep, three
+from carom.systems.kernels.lanes import WIDTH, address, choose, load, spread, store
 
 # Rows of eight numbers that a group has, a lane each manifold. First what is filled in when contacts are found: the
 # frame, which is two tangents and the normal, each the cross product of the other two; friction, restitution,
@@ -23,6 +23,9 @@ RUB, SPUN, ROLLED, RUBBED, SURFACE, RESTS, TOGETHER, MIDDLE_A, MIDDLE_B, FILLED 
 # frame turn either body; the inverse of the inverse mass along the tangents (a symmetric 2 x 2), the inertia about the
 # normal, and about any axis across it; at last 1 where a point may close within the substep.
 MASS_A, MASS_B, TURN_A, TURN_B, GIVE, SPIN, ROLL, CLOSES, MANIFOLD_ROWS = 35, 38, 41, 50, 59, 62, 63, 64, 65
+
+# Before that is known its rows hold vectors of the world for a while: both offsets of each point, and friction.
+PLACES, PUSHED = 35, 59
 
 # Rows of each point, after those of the manifold: where it is from the middle along the tangents (along the normal it
 # has no lever), depth, normal impulse and its sum over the step; then the mass along the normal, and how far it is from
@@ -168,77 +171,94 @@ def fill_groups(
     """Write what contacts hold into the lanes of their groups."""
     rows = address(lanes)
     for g in order:
+        r = row[g]
         for k in range(FILLED):
-            store(rows, row[g] + k, spread(0.0))
+            store(rows, r + k, spread(0.0))
+        for k in range(3):
+            store(rows, r + PUSHED + k, spread(0.0))
         for p in range(points[g]):
-            q = row[g] + MANIFOLD_ROWS + POINT_ROWS * p
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
             for k in range(POINT_FILLED):
                 store(rows, q + k, spread(0.0))
             store(rows, q + DEPTH, spread(ABSENT))
         for lane in range(WIDTH):
             if first[g, lane] >= 0:
                 fill_lane(
-                    row[g], lane, first[g, lane], size[g, lane], normal, depth, offset_a, offset_b, kind,
+                    r, lane, first[g, lane], size[g, lane], normal, kind,
                     friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
                 )  # fmt: skip
+        n, pushed, rolled = three(rows, r + NORMAL), three(rows, r + PUSHED), three(rows, r + ROLLED)
+        t, u = tangents_of(n)
+        keep(rows, r + TANGENT, t[0], t[1], t[2])
+        keep(rows, r + TANGENT + 3, u[0], u[1], u[2])
+        store(rows, r + RUB, dot(pushed, t))
+        store(rows, r + RUB + 1, dot(pushed, u))
+        along = dot(n, rolled)
+        store(rows, r + SPUN, along)
+        keep(rows, r + ROLLED, rolled[0] - along * n[0], rolled[1] - along * n[1], rolled[2] - along * n[2])
+        place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
 
 
 @woven
 def fill_lane(
-    r, lane, c, count, normal, depth, offset_a, offset_b, kind,
+    r, lane, c, count, normal, kind,
     friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
 ):  # fmt: skip
-    """Write what the ``count`` contacts of a manifold, from c on, hold into its lane."""
-    write_normal(r, lane, normal[c, 0], normal[c, 1], normal[c, 2], lanes)
+    """Write what the ``count`` contacts of a manifold, from c on, hold into its lane, vectors as they are in the world.
+
+    Of friction and rolling only their sums are of use: all points share them alike.
+    """
     lanes[r + FRICTION, lane], lanes[r + RESTITUTION, lane] = friction[c], restitution[c]
     lanes[r + ROLLING, lane], lanes[r + SPINNING, lane] = rolling[c], spinning[c]
     lanes[r + BALL, lane], lanes[r + SHARE, lane] = 1.0 if kind[c] >= 0 else 0.0, 1.0 / count
     for k in range(3):
-        lanes[r + SURFACE + k, lane] = surface[c, k]
-    fx, fy, fz, wx, wy, wz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    write_points(r, lane, c, count, offset_a, offset_b, depth, lanes)
+        lanes[r + NORMAL + k, lane], lanes[r + SURFACE + k, lane] = normal[c, k], surface[c, k]
+        pushed, rolled = 0.0, 0.0
+        for p in range(count):
+            pushed, rolled = pushed + warm_friction[c + p, k], rolled + warm_rolling[c + p, k]
+        lanes[r + PUSHED + k, lane], lanes[r + ROLLED + k, lane] = pushed, rolled
     for p in range(count):
         lanes[r + MANIFOLD_ROWS + POINT_ROWS * p + WARM, lane] = warm_normal[c + p]
-        fx, fy, fz = fx + warm_friction[c + p, 0], fy + warm_friction[c + p, 1], fz + warm_friction[c + p, 2]
-        wx, wy, wz = wx + warm_rolling[c + p, 0], wy + warm_rolling[c + p, 1], wz + warm_rolling[c + p, 2]
-    for k in range(2):
-        t = r + TANGENT + 3 * k
-        lanes[r + RUB + k, lane] = fx * lanes[t, lane] + fy * lanes[t + 1, lane] + fz * lanes[t + 2, lane]
-    nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
-    along = nx * wx + ny * wy + nz * wz
-    lanes[r + SPUN, lane] = along
-    lanes[r + ROLLED, lane] = wx - along * nx
-    lanes[r + ROLLED + 1, lane] = wy - along * ny
-    lanes[r + ROLLED + 2, lane] = wz - along * nz
 
 
 @woven
-def write_normal(r, lane, nx, ny, nz, lanes):
-    """Write a normal and its tangents into the lane of a manifold."""
-    tx, ty, tz, ux, uy, uz = plane_axes(nx, ny, nz)
-    for k, value in enumerate((tx, ty, tz, ux, uy, uz, nx, ny, nz)):
-        lanes[r + TANGENT + k, lane] = value
+def tangents_of(n):
+    """Return two tangents to the normals of a group.
+
+    Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6 (1), 2017, as `plane_axes`.
+    """
+    x, y, z = n
+    sign = choose(-z, spread(-1.0), spread(1.0))
+    p = -1.0 / (sign + z)
+    q = x * y * p
+    return (1.0 + sign * x * x * p, sign * q, -sign * x), (q, sign + y * y * p, -y)
 
 
 @woven
-def write_points(r, lane, c, count, offset_a, offset_b, depth, lanes):
-    """Write where the points of a manifold are, from contact c on, and how deep, into its lane."""
-    share = lanes[r + SHARE, lane]
+def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
+    """Write where the points of a group are in its frame, and how deep."""
+    rows, zero = address(lanes), spread(0.0)
+    for k in range(6 * points):
+        store(rows, r + PLACES + k, zero)
+    for lane in range(WIDTH):
+        for p in range(size[g, lane]):
+            c, q = first[g, lane] + p, r + PLACES + 6 * p
+            for k in range(3):
+                lanes[q + k, lane], lanes[q + 3 + k, lane] = offset_a[c, k], offset_b[c, k]
+            lanes[r + MANIFOLD_ROWS + POINT_ROWS * p + DEPTH, lane] = depth[c]
+    share = load(rows, r + SHARE)
     for k in range(3):
-        axis = r + TANGENT + 3 * k
-        x, y, z = lanes[axis, lane], lanes[axis + 1, lane], lanes[axis + 2, lane]
-        of_a, of_b = 0.0, 0.0
-        for i in range(c, c + count):
-            of_a += x * offset_a[i, 0] + y * offset_a[i, 1] + z * offset_a[i, 2]
-            of_b += x * offset_b[i, 0] + y * offset_b[i, 1] + z * offset_b[i, 2]
+        axis, of_a, of_b = three(rows, r + TANGENT + 3 * k), zero, zero
+        for p in range(points):
+            q = r + PLACES + 6 * p
+            of_a, of_b = of_a + dot(axis, three(rows, q)), of_b + dot(axis, three(rows, q + 3))
         of_a, of_b = share * of_a, share * of_b
-        lanes[r + MIDDLE_A + k, lane], lanes[r + MIDDLE_B + k, lane] = of_a, of_b
-        for p in range(count):
-            q, i = r + MANIFOLD_ROWS + POINT_ROWS * p, c + p
-            if k < 2:
-                lanes[q + AT + k, lane] = x * offset_b[i, 0] + y * offset_b[i, 1] + z * offset_b[i, 2] - of_b
-            else:
-                lanes[q + DEPTH, lane] = depth[i]
+        store(rows, r + MIDDLE_A + k, of_a)
+        store(rows, r + MIDDLE_B + k, of_b)
+        for p in range(points if k < 2 else 0):
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
+            there = load(rows, q + DEPTH) - spread(0.5 * ABSENT)
+            store(rows, q + AT + k, choose(there, dot(axis, three(rows, r + PLACES + 6 * p + 3)) - of_b, zero))
 
 
 @kernel("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")

@@ -13,7 +13,7 @@ from carom.systems.kernels.balls_in_lanes import (
     write_normals,
     write_touches,
 )
-from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, write_points
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, place_points, tangents_of
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.kinematic import follow_turning
 from carom.systems.kernels.lane_vectors import dot, keep, three
@@ -92,10 +92,8 @@ def sort_groups(
                 moved_on |= moves
         if moved_on:
             find_tangents(r, rows)
-            for lane in range(0 if measured else WIDTH):
-                c = first[g, lane]
-                if c >= 0:
-                    write_points(r, lane, c, size[g, lane], offset_a, offset_b, depth, lanes)
+            if not measured:
+                place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
         before = load(rows, r + of.RESTS)
         if stale[g] or joined:
             recall(g, r, index_a, index_b, first, on_joint, resting, lanes)
@@ -166,16 +164,8 @@ def forget(r, points, rests, lanes):
 
 @woven
 def find_tangents(r, lanes):
-    """Find tangents to normals that have changed, and what was rubbed along them.
-
-    Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6 (1), 2017, as `plane_axes`.
-    """
-    x, y, z = three(lanes, r + of.NORMAL)
-    sign = choose(-z, spread(-1.0), spread(1.0))
-    p = -1.0 / (sign + z)
-    q = x * y * p
-    t = (1.0 + sign * x * x * p, sign * q, -sign * x)
-    u = (q, sign + y * y * p, -y)
+    """Find tangents to normals that have changed, and what was rubbed along them."""
+    t, u = tangents_of(three(lanes, r + of.NORMAL))
     along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
     old_t, old_u = three(lanes, r + of.TANGENT), three(lanes, r + of.TANGENT + 3)
     rub = (
