@@ -117,11 +117,11 @@ def group_manifolds(
         size[group, lane] = start[m + 1] - start[m]
         lane += 1
     ends[1] = group + 1
-    begun_at = 0
+    gone = 0
     for m in range(count):
         if lane_of[m] == 0:
-            order[begun_at] = group_of[m]
-            begun_at += 1
+            order[gone] = group_of[m]
+            gone += 1
     return group + 1, rows, begun
 
 

@@ -14,12 +14,13 @@ from carom.systems.constants import (
     BLOWS,
     IMPACTS_AT_LEAST,
     IMPACTS_PER_PAIR,
+    PATIENCE,
     TOUCH,
 )
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import BALL, NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
-from carom.systems.kernels.bodies import advance_body, pushed
+from carom.systems.kernels.bodies import advance_body, pushed, surface_velocity
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.reach import are_apart, time_within_all, time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
@@ -75,7 +76,7 @@ def fly(
     within = time_within_all(rows, h - now, center, detected_center, reach, linear, acceleration)
     if within < end - now:
         end = now + within
-    if not taken:
+    if not taken and start == 0.0:
         return end, reason_of(end, h, until, whirls), events, cut, log_count, log_pair, log
 
     seek = np.empty(2 * count + 2, np.int64)
@@ -93,9 +94,14 @@ def fly(
         if may_meet:
             seek[seek_count] = m
             seek_count += 1
-            heavy |= is_heavy(p, body_a, body_b, h - now, normal, linear, inertia, inverse_mass)
+            heavy |= is_heavy(
+                p, body_a, body_b, h - now, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass
+            )
     for k in range(holds if start > 0.0 else 0):  # blows of before
-        heavy |= is_heavy(beginning[held[k]], body_a, body_b, h - now, normal, linear, inertia, inverse_mass)
+        heavy |= is_heavy(
+            beginning[held[k]], body_a, body_b, h - now, normal, offset_a, offset_b,
+            linear, angular, inertia, inverse_mass,
+        )  # fmt: skip
     # Only then may those who rest be driven into each other: else they are not asked.
     for k in range(holds if heavy else 0):
         pairs[taken], number[taken] = beginning[held[k]], held[k]
@@ -118,7 +124,8 @@ def fly(
         for index in range(seek_count):
             m = seek[index]
             p = pairs[m]
-            if resting[p] and ((first and start == 0.0) or plastic[p] >= BLOWS):
+            springs = kind[p] >= 0 and restitution[p] > 0.0
+            if resting[p] and ((first and start == 0.0) or plastic[p] >= (PATIENCE if springs else BLOWS)):
                 enter_time(soonest, leaves + m, NEVER)
                 continue
             sink = sink_allowed(p, body_a, body_b, inertia, inverse_mass)
@@ -130,7 +137,7 @@ def fly(
                 enter_time(soonest, leaves + m, foreseen)
                 continue
             limit = sink / (h - now) if now < h else NEVER
-            if restitution[p] > 0.0:
+            if springs:
                 limit = APPROACH + BLOW_SPEED_FACTOR * h * pushed(ball[p], other[p], felt)
             foreseen = foresee(
                 p, ball[p], other[p], now, h, limit, bend,
@@ -265,13 +272,13 @@ def sink_allowed(p, body_a, body_b, inertia, inverse_mass):
 
 
 @woven
-def is_heavy(p, body_a, body_b, span, normal, linear, inertia, inverse_mass):
+def is_heavy(p, body_a, body_b, span, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass):
     """Tell whether the bodies of a pair come at each other so fast that they may drive others into each other."""
     speed = 0.0
-    for i, sense in ((body_a[p], 1.0), (body_b[p], -1.0)):
+    for i, offset, sense in ((body_a[p], offset_a, 1.0), (body_b[p], offset_b, -1.0)):
         if i >= 0:
-            for k in range(3):
-                speed += sense * normal[p, k] * linear[i, k]
+            x, y, z = surface_velocity(i, offset[p, 0], offset[p, 1], offset[p, 2], linear, angular)
+            speed += sense * (normal[p, 0] * x + normal[p, 1] * y + normal[p, 2] * z)
     return speed * span > sink_allowed(p, body_a, body_b, inertia, inverse_mass)
 
 
