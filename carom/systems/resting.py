@@ -61,6 +61,7 @@ class Resting(Resource):
     def __init__(self) -> None:
         self.hearers: list[Callable[[Stage, int], None]] = []
         self.count = self.groups = self.levels = 0
+        self.solids = False  # whether some contacts are not of balls on exact arcs
         self.structure = -1  # that of the world when contacts were detected
         self.bound = np.zeros(0, np.int64)  # the rows of bodies that contacts or joints are of
         self.bound_of: tuple[Integers, Integers] | None = None  # who was awake and joined when they were found
@@ -84,6 +85,7 @@ class Resting(Resource):
         points, nobody = contact.count, len(inverse_mass)
         if len(self.start) <= points:
             self.start, self.closes = np.empty(2 * points + 1, np.int64), np.empty(2 * points + 1, np.bool_)
+        self.solids = bool((contact.kind[:points] < 0).any())
         self.count = find_manifolds(points, contact.row_a, contact.row_b, contact.normal, self.start)
         if self.bodies.shape[1] != nobody + 1:
             self.bodies, self.packed = aligned(PLANES, nobody + 1, BLOCK), None
@@ -169,7 +171,7 @@ class Resting(Resource):
     def closing(self, world: World, at: float, h: float) -> Booleans:
         """Tell which manifolds, by their first contacts, may strike; all of them in the middle of a substep."""
         self.closes[:] = True
-        if at == 0.0 and self.groups:
+        if at == 0.0 and self.solids:
             motion = world[Motion]
             pack_velocities(self.rows(world), motion.linear, motion.angular, self.bodies[VELOCITY])
             share_out(
