@@ -94,12 +94,17 @@ def fly(
         if may_meet:
             seek[seek_count] = m
             seek_count += 1
+            gap = 0.0  # or more
+            if kind[p] == BALL:
+                gap = between(ball[p], other[p], center) - radius[p] - extent[p, 0]
+            elif kind[p] < 0 and start == 0.0:
+                gap = -max_of(depth, p, beginning[number[m] + 1])
             heavy |= is_heavy(
-                p, body_a, body_b, h - now, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass
+                p, gap, body_a, body_b, h - now, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass
             )
     for k in range(holds if start > 0.0 else 0):  # blows of before
         heavy |= is_heavy(
-            beginning[held[k]], body_a, body_b, h - now, normal, offset_a, offset_b,
+            beginning[held[k]], 0.0, body_a, body_b, h - now, normal, offset_a, offset_b,
             linear, angular, inertia, inverse_mass,
         )  # fmt: skip
     # Only then may those who rest be driven into each other: else they are not asked.
@@ -272,14 +277,32 @@ def sink_allowed(p, body_a, body_b, inertia, inverse_mass):
 
 
 @woven
-def is_heavy(p, body_a, body_b, span, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass):
-    """Tell whether the bodies of a pair come at each other so fast that they may drive others into each other."""
+def between(i, o, center):
+    """Return how far apart (m) the centres of two bodies are."""
+    squared = 0.0
+    for k in range(3):
+        squared += (center[i, k] - center[o, k]) ** 2
+    return sqrt(squared)
+
+
+@woven
+def max_of(column, begin, end):
+    """Return the largest of some rows."""
+    most = column[begin]
+    for k in range(begin + 1, end):
+        most = max(most, column[k])
+    return most
+
+
+@woven
+def is_heavy(p, gap, body_a, body_b, span, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass):
+    """Tell whether the bodies of a pair meet so fast within ``span`` seconds that they may drive others together."""
     speed = 0.0
     for i, offset, sense in ((body_a[p], offset_a, 1.0), (body_b[p], offset_b, -1.0)):
         if i >= 0:
             x, y, z = surface_velocity(i, offset[p, 0], offset[p, 1], offset[p, 2], linear, angular)
             speed += sense * (normal[p, 0] * x + normal[p, 1] * y + normal[p, 2] * z)
-    return speed * span > sink_allowed(p, body_a, body_b, inertia, inverse_mass)
+    return speed * span - gap > sink_allowed(p, body_a, body_b, inertia, inverse_mass)
 
 
 @making
