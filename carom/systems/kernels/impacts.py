@@ -56,7 +56,8 @@ def fly(
     counted so far goes on: ``events``, and for each pair ``strikes`` and ``plastic``, else to detect in the middle
     would renew the patience with endless rows of impacts. ``cut`` counts impacts beyond the cap, which are let pass.
     Nobody flies on beyond ``until``, nor after an impact by which a body turns more than its ``turns`` (rad). Groups
-    become ``stale`` in which pairs are struck. An ``arc`` of more than no rows is accounted for (`note_arc`).
+    become ``stale`` in which pairs are struck. Blows that go to and fro between bodies that stay together are at one
+    time, and logged as one impact of each pair. An ``arc`` of more than no rows is accounted for (`note_arc`).
     """
     pairs, number, held = np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count, np.int64)
     taken, near, holds = 0, 0, 0
@@ -122,7 +123,7 @@ def fly(
     while leaves < taken:
         leaves *= 2
     soonest = np.full(2 * leaves, NEVER)
-    begin, of_body = seek, seek  # found before the first impact
+    begin, of_body, logged = seek, seek, seek  # found before the first impact
     first = True
     while True:
         # Foresee the next impact of every pair whose bodies changed course.
@@ -158,6 +159,7 @@ def fly(
             break
         if first:
             begin, of_body = pairs_of_bodies(pairs, body_a, body_b, len(inverse_mass))
+            logged = np.full(taken, -1)  # where each pair's last impact is
             first = False
         m = 1
         while m < leaves:
@@ -216,10 +218,20 @@ def fly(
         stale[group_of[number[m]]] = True
         for c in range(p, beginning[number[m] + 1]):
             resting[c] = together  # from now on only a blow makes it an impact, else plastic pairs would never end
+        row = logged[m]
+        again = row >= 0 and plastic[p] > 0 and log[row, TIME] == clock + now
         plastic[p] += together
         strikes[p] += 1
         events += 1
         if speed > 0.0:
+            work += kinetic_energy(i, linear, angular, rotation, inverse_mass, inertia, principal_axes)
+            work += kinetic_energy(o, linear, angular, rotation, inverse_mass, inertia, principal_axes)
+        if speed > 0.0 and again:
+            log[row, SPEED], log[row, IMPULSE] = max(log[row, SPEED], speed), log[row, IMPULSE] + pressed
+            log[row, WORK] += work
+            for k, f in enumerate((fx, fy, fz)):
+                log[row, FRICTION + k] += along_a * f
+        elif speed > 0.0:
             if log_count == len(log_pair):
                 longer, longer_pair = np.empty((2 * log_count, WIDTH)), np.empty(2 * log_count, np.int64)
                 for k in range(log_count):  # one by one: slices take seconds to compile, for what is said of shapes
@@ -227,12 +239,9 @@ def fly(
                     for part in range(WIDTH):
                         longer[k, part] = log[k, part]
                 log, log_pair = longer, longer_pair
-            log_pair[log_count] = p
+            log_pair[log_count], logged[m] = p, log_count
             log[log_count, TIME], log[log_count, SPEED], log[log_count, IMPULSE] = clock + now, speed, pressed
-            work += kinetic_energy(i, linear, angular, rotation, inverse_mass, inertia, principal_axes)
-            log[log_count, WORK] = work + kinetic_energy(
-                o, linear, angular, rotation, inverse_mass, inertia, principal_axes
-            )
+            log[log_count, WORK] = work
             # The normal from a to b points away from a ball that is a, and b feels the reaction.
             for k, (f, n, at_k) in enumerate(((fx, nx, px), (fy, ny, py), (fz, nz, pz))):
                 log[log_count, FRICTION + k] = along_a * f
@@ -245,8 +254,8 @@ def fly(
             if body < 0:
                 continue
             for slot in range(begin[body], begin[body + 1]):
-                again = kind[p] < 0 or not together  # points that did not touch yet are still to come
-                if of_body[slot] != m or (again and (body == i or i < 0)):
+                comes = kind[p] < 0 or not together  # points that did not touch yet are still to come
+                if of_body[slot] != m or (comes and (body == i or i < 0)):
                     seek[seek_count] = of_body[slot]
                     seek_count += 1
             within = time_within_reach(body, h - now, center, detected_center, reach, linear, acceleration)
