@@ -32,6 +32,20 @@ def test_a_column_that_lands_does_not_sink_into_itself(shape: str, size: float, 
     assert 0.0 < deepest <= most * size
 
 
+def test_who_rides_on_a_ball_that_lands_on_one_that_stands_does_not_sink() -> None:
+    """What stands has no body, and the ground need not be at the origin."""
+    simulation = Simulation(sleeping=False)
+    simulation.add(collider={"sphere": {"radius": 1.0}}, transform={"position": (100.0, -1.0, 0.0)})
+    for height in (0.06, 0.16):
+        place, ball = {"position": (100.0, height, 0.0)}, {"sphere": {"radius": 0.05}}
+        simulation.add(transform=place, motion={"linear": FALLING}, body={}, collider=ball)
+    contact, deepest = simulation.world[Contact], 0.0
+    for _ in range(20):
+        simulation.step()
+        deepest = max(deepest, contact.depth[: contact.count].max(initial=0.0))
+    assert 0.0 < deepest <= 0.001
+
+
 @pytest.mark.parametrize("shape", ["box", "sphere"])
 def test_a_blow_through_a_column_is_one_impact_of_each_pair(shape: str) -> None:
     """However often it goes to and fro at that time: who listens for impacts hears it once."""

@@ -48,8 +48,8 @@ def foresee_blow(
 ):  # fmt: skip
     """Return when the first point of a manifold closes within the substep, NEVER if none does.
 
-    Accelerations of the arcs count along the normal, turning as it is now. A point of one that rests
-    counts only where a blow makes it sink by more than ``sink`` (m) until the substep ends: the solver holds the rest.
+    Accelerations of the arcs count along the normal, turning as it is now. A point of one that rests counts only where
+    a blow makes it sink by more than ``sink`` (m) until the substep ends: the solver holds the others.
     """
     a, b = body_a[first], body_b[first]
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]

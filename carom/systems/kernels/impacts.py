@@ -9,18 +9,17 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import (
     APPROACH,
-    BLOW_SINK,
     BLOW_SPEED_FACTOR,
     BLOWS,
     IMPACTS_AT_LEAST,
     IMPACTS_PER_PAIR,
     PATIENCE,
-    TOUCH,
 )
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import BALL, NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
-from carom.systems.kernels.bodies import advance_body, pushed, surface_velocity
+from carom.systems.kernels.bodies import advance_body, pushed
+from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.reach import are_apart, time_within_all, time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
@@ -95,11 +94,9 @@ def fly(
         if may_meet:
             seek[seek_count] = m
             seek_count += 1
-            gap = 0.0  # or more
-            if kind[p] == BALL:
-                gap = between(ball[p], other[p], center) - radius[p] - extent[p, 0]
-            elif kind[p] < 0 and start == 0.0:
-                gap = -max_of(depth, p, beginning[number[m] + 1])
+            gap = least_gap(
+                p, beginning[number[m] + 1], start, kind, ball, other, center, other_position, radius, extent, depth
+            )
             heavy |= is_heavy(
                 p, gap, body_a, body_b, h - now, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass
             )
@@ -273,45 +270,6 @@ def reason_of(now, h, until, whirls):
     if now >= h:
         return DONE
     return TO_LOOK if whirls or now >= until else OUT_OF_REACH
-
-
-@woven
-def sink_allowed(p, body_a, body_b, inertia, inverse_mass):
-    """Return how far (m) a blow may sink the bodies of a pair that rests into each other."""
-    size = NEVER
-    for i in (body_a[p], body_b[p]):
-        if i >= 0 and inverse_mass[i] > 0.0:
-            size = min(size, min(inertia[i, 0], inertia[i, 1], inertia[i, 2]) * inverse_mass[i])
-    return max(TOUCH, BLOW_SINK * sqrt(size))
-
-
-@woven
-def between(i, o, center):
-    """Return how far apart (m) the centres of two bodies are."""
-    squared = 0.0
-    for k in range(3):
-        squared += (center[i, k] - center[o, k]) ** 2
-    return sqrt(squared)
-
-
-@woven
-def max_of(column, begin, end):
-    """Return the largest of some rows."""
-    most = column[begin]
-    for k in range(begin + 1, end):
-        most = max(most, column[k])
-    return most
-
-
-@woven
-def is_heavy(p, gap, body_a, body_b, span, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass):
-    """Tell whether the bodies of a pair meet so fast within ``span`` seconds that they may drive others together."""
-    speed = 0.0
-    for i, offset, sense in ((body_a[p], offset_a, 1.0), (body_b[p], offset_b, -1.0)):
-        if i >= 0:
-            x, y, z = surface_velocity(i, offset[p, 0], offset[p, 1], offset[p, 2], linear, angular)
-            speed += sense * (normal[p, 0] * x + normal[p, 1] * y + normal[p, 2] * z)
-    return speed * span - gap > sink_allowed(p, body_a, body_b, inertia, inverse_mass)
 
 
 @making
