@@ -15,10 +15,13 @@ CELL = 40  # characters after which a list of components goes on in the next lin
 def explain(schedule: Schedule) -> str:
     """Return the frame as text: its systems under their phases in order of execution, then what each does."""
     rows: list[tuple[str, ...]] = [("phase", "system", "reads", "writes", "adds")]
-    shown = ""
+    last, known = None, set()
     for phase, system in schedule:
-        label = "" if phase.name == shown else phase.name + (" (repeated)" if phase.repeat else "") + _if(phase.when)
-        shown = phase.name
+        label = "" if phase is last else phase.name
+        if phase not in known:
+            label += (" (repeated)" if phase.repeat else "") + _if(phase.when)
+        last = phase
+        known.add(phase)
         lists = [textwrap.wrap(_names(kinds), CELL) for kinds in (system.reads, system.writes, system.adds)]
         rows += zip_longest([label], [system.name + _if(system.when)], *lists, fillvalue="")
     widths = [max(len(row[i]) for row in rows) for i in range(5)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from itertools import chain
 from time import perf_counter_ns
 from typing import TYPE_CHECKING, Final
 
@@ -23,30 +24,41 @@ AfterSystem = Callable[[System], None]
 class Phase:
     """Systems in order under one name, run ``repeat(world)`` times with the time step divided among the repeats.
 
-    ``when`` is asked once in a frame, before the first repeat, and reads what the systems of the phase declare.
+    ``when`` is asked before the first repeat and reads what the systems of the phase declare. A phase may stand within
+    another, between systems: it is run in each repeat of that one.
     """
 
     def __init__(
-        self, name: str, *systems: System, repeat: Repeat | None = None, when: Condition | None = None
+        self, name: str, *parts: System | Phase, repeat: Repeat | None = None, when: Condition | None = None
     ) -> None:
-        for stray in systems:
-            if not isinstance(stray, System):
+        for stray in parts:
+            if not isinstance(stray, System | Phase):
                 raise DeclarationError(
                     f"phase '{name}' takes systems, received {getattr(stray, '__name__', repr(stray))}; "
                     f"write @system(reads=..., writes=...) above the function"
                 )
         self.name: Final = name
-        self.systems: Final = systems
+        self.parts: Final = tuple((part, part.name) for part in parts)
         self.repeat: Final = repeat
         self.when: Final = when
-        self.named: Final = tuple((system, system.name) for system in systems)
+        systems = tuple(system for _, system in self)
         self.question: Final = (
             None if when is None else Question(when, f"phase '{name}'", "one of its systems", systems)
         )
 
-    def holding(self, *systems: System) -> Phase:
-        """Return this phase with these systems in the place of its own."""
-        return Phase(self.name, *systems, repeat=self.repeat, when=self.when)
+    def __iter__(self) -> Iterator[tuple[Phase, System]]:
+        for part, _ in self.parts:
+            if isinstance(part, Phase):
+                yield from part
+            else:
+                yield self, part
+
+    def exchanged(self, exchange: Callable[[System], tuple[System, ...]]) -> Phase:
+        """Return this phase with each system exchanged for others."""
+        parts: list[System | Phase] = []
+        for part, _ in self.parts:
+            parts += (part.exchanged(exchange),) if isinstance(part, Phase) else exchange(part)
+        return Phase(self.name, *parts, repeat=self.repeat, when=self.when)
 
 
 class Schedule:
@@ -54,11 +66,11 @@ class Schedule:
 
     def __init__(self, *phases: Phase) -> None:
         self.phases: Final = phases
-        self._names = (*(name for phase in phases for _, name in phase.named), COMMANDS)
+        self._names = (*(system.name for _, system in self), COMMANDS)
         self._check()
 
     def __iter__(self) -> Iterator[tuple[Phase, System]]:
-        return ((phase, system) for phase in self.phases for system in phase.systems)
+        return chain(*self.phases)
 
     def run(self, world: World, dt: float, *, checked: bool = False, after: AfterSystem | None = None) -> None:
         """Run one frame of ``dt`` seconds; ``checked`` enforces declared access, ``after`` hears of each system run."""
@@ -70,27 +82,38 @@ class Schedule:
         try:
             with world.faces(None):
                 began = perf_counter_ns()  # one reading ends a system and begins the next: nothing is left out
-                for phase in self.phases:
+
+                def go(phase: Phase, dt: float) -> bool:
+                    nonlocal began
                     if phase.question and not phase.question.holds(world, checked=checked):
-                        continue
+                        return False
                     repeats = 1 if phase.repeat is None else phase.repeat(world)
                     share = dt / max(repeats, 1)
                     for _ in range(repeats):
-                        for system, name in phase.named:
-                            world.running = system
-                            if system.question and not system.question.holds(world, checked=checked):
+                        for part, name in phase.parts:
+                            if isinstance(part, Phase):
+                                world.running = None
+                                go(part, share)
+                                continue
+                            world.running = part
+                            if part.question and not part.question.holds(world, checked=checked):
                                 continue
                             if checked:
-                                system.guarded(world, share)
+                                part.guarded(world, share)
                             else:
-                                system.function(world, share)
+                                part.function(world, share)
                             now = perf_counter_ns()
                             spent[name] += now - began
                             calls[name] += 1
                             began = now
                             if after is not None:
-                                after(system)
+                                after(part)
                                 began = perf_counter_ns()
+                    return True
+
+                for phase in self.phases:
+                    if not go(phase, dt):
+                        continue
                     world.running = None
                     apply_commands(world)
                     now = perf_counter_ns()
@@ -127,10 +150,7 @@ class Schedule:
             if name not in there:
                 hints = " ".join(filter(None, [did_you_mean(name, there), f"there are {', '.join(there)}"]))
                 raise DeclarationError(f"no system is named {name!r}; {hints}")
-        return [
-            phase.holding(*(new for old, name in phase.named for new in (exchange(old) if name in names else (old,))))
-            for phase in self.phases
-        ]
+        return [phase.exchanged(lambda old: exchange(old) if old.name in names else (old,)) for phase in self.phases]
 
     def _check(self) -> None:
         faults: list[str] = []

@@ -4,25 +4,30 @@ from __future__ import annotations
 
 from carom.ecs import ExternalForce, Force, Motion, RigidBody, Transform, World, system
 from carom.ecs.components.flight import Flight
+from carom.ecs.components.spring import Spring
 from carom.systems.awake import Awake
+from carom.systems.forces.law import Forces
+from carom.systems.forces.standing import Standing, forces_vary
 from carom.systems.kernels.flight import EULER, SEMI_IMPLICIT, VERLET, accelerate, kick_bodies, predict_middle
 from carom.systems.kernels.forces import clear_sums
+from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 
 SCHEMES = {"euler": EULER, "semi_implicit": SEMI_IMPLICIT, "verlet": VERLET}
 
 
-@system(reads=(RigidBody, Settings, Awake), writes=(Transform, Motion, Flight))
+@system(reads=(RigidBody, Settings, Awake, Progress, Standing), writes=(Transform, Motion, Flight))
 def predict(world: World, dt: float) -> None:
-    """Move bodies to the middle of the substep, where verlet evaluates forces; others evaluate at its start."""
+    """Begin the arcs of bodies; move them to the middle of the substep, where verlet evaluates forces."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
-    half = 0.5 * dt if world[Settings].integrator == "verlet" else 0.0
+    half = 0.5 * dt if world[Settings].integrator == "verlet" and forces_vary(world) else 0.0
     predict_middle(
         world[Awake].now(world), half, body.center_of_mass, body.freedom,
         motion.linear_acceleration, motion.angular_acceleration,
         transform.position, transform.rotation, motion.linear, motion.angular,
         flight.center, flight.start_center, flight.start_position, flight.start_rotation,
         flight.start_linear, flight.start_angular,
+        flight.angular_acceleration, flight.time, flight.turned, flight.touching,
     )  # fmt: skip
 
 
@@ -41,18 +46,19 @@ def clear_forces(world: World, dt: float) -> None:
     )
 
 
-@system(reads=(RigidBody, Force, ExternalForce, Awake), writes=(Transform, Motion, Flight))
+@system(reads=(RigidBody, Force, ExternalForce, Awake, Forces, Spring), writes=(Transform, Motion, Flight, Standing))
 def sum_forces(world: World, dt: float) -> None:
     """Divide forces and torques by mass and inertia; bodies return to the start of the substep."""
     transform, motion, flight = world[Transform], world[Motion], world[Flight]
     body, force, external = world[RigidBody], world[Force], world[ExternalForce]
-    accelerate(
+    turns = accelerate(
         world[Awake].now(world), body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom,
         force.force, force.torque, external.force, external.torque,
         flight.start_position, flight.start_rotation, flight.start_linear, flight.start_angular,
         transform.position, transform.rotation, motion.linear, motion.angular,
-        flight.felt, flight.angular_acceleration, flight.time, flight.turned, flight.touching,
+        flight.felt, flight.angular_acceleration,
     )  # fmt: skip
+    world[Standing].judge(world, turns=turns)
 
 
 @system(reads=(RigidBody, Force, Settings, Awake), writes=(Motion, Flight))

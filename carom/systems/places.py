@@ -25,6 +25,12 @@ class Place:
         """The module of the system."""
         return self.system.function.__module__
 
+    def beside(self, other: System) -> tuple[System, ...]:
+        """Return another system, and this one beside it where it is the neighbour."""
+        if other.name != self.neighbour:
+            return (other,)
+        return (other, self.system) if self.behind else (self.system, other)
+
     def __str__(self) -> str:
         """Return the system with where it comes from."""
         return f"system '{self.system.name}' of {origin(self.module)}"
@@ -63,26 +69,22 @@ def extended(schedule: Schedule) -> Schedule:
 
 @cache
 def _with_places(schedule: Schedule, places: tuple[Place, ...]) -> Schedule:
-    phases = [(phase, list(phase.systems)) for phase in schedule.phases]
+    phases = schedule.phases
     waiting = sorted(places, key=lambda place: place.module)  # not in order of import, which differs from run to run
     for place in waiting:
         if any(place.system.name == system.name for _, system in schedule):
             raise DeclarationError(f"{place} is named like one of carom's; rename it")
     while waiting:
-        names = [system.name for _, systems in phases for system in systems]
+        names = [system.name for phase in phases for _, system in phase]
         ready = [place for place in waiting if place.neighbour in names]
         if not ready:
             side = "after" if waiting[0].behind else "before"
             there = ", ".join(names)
             raise DeclarationError(f"{waiting[0]} is placed {side} '{waiting[0].neighbour}'; there are {there}")
         for place in [p for p in ready if not p.behind] + [p for p in reversed(ready) if p.behind]:
-            for _, systems in phases:
-                for index, system in enumerate(systems):
-                    if system.name == place.neighbour:
-                        systems.insert(index + place.behind, place.system)
-                        break
+            phases = tuple(phase.exchanged(place.beside) for phase in phases)
         waiting = [place for place in waiting if place not in ready]
     try:
-        return Schedule(*(phase.holding(*systems) for phase, systems in phases))
+        return Schedule(*phases)
     except DeclarationError as fault:
         raise DeclarationError("\n  ".join([str(fault), *(f"{place} is placed in it" for place in places)])) from None

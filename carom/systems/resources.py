@@ -15,6 +15,7 @@ from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
 from carom.systems.events import Events
 from carom.systems.forces.law import Forces
+from carom.systems.forces.standing import Standing
 from carom.systems.landings import Landings
 from carom.systems.layers import Layers
 from carom.systems.ledger import Ledger
@@ -37,6 +38,6 @@ def resources(settings: Settings) -> tuple[Resource, ...]:
     made = (Random(settings.seed), Layers(), Materials(), Geometries(), StatedBodies())
     stated = (Forces(), Events(), Commands())
     packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
-    solving = (Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger())
+    solving = (Standing(), Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger())
     caches = (*packed, *solving, Threads(), Scene(), Asked(), Newborn(), Fields())
     return (settings, *made, *stated, Progress(), Answered(), *caches)

@@ -35,6 +35,7 @@ from carom.systems.force_function import ForceFunction, force_system
 from carom.systems.forces.law import Forces, Law, read_law
 from carom.systems.forces.reach import read_reach
 from carom.systems.forces.region import Region
+from carom.systems.forces.standing import Standing
 from carom.systems.interpolation import EarlierPoses
 from carom.systems.layers import Layers
 from carom.systems.ledger import Ledger
@@ -218,6 +219,7 @@ class Simulation:
         self.world[Awake].strangers = has_strangers(self.schedule)
         self.world.frame += 1
         hearers = [*self.hearers, *([after] if after is not None else ())]
+        self.world[Standing].heard = bool(hearers)
 
         def tell(system: System) -> None:
             for hear in hearers:

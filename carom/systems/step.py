@@ -22,6 +22,7 @@ from carom.systems.forces.lift import apply_lift
 from carom.systems.forces.magnus import apply_magnus
 from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
 from carom.systems.forces.springs import apply_springs
+from carom.systems.forces.standing import forces_vary
 from carom.systems.forces.thruster import apply_thruster
 from carom.systems.forces.vortex import apply_vortex
 from carom.systems.forces.wind import apply_wind
@@ -67,25 +68,29 @@ STEP = Schedule(
         "substep",
         begin_substep,
         look_ahead,  # once more for all bodies that are faster now than was foreseen
-        predict,  # bodies at the middle of the substep (verlet)
-        clear_forces,
-        choose_bodies,  # whom laws with a region, layers or a time window act on
-        apply_wind,  # before drags, which are relative to the medium
-        apply_vortex,
-        apply_gravity,
-        apply_mutual_gravitation,
-        apply_gravity_well,
-        apply_attraction,
-        apply_thruster,
-        apply_lift,
-        apply_magnus,
-        apply_buoyancy,
-        apply_springs,
-        apply_linear_drag,
-        apply_quadratic_drag,
-        apply_damping,
-        apply_constant_push,  # last: leaving its stroke depends on the forces before
-        sum_forces,  # accelerations; bodies back at the start of the substep
+        predict,  # arcs begin; bodies at the middle of the substep, where forces vary in it (verlet)
+        Phase(
+            "forces",
+            clear_forces,
+            choose_bodies,  # whom laws with a region, layers or a time window act on
+            apply_wind,  # before drags, which are relative to the medium
+            apply_vortex,
+            apply_gravity,
+            apply_mutual_gravitation,
+            apply_gravity_well,
+            apply_attraction,
+            apply_thruster,
+            apply_lift,
+            apply_magnus,
+            apply_buoyancy,
+            apply_springs,
+            apply_linear_drag,
+            apply_quadratic_drag,
+            apply_damping,
+            apply_constant_push,  # last: leaving its stroke depends on the forces before
+            sum_forces,  # accelerations, and whether they stay; bodies back at the start of the substep
+            when=forces_vary,
+        ),
         join_bodies,  # which joints hold somebody
         sort_out_contacts,  # which pairs rest
         kick,  # each body's arc

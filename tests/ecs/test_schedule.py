@@ -23,7 +23,7 @@ from carom.ecs import (
 from carom.ecs.commands import Commands
 from carom.ecs.component import Record
 from carom.ecs.explain import explain
-from carom.ecs.system import every
+from carom.ecs.system import every, system
 
 
 class Draft(Component):
@@ -64,7 +64,7 @@ def names(schedule: Schedule) -> list[tuple[str, str]]:
 def test_a_schedule_is_changed_by_name(change: Callable[[], Schedule], order: str) -> None:
     """Another schedule comes out, with everything else as it was; the one asked is what it was."""
     changed = change()
-    phases = (f"{phase.name}: {' '.join(system.name for system in phase.systems)}" for phase in changed.phases)
+    phases = (f"{phase.name}: {' '.join(system.name for _, system in phase)}" for phase in changed.phases)
     assert ", ".join(phases) == order
     assert changed.phases[1].repeat is FRAME.phases[1].repeat
     assert changed.phases[1].when is FRAME.phases[1].when
@@ -173,6 +173,35 @@ def test_a_condition_is_asked_right_before(checked: bool) -> None:
         *("count 1", "half 1", "count 1"),
         *("count 2", "half 2", "count 2"),
         *("rarely 3", "count 3", "half 3", "count 3"),
+    ]
+
+
+@pytest.mark.parametrize("checked", [True, False])
+def test_a_phase_within_a_phase(checked: bool) -> None:
+    """Is run in its place in every repeat, if its condition then holds, and its time is a part of the repeat's."""
+    world, shares = World(), []
+    world.spawn(Transform())
+    count = named("count", lambda world: world[Transform].position.__iadd__(1.0), writes=(Transform,))
+
+    def odd(world: World) -> bool:
+        return bool(world[Transform].position[0, 0] % 2)
+
+    @system(reads=(Transform,))
+    def inside(world: World, dt: float) -> None:
+        shares.append(dt)
+
+    inner = Phase("inner", inside, repeat=lambda world: 2, when=odd)
+    schedule = Schedule(Phase("outer", count, inner, named("last"), repeat=lambda world: 4))
+    in_each = [*("count 1", "inside 1", "inside 1", "last 1"), *("count 1", "last 1")]
+    assert runs(world, schedule, 1, checked=checked) == 2 * in_each
+    assert shares == 4 * [0.1 / 4 / 2]
+    assert names(schedule) == [("outer", "count"), ("inner", "inside"), ("outer", "last")]
+    assert names(schedule.insert(named("more"), after="inside"))[1:3] == [("inner", "inside"), ("inner", "more")]
+    assert names(schedule.remove("inside")) == [("outer", "count"), ("outer", "last")]
+    assert [line.split("  ")[0] for line in explain(schedule).splitlines()[2:5]] == [
+        "outer (repeated)",
+        "inner (repeated) (if odd)",
+        "outer",
     ]
 
 

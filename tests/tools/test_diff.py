@@ -87,7 +87,7 @@ def test_a_bug_in_one_frame_is_named_with_its_system(
     what = f"Force.force[2] of entity 'ball[2,0,0]' is 0.0 in the first and 1e-06 in the second, {ulps} ulps apart"
     told = capsys.readouterr().out.splitlines()
     assert told[0] == "sound.yaml and planted.yaml: frames 0 to 300: differ; the same up to frame 129"
-    assert told[1] == f"  first    frame 130, system 'apply_damping', run 1 in phase 'substep': {what}"
+    assert told[1] == f"  first    frame 130, system 'apply_damping', run 1 in phase 'forces': {what}"
     assert told[2] == "  how      grew: it came in once; from the same state both stay alike in 8 later frames"
     # 1 uN for 10 ms on 1 kg is 1e-8 m/s, after half the way in the first frame for 70 more.
     assert told[3] == "  apart    5e-11 m in frame 130 ('ball[2,0,0]'), 7.05e-09 m in frame 200 ('ball[2,0,0]')"
@@ -97,7 +97,7 @@ def test_a_bug_in_one_frame_is_named_with_its_system(
     assert any(path.startswith("/world/ghosts/second/") for path, _ in recording._series)
     assert main(["bisect", "sound.yaml", "planted.yaml"]) == 1
     told = capsys.readouterr().out.splitlines()
-    by = "system 'apply_damping', run 1 in phase 'substep', is the first after which sound.yaml and planted.yaml differ"
+    by = "system 'apply_damping', run 1 in phase 'forces', is the first after which sound.yaml and planted.yaml differ"
     assert told[:3] == [f"frame 130: {by}", f"  wrote    {what}", "  is in    both"]
     assert "  before   all is the same, up to system 'apply_quadratic_drag'" in told
 

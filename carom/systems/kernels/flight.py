@@ -26,20 +26,23 @@ EULER, SEMI_IMPLICIT, VERLET = 0, 1, 2
 @kernel(
     "position", "rotation", "linear", "angular",
     "center", "start_center", "start_position", "start_rotation", "start_linear", "start_angular",
+    "angular_acceleration", "time", "turned", "touching",
     makes_arrays=True,
 )  # fmt: skip
 def predict_middle(
     rows, half, center_of_mass, freedom, last_acceleration, last_angular_acceleration,
     position, rotation, linear, angular,
     center, start_center, start_position, start_rotation, start_linear, start_angular,
+    angular_acceleration, time, turned, touching,
 ):  # fmt: skip
-    """Save where bodies are and move them ``half`` seconds on along their arcs, for forces to be evaluated there.
+    """Begin the arcs of bodies: save where they are; move them ``half`` seconds on, for forces to be evaluated there.
 
     Along and about locked axes they are at rest, whatever velocity was set from outside.
     The middle velocity uses the acceleration of the substep before, which keeps velocity Verlet of second order also
     with forces that depend on velocity.
     """
-    three, four, six, zero = np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6)), spread(0.0)
+    one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
+    zero = spread(0.0)
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
         q, c = take_four(rotation, rows, n, near, four), take_three(center_of_mass, rows, n, near, three)
@@ -72,6 +75,11 @@ def predict_middle(
             w = (w[0] + half * b[0], w[1] + half * b[1], w[2] + half * b[2])
         give_three(linear, rows, n, near, three, v)
         give_three(angular, rows, n, near, three, w)
+        give_three(angular_acceleration, rows, n, near, three, (zero, zero, zero))
+        give_three(turned, rows, n, near, three, (zero, zero, zero))
+        give_one(time, rows, n, near, one, zero)
+        for i in rows[n : n + WIDTH]:
+            touching[i] = False
 
 
 @woven
@@ -86,18 +94,18 @@ def offset_of(q, center_of_mass):
     return choose(off, x, zero), choose(off, y, zero), choose(off, z, zero)
 
 
-@kernel(
-    "position", "rotation", "linear", "angular", "felt", "angular_acceleration", "time", "turned", "touching",
-    makes_arrays=True,
-)  # fmt: skip
+@kernel("position", "rotation", "linear", "angular", "felt", "angular_acceleration", makes_arrays=True)
 def accelerate(
     rows, inverse_mass, inverse_inertia, principal_axes, freedom, force, torque, external_force, external_torque,
     start_position, start_rotation, start_linear, start_angular,
-    position, rotation, linear, angular, felt, angular_acceleration, time, turned, touching,
+    position, rotation, linear, angular, felt, angular_acceleration,
 ):  # fmt: skip
-    """Turn forces into accelerations at the middle of the substep and bring the bodies back to its start."""
+    """Turn forces into accelerations at the middle of the substep and bring the bodies back to its start.
+
+    Return whether something turns a body.
+    """
     one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
-    zero = spread(0.0)
+    turns = False
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
         x, y, z = take_three(torque, rows, n, near, three)
@@ -105,6 +113,7 @@ def accelerate(
         x, y, z = x + ex, y + ey, z + ez
         give_three(angular_acceleration, rows, n, near, three, (x, y, z))
         if some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z))):
+            turns = True
             for i in rows[n : n + WIDTH]:
                 ax, ay, az = angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2]
                 if ax != 0.0 or ay != 0.0 or az != 0.0:
@@ -118,10 +127,7 @@ def accelerate(
         give_four(rotation, rows, n, near, four, take_four(start_rotation, rows, n, near, four))
         give_three(linear, rows, n, near, three, take_three(start_linear, rows, n, near, three))
         give_three(angular, rows, n, near, three, take_three(start_angular, rows, n, near, three))
-        give_three(turned, rows, n, near, three, (zero, zero, zero))
-        give_one(time, rows, n, near, one, zero)
-        for i in rows[n : n + WIDTH]:
-            touching[i] = False
+    return turns
 
 
 @kernel(
