@@ -101,8 +101,10 @@ class Fast(Resource):
 
 def fast_of(world: World, pairs: Integers, span: float) -> tuple[Integers, Floats]:
     """Return who of ``pairs`` (n, 2) is fast enough within ``span`` seconds to be looked after, and their numbers."""
-    collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
     fast, numbers = np.empty_like(pairs), np.empty((len(pairs), NUMBERS))
+    if not len(pairs):
+        return fast, numbers
+    collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
     count = find_fast(
         pairs, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
         collider.bound_radius, pose.position, pose.body_row, world[Flight].detected_center, body.inverse_mass,

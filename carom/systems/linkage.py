@@ -94,11 +94,11 @@ class Linkage(Resource):
         """Apply the impulses of the substep before."""
         start_joints_warm(self.groups, self.kinds, self.row, self.index_a, self.index_b, self.lanes, bodies)
 
-    def solve(self, h: float, bodies: Floats, *, relaxing: bool) -> None:
-        """Solve every joint once."""
+    def solve(self, sweeps: int, h: float, bodies: Floats, *, relaxing: bool) -> None:
+        """Solve every joint ``sweeps`` times."""
         rate, hardness = (0.0, 1.0) if relaxing else (JOINT_RATE / h, JOINT_HARDNESS)
         solve_joints(
-            relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
+            sweeps, relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
             self.index_a, self.index_b, self.lanes, bodies,
         )  # fmt: skip
 

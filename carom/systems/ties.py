@@ -60,7 +60,7 @@ class Ties(Resource):
 
     def without_joined(self, world: World, pairs: Integers) -> Integers:
         """Return ``pairs`` (n, 2) of collider rows without those that joints keep from touching each other."""
-        if not len(self.now(world).keys):
+        if not (len(pairs) and len(self.now(world).keys)):
             return pairs
         bodies = world[ColliderPose].body_row[pairs]
         owners = np.where(bodies >= 0, bodies, pairs)

@@ -23,6 +23,8 @@ from carom.systems.settings import Settings, time_of
 def tell_contacts(world: World, dt: float) -> None:
     """Tell which pairs begin and end to touch."""
     contact, touching = world[Contact], world[Touching]
+    if not (contact.count or touching.count or world[Impact].count):
+        return
     struck_a, struck_b, struck_at = struck(world)
     count, room = touching.count, touching.count + contact.count + len(struck_a)
     a, b, since = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room)

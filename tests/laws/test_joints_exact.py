@@ -71,24 +71,43 @@ def look(world: World, dt: float) -> None:
     """Do nothing, which nobody can know."""
 
 
-def swinging(*systems: System) -> Simulation:
-    """Return a chain far from anybody, of links whose centres are beside their origins, with further systems."""
+def swinging(*systems: System, center: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Simulation:
+    """Return a chain far from anybody, of links with their centres where they are told, with further systems."""
     simulation = Simulation(dt=1.0 / 60.0)
     links = add_chain(simulation, "chain", (0.0, 0.0, 0.0), (3.0, 1.0, 0.5), 6, radius=0.04)
     with simulation.world.edit(RigidBody) as body:
-        body.center_of_mass[simulation.world.slots.rows(links)] = (0.01, 0.05, -0.02)
+        body.center_of_mass[simulation.world.slots.rows(links)] = center
     for one in systems:
         simulation.schedule = simulation.schedule.insert(one, after="settle")
     return simulation
 
 
-def test_bodies_that_have_not_moved_are_not_packed_again_and_nobody_can_tell(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("center", [(0.0, 0.0, 0.0), (0.01, 0.05, -0.02)])
+def test_bodies_that_have_not_moved_are_not_packed_again_and_nobody_can_tell(
+    center: tuple[float, float, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """With a system in the frame that might change anything all is found anew, more often, and not a bit differs."""
     packed: list[int] = []
-    monkeypatch.setattr(resting, "pack_bodies", lambda *arguments: (packed.append(0), pack_bodies(*arguments)))
-    expected, before = hashes(swinging(), 60), len(packed)
-    assert hashes(swinging(look), 60) == expected
+    monkeypatch.setattr(resting, "pack_bodies", lambda *arguments: (packed.append(0), pack_bodies(*arguments))[1])
+    expected, before = hashes(swinging(center=center), 60), len(packed)
+    assert hashes(swinging(look, center=center), 60) == expected
     assert before < len(packed) - before == 60 * 8
+
+
+def test_links_that_are_given_another_mass_have_it_at_once() -> None:
+    """Though nothing has moved since they were packed: as in a world that begins there."""
+    simulation, fresh = swinging(), swinging()
+    simulation.step(10)
+    with simulation.world.edit(RigidBody) as body:
+        for name, factor in (
+            ("mass", 3.0),
+            ("inertia", 3.0),
+            ("inverse_mass", 1.0 / 3.0),
+            ("inverse_inertia", 1.0 / 3.0),
+        ):
+            getattr(body, name)[simulation.world.row_numbers(RigidBody)[2:4]] *= factor
+    restore_snapshot(fresh.world, take_snapshot(simulation.world))
+    assert hashes(simulation, 3) == hashes(fresh, 3)
 
 
 PLAIN = """

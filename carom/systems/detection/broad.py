@@ -27,6 +27,8 @@ def still_overlapping(world: World, pairs: Integers) -> Integers:
     One of a pair can be pushed, or is a sensor and one moves; each is on a layer that the other accepts, and they are
     of two bodies and not both sensors. Those of which nobody is awake are left out (`find_lively`).
     """
+    if not len(pairs):
+        return pairs
     collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
     found: Integers = np.empty_like(pairs)
     lively: Booleans = np.ones(len(collider.shape), np.bool_)

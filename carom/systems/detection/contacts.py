@@ -86,6 +86,14 @@ def store(world: World, found: Found) -> None:
     """Write the contact table, matched with the one before."""
     old_count, count = world.count(Contact), len(found.row_a)
     world.resize(Contact, count)
+    if count or old_count:
+        fill(world, found, old_count, count)
+    world[Resting].group(world[Contact], world[RigidBody].inverse_mass)
+    world[Resting].structure = world.structure
+
+
+def fill(world: World, found: Found, old_count: int, count: int) -> None:
+    """Write what is known of contacts, and what follows from it, into the contact table."""
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     renew_contacts(
         old_count, world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
@@ -111,5 +119,3 @@ def store(world: World, found: Found) -> None:
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
         contact.other_position, contact.other_rotation,
     )  # fmt: skip
-    world[Resting].group(contact, world[RigidBody].inverse_mass)
-    world[Resting].structure = world.structure

@@ -19,7 +19,7 @@ from carom.systems.kernels.lane_columns import (
     take_one,
     take_three,
 )
-from carom.systems.kernels.lanes import WIDTH, choose, root, some, spread, whole
+from carom.systems.kernels.lanes import WIDTH, choose, larger, root, some, spread, whole
 from carom.systems.kernels.spatial import product, quarter, series, turn, turned_by
 
 
@@ -121,7 +121,9 @@ def spun_in_lanes(qx, qy, qz, qw, wx, wy, wz, t):
 
 @woven
 def sine_cosine_in_lanes(angle):
-    """Return what `sine_cosine` does."""
+    """Return what `sine_cosine` does; where no angle is of another quadrant, none is looked for."""
+    if not some(larger(angle, -angle) - 0.5 * QUARTER_TURN):
+        return series(angle)
     turns = whole(angle / QUARTER_TURN + 0.5)
     x = (angle - turns * QUARTER_TURN) - turns * QUARTER_TURN_REST
     s, c = series(x)

@@ -6,12 +6,15 @@ from __future__ import annotations
 import numpy as np
 
 from carom.systems.kernels.bodies import turned_by
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_columns import (
+    are_all,
     give_four,
     give_one,
     give_three,
     in_a_row,
+    load_flat,
+    store_flat,
     take_four,
     take_one,
     take_six,
@@ -45,6 +48,14 @@ def predict_middle(
     zero = spread(0.0)
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
+        for i in rows[n : n + WIDTH]:
+            touching[i] = False
+        if near and half == 0.0 and are_all(0.0, center_of_mass, 3, rows[n]) and are_all(1.0, freedom, 6, rows[n]):
+            begin_eight(
+                rows[n], position, rotation, linear, angular, center, start_center, start_position, start_rotation,
+                start_linear, start_angular, angular_acceleration, time, turned,
+            )  # fmt: skip
+            continue
         q, c = take_four(rotation, rows, n, near, four), take_three(center_of_mass, rows, n, near, three)
         free = take_six(freedom, rows, n, near, six)
         v, w = take_three(linear, rows, n, near, three), take_three(angular, rows, n, near, three)
@@ -78,8 +89,27 @@ def predict_middle(
         give_three(angular_acceleration, rows, n, near, three, (zero, zero, zero))
         give_three(turned, rows, n, near, three, (zero, zero, zero))
         give_one(time, rows, n, near, one, zero)
-        for i in rows[n : n + WIDTH]:
-            touching[i] = False
+
+
+@woven
+def begin_eight(
+    i, position, rotation, linear, angular, center, start_center, start_position, start_rotation,
+    start_linear, start_angular, angular_acceleration, time, turned,
+):  # fmt: skip
+    """Begin the arcs of body i and the seven in the rows behind it, free ones about their origins, where they are."""
+    zero = spread(0.0)
+    for at in range(3 * i, 3 * (i + WIDTH), WIDTH):
+        x = load_flat(position, at)
+        store_flat(center, at, x)
+        store_flat(start_center, at, x)
+        store_flat(start_position, at, x)
+        store_flat(start_linear, at, load_flat(linear, at))
+        store_flat(start_angular, at, load_flat(angular, at))
+        store_flat(angular_acceleration, at, zero)
+        store_flat(turned, at, zero)
+    for at in range(4 * i, 4 * (i + WIDTH), WIDTH):
+        store_flat(start_rotation, at, load_flat(rotation, at))
+    store_flat(time, i, zero)
 
 
 @woven
@@ -144,50 +174,110 @@ def kick_bodies(
     Drag relaxes the velocity towards the flow by a factor exp(-rate h): all of it before the drift (semi-implicit),
     after it (Euler), or half before and half after (Verlet, Strang's splitting, which keeps second order).
     """
-    for i in rows:
-        scheme = SEMI_IMPLICIT if touching[i] else integrator
+    for n in range(0, len(rows), WIDTH):
+        if in_a_row(rows, n):
+            i, steps = rows[n], number_of(touching, rows[n])
+            undragged = are_all(0.0, drag, 1, i) and are_all(0.0, angular_drag, 1, i)
+            if undragged and (integrator == SEMI_IMPLICIT or steps == WIDTH):
+                kick_by_steps(
+                    i, h, felt, linear, angular, acceleration, angular_acceleration, decay, angular_decay,
+                    last_acceleration, last_angular_acceleration,
+                )  # fmt: skip
+                continue
+            if undragged and steps == 0:
+                for at in range(3 * i, 3 * (i + WIDTH), WIDTH):
+                    f, b = load_flat(felt, at), load_flat(angular_acceleration, at)
+                    store_flat(acceleration, at, f)
+                    store_flat(last_acceleration, at, f)
+                    store_flat(last_angular_acceleration, at, b)
+                store_flat(decay, i, spread(1.0))
+                store_flat(angular_decay, i, spread(1.0))
+                continue
+        for i in rows[n : n + WIDTH]:
+            kick_body(
+                i, h, integrator, inverse_mass, freedom, drag, drag_flow, angular_drag, felt, touching,
+                linear, angular, acceleration, angular_acceleration, decay, angular_decay, flow,
+                last_acceleration, last_angular_acceleration,
+            )  # fmt: skip
+
+
+@woven
+def number_of(touching, first):
+    """Return how many of eight bodies in a row are in contact."""
+    count = 0
+    for i in range(first, first + WIDTH):
+        count += touching[i]
+    return count
+
+
+@woven
+def kick_by_steps(
+    i, h, felt, linear, angular, acceleration, angular_acceleration, decay, angular_decay,
+    last_acceleration, last_angular_acceleration,
+):  # fmt: skip
+    """Kick body i and the seven in the rows behind it, all semi-implicit and without drag."""
+    zero, one = spread(0.0), spread(1.0)
+    for at in range(3 * i, 3 * (i + WIDTH), WIDTH):
+        store_flat(linear, at, load_flat(linear, at) + h * load_flat(felt, at))
+        store_flat(angular, at, load_flat(angular, at) + h * load_flat(angular_acceleration, at))
+        store_flat(acceleration, at, zero)
+        store_flat(angular_acceleration, at, zero)
+        store_flat(last_acceleration, at, zero)
+        store_flat(last_angular_acceleration, at, zero)
+    store_flat(decay, i, one)
+    store_flat(angular_decay, i, one)
+
+
+@inlined
+def kick_body(
+    i, h, integrator, inverse_mass, freedom, drag, drag_flow, angular_drag, felt, touching,
+    linear, angular, acceleration, angular_acceleration, decay, angular_decay, flow,
+    last_acceleration, last_angular_acceleration,
+):  # fmt: skip
+    """Set the arc of one body."""
+    scheme = SEMI_IMPLICIT if touching[i] else integrator
+    before = 1.0
+    decay[i], angular_decay[i] = 1.0, 1.0
+    rate = drag[i] * inverse_mass[i]
+    for k in range(3):
+        last_acceleration[i, k] = 0.0 if scheme == SEMI_IMPLICIT else felt[i, k]
+    if rate > 0.0:
+        for k in range(3):
+            flow[i, k] = drag_flow[i, k] / drag[i] * freedom[i, k]
+        if scheme == VERLET:
+            before = exponential(-0.5 * rate * h)
+            decay[i] = before
+            for k in range(3):  # the middle of the next substep is predicted with drag too
+                last_acceleration[i, k] += (flow[i, k] - linear[i, k]) * (1.0 - before) / (0.5 * h)
+        elif scheme == SEMI_IMPLICIT:
+            before = exponential(-rate * h)
+        else:
+            decay[i] = exponential(-rate * h)
+        for k in range(3):
+            linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * before
+    for k in range(3):
+        last_angular_acceleration[i, k] = 0.0 if scheme == SEMI_IMPLICIT else angular_acceleration[i, k]
+    if angular_drag[i] > 0.0 and inverse_mass[i] > 0.0:
         before = 1.0
-        decay[i], angular_decay[i] = 1.0, 1.0
-        rate = drag[i] * inverse_mass[i]
-        for k in range(3):
-            last_acceleration[i, k] = 0.0 if scheme == SEMI_IMPLICIT else felt[i, k]
-        if rate > 0.0:
+        if scheme == VERLET:
+            before = exponential(-0.5 * angular_drag[i] * h)
+            angular_decay[i] = before
             for k in range(3):
-                flow[i, k] = drag_flow[i, k] / drag[i] * freedom[i, k]
-            if scheme == VERLET:
-                before = exponential(-0.5 * rate * h)
-                decay[i] = before
-                for k in range(3):  # the middle of the next substep is predicted with drag too
-                    last_acceleration[i, k] += (flow[i, k] - linear[i, k]) * (1.0 - before) / (0.5 * h)
-            elif scheme == SEMI_IMPLICIT:
-                before = exponential(-rate * h)
-            else:
-                decay[i] = exponential(-rate * h)
-            for k in range(3):
-                linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * before
+                last_angular_acceleration[i, k] -= angular[i, k] * (1.0 - before) / (0.5 * h)
+        elif scheme == SEMI_IMPLICIT:
+            before = exponential(-angular_drag[i] * h)
+        else:
+            angular_decay[i] = exponential(-angular_drag[i] * h)
         for k in range(3):
-            last_angular_acceleration[i, k] = 0.0 if scheme == SEMI_IMPLICIT else angular_acceleration[i, k]
-        if angular_drag[i] > 0.0 and inverse_mass[i] > 0.0:
-            before = 1.0
-            if scheme == VERLET:
-                before = exponential(-0.5 * angular_drag[i] * h)
-                angular_decay[i] = before
-                for k in range(3):
-                    last_angular_acceleration[i, k] -= angular[i, k] * (1.0 - before) / (0.5 * h)
-            elif scheme == SEMI_IMPLICIT:
-                before = exponential(-angular_drag[i] * h)
-            else:
-                angular_decay[i] = exponential(-angular_drag[i] * h)
-            for k in range(3):
-                angular[i, k] *= before
-        for k in range(3):
-            if scheme == SEMI_IMPLICIT:
-                linear[i, k] += h * felt[i, k]
-                angular[i, k] += h * angular_acceleration[i, k]
-                acceleration[i, k] = 0.0
-                angular_acceleration[i, k] = 0.0
-            else:
-                acceleration[i, k] = felt[i, k]
+            angular[i, k] *= before
+    for k in range(3):
+        if scheme == SEMI_IMPLICIT:
+            linear[i, k] += h * felt[i, k]
+            angular[i, k] += h * angular_acceleration[i, k]
+            acceleration[i, k] = 0.0
+            angular_acceleration[i, k] = 0.0
+        else:
+            acceleration[i, k] = felt[i, k]
 
 
 @kernel()

@@ -51,8 +51,8 @@ def start_joints_warm(groups, kinds, row, index_a, index_b, lanes, bodies):
 
 
 @kernel("lanes", "bodies", makes_arrays=True)
-def solve_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, lanes, bodies):
-    """Solve every group once.
+def solve_joints(sweeps, relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, lanes, bodies):
+    """Solve every group ``sweeps`` times over.
 
     What is locked goes back to its place at ``rate`` (1/s) times what it is off by, with ``hardness`` of the mass and
     of the impulse that is there (Catto, Soft Constraints, GDC 2011), and stays there when ``relaxing``: the first
@@ -62,32 +62,33 @@ def solve_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a,
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     room = np.empty((SLOTS, WIDTH))
     scratch = address(room)
-    for n in range(groups):
-        g = groups - 1 - n if relaxing else n
-        r, slots = row[g], slots_of(kinds[g])
-        a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-        if slots == 1:
-            a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-        elif slots == WAYS:
-            push = hold_point(r, rate, hardness, a, b, lanes)
-            a, b = moved_point(r, push, a, b, lanes)
-        else:
-            a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-        if kinds[g] >= KINDS and asks[g]:
-            for s in range(slots):
-                p = bound(r, slots, s)
-                if asks[g] & FRICTION_BIT << s:
-                    a, b = rub(s, g, r, p, hardness, h, a, b, index_a, index_b, lanes, bodies)
-                if asks[g] & DRIVE_BIT << s:
-                    a, b = drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodies)
-                if asks[g] & LIMIT_BIT << s:
-                    a, b = limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes, bodies)
+    for _ in range(sweeps):
+        for n in range(groups):
+            g = groups - 1 - n if relaxing else n
+            r, slots = row[g], slots_of(kinds[g])
+            a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
             if slots == 1:
                 a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+            elif slots == WAYS:
+                push = hold_point(r, rate, hardness, a, b, lanes)
+                a, b = moved_point(r, push, a, b, lanes)
             else:
                 a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-        scatter(bodies[VELOCITY], index_a, g, a)
-        scatter(bodies[VELOCITY], index_b, g, b)
+            if kinds[g] >= KINDS and asks[g]:
+                for s in range(slots):
+                    p = bound(r, slots, s)
+                    if asks[g] & FRICTION_BIT << s:
+                        a, b = rub(s, g, r, p, hardness, h, a, b, index_a, index_b, lanes, bodies)
+                    if asks[g] & DRIVE_BIT << s:
+                        a, b = drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodies)
+                    if asks[g] & LIMIT_BIT << s:
+                        a, b = limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes, bodies)
+                if slots == 1:
+                    a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+                else:
+                    a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+            scatter(bodies[VELOCITY], index_a, g, a)
+            scatter(bodies[VELOCITY], index_b, g, b)
 
 
 @kernel("lanes")

@@ -7,7 +7,7 @@ import numba
 import numpy as np
 
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lanes import WIDTH, address
+from carom.systems.kernels.lanes import WIDTH, address, larger, some
 
 if numba.config.DISABLE_JIT:
 
@@ -78,6 +78,28 @@ store_one, store_three, store_four = _storing(1), _storing(3), _storing(4)
 def in_a_row(rows, n):
     """Tell whether the eight rows from the n-th on are next to each other."""
     return n + WIDTH <= len(rows) and rows[n + WIDTH - 1] - rows[n] == WIDTH - 1
+
+
+@woven
+def load_flat(column, at):
+    """Return the eight numbers of a column from the at-th on, whatever rows they are of."""
+    return load_one(address(column), at)[0]
+
+
+@woven
+def store_flat(column, at, lane):
+    """Write what `load_flat` returns."""
+    store_one(address(column), at, (lane,))
+
+
+@woven
+def are_all(value, column, width, i):
+    """Tell whether the ``width`` numbers of row i and of the seven behind it all are one value."""
+    for at in range(width * i, width * (i + WIDTH), WIDTH):
+        off = load_flat(column, at) - value
+        if some(larger(off, -off)):
+            return False
+    return True
 
 
 @woven

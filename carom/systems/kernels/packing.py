@@ -39,14 +39,18 @@ def find_bound(rows, nobody, groups, index_a, index_b, joint_groups, joint_a, jo
 
 @kernel("bodies", makes_arrays=True)
 def pack_bodies(
-    rows, center, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom, rotation, bodies
-):
-    """Write where bodies are, their velocities, inverse masses and inertias; the world is at its origin."""
+    rows, center_of_mass, center, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom, rotation,
+    bodies,
+):  # fmt: skip
+    """Write where bodies are, their velocities, inverse masses and inertias; the world is at its origin.
+
+    Return whether all have their centres of mass at their origins.
+    """
     for plane in range(PLANES):
         for k in range(BLOCK):
             bodies[plane, -1, k] = 0.0
     bodies[POSE, -1, BLOCK - 1] = 1.0
-    index, packed, zero = np.empty((1, WIDTH), np.int64), planes(bodies), spread(0.0)
+    index, packed, zero, centred = np.empty((1, WIDTH), np.int64), planes(bodies), spread(0.0), True
     one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
@@ -54,6 +58,8 @@ def pack_bodies(
             index[0, lane] = rows[min(n + lane, len(rows) - 1)]
         v, w = take_three(linear, rows, n, near, three), take_three(angular, rows, n, near, three)
         scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], zero, w[0], w[1], w[2], zero))
+        x, y, z = take_three(center_of_mass, rows, n, near, three)
+        centred &= not some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z)))
         c, q = take_three(center, rows, n, near, three), take_four(rotation, rows, n, near, four)
         scatter(packed[POSE], address(index), 0, (c[0], c[1], c[2], zero, q[0], q[1], q[2], q[3]))
         m, free = take_one(inverse_mass, rows, n, near, one), take_six(freedom, rows, n, near, six)
@@ -71,6 +77,7 @@ def pack_bodies(
         if some(choose(uneven, 3.0 - (free[3] + free[4] + free[5]), zero)):
             for i in index[0]:
                 pack_held(i, inverse_inertia, principal, freedom, rotation, bodies)
+    return centred
 
 
 @woven

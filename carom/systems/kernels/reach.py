@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from math import sqrt
 
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import REACH_FACTOR, ROOT_GAP
 from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lane_columns import in_a_row, load_one, load_three
+from carom.systems.kernels.lanes import WIDTH, address, which
 
 WELL_WITHIN = 3.001  # a little more than 3, whatever rounding does
+ALL = (1 << WIDTH) - 1
 
 
 @woven
@@ -56,11 +59,29 @@ def time_within_reach(i, span, center, detected_center, reach, linear, accelerat
 
 
 @woven
+def are_well_within(i, span, center, detected_center, reach, linear, acceleration):
+    """Tell of eight bodies, i and those in the rows behind it, that none can leave its reach; most often none can."""
+    x, y, z = load_three(address(center), i)
+    dx, dy, dz = load_three(address(detected_center), i)
+    vx, vy, vz = load_three(address(linear), i)
+    ax, ay, az = load_three(address(acceleration), i)
+    (room,) = load_one(address(reach), i)
+    away = (x - dx) * (x - dx) + (y - dy) * (y - dy) + (z - dz) * (z - dz)
+    quick, push = vx * vx + vy * vy + vz * vz, ax * ax + ay * ay + az * az
+    return which(room * room - WELL_WITHIN * (away + span * span * (quick + 0.25 * span * span * push))) == ALL
+
+
+@woven
 def time_within_all(rows, span, center, detected_center, reach, linear, acceleration):
     """Return for how long (s, at most ``span``) no body can leave its reach."""
     least = span
-    for i in rows:
-        least = min(least, time_within_reach(i, span, center, detected_center, reach, linear, acceleration))
+    for n in range(0, len(rows), WIDTH):
+        if in_a_row(rows, n) and are_well_within(
+            rows[n], span, center, detected_center, reach, linear, acceleration
+        ):  # fmt: skip
+            continue
+        for k in range(n, min(n + WIDTH, len(rows))):
+            least = min(least, time_within_reach(rows[k], span, center, detected_center, reach, linear, acceleration))
     return least
 
 
@@ -68,12 +89,18 @@ def time_within_all(rows, span, center, detected_center, reach, linear, accelera
 def find_leaving(rows, span, center, detected_center, reach, linear, acceleration, leaving):
     """Write which bodies may leave their reach within ``span`` seconds, as many as there is room for; count them."""
     count = 0
-    for i in rows:
-        if time_within_reach(i, span, center, detected_center, reach, linear, acceleration) < span:
-            leaving[count] = i
-            count += 1
-            if count == len(leaving):
-                break
+    for n in range(0, len(rows), WIDTH):
+        if in_a_row(rows, n) and are_well_within(
+            rows[n], span, center, detected_center, reach, linear, acceleration
+        ):  # fmt: skip
+            continue
+        for k in range(n, min(n + WIDTH, len(rows))):
+            i = rows[k]
+            if time_within_reach(i, span, center, detected_center, reach, linear, acceleration) < span:
+                leaving[count] = i
+                count += 1
+                if count == len(leaving):
+                    return count
     return count
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
-from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.kinematic import keep_course
-from carom.systems.kernels.lanes import WIDTH, address, gather, load, planes, store
+from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, store_flat
+from carom.systems.kernels.lanes import WIDTH, address, choose, gather, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import WAY
 from carom.systems.kernels.spatial import turn
@@ -19,26 +20,56 @@ def finish_drift(
     rotation, center, linear, angular, position,
 ):  # fmt: skip
     """End the substep of h seconds: the second half of drag, and the origins placed."""
-    for i in rows:
-        if ended and inverse_mass[i] == 0.0:
-            keep_course(i, h, center_of_mass, start_position, start_rotation, linear, angular, center, rotation)
-        qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
-        cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
-        x, y, z = 0.0, 0.0, 0.0
-        if cx != 0.0 or cy != 0.0 or cz != 0.0:
-            x, y, z = turn(qx, qy, qz, qw, cx, cy, cz)
-        position[i, 0], position[i, 1], position[i, 2] = center[i, 0] - x, center[i, 1] - y, center[i, 2] - z
-        if freedom[i, 0] + freedom[i, 1] + freedom[i, 2] < 3.0:  # not by way of the centre, which rounds
-            qx, qy, qz, qw = start_rotation[i, 0], start_rotation[i, 1], start_rotation[i, 2], start_rotation[i, 3]
-            sx, sy, sz = turn(qx, qy, qz, qw, cx, cy, cz)
-            for k, moved in enumerate((sx - x, sy - y, sz - z)):
-                if freedom[i, k] == 0.0:
-                    position[i, k] = start_position[i, k] + moved
-        for k in range(3):
-            if ended and decay[i] != 1.0:
-                linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * decay[i]
-            if ended:
-                angular[i, k] *= angular_decay[i]
+    for n in range(0, len(rows), WIDTH):
+        if in_a_row(rows, n) and are_plain(
+            rows[n], ended, inverse_mass, center_of_mass, freedom, decay, angular_decay
+        ):  # fmt: skip
+            for at in range(3 * rows[n], 3 * (rows[n] + WIDTH), WIDTH):
+                store_flat(position, at, load_flat(center, at))
+            continue
+        for i in rows[n : n + WIDTH]:
+            finish_body(
+                i, ended, h, inverse_mass, center_of_mass, freedom, start_position, start_rotation, decay,
+                angular_decay, flow, rotation, center, linear, angular, position,
+            )  # fmt: skip
+
+
+@woven
+def are_plain(i, ended, inverse_mass, center_of_mass, freedom, decay, angular_decay):
+    """Tell of body i and the seven behind it that they turn about their origins, without locks, drag and keyframes."""
+    if not (are_all(0.0, center_of_mass, 3, i) and are_all(1.0, freedom, 6, i)):
+        return False
+    if not ended:
+        return True
+    kinematic = choose(load_flat(inverse_mass, i), spread(0.0), spread(1.0))
+    return are_all(1.0, decay, 1, i) and are_all(1.0, angular_decay, 1, i) and not some(kinematic)
+
+
+@inlined
+def finish_body(
+    i, ended, h, inverse_mass, center_of_mass, freedom, start_position, start_rotation, decay, angular_decay, flow,
+    rotation, center, linear, angular, position,
+):  # fmt: skip
+    """End the substep of one body."""
+    if ended and inverse_mass[i] == 0.0:
+        keep_course(i, h, center_of_mass, start_position, start_rotation, linear, angular, center, rotation)
+    qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
+    cx, cy, cz = center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2]
+    x, y, z = 0.0, 0.0, 0.0
+    if cx != 0.0 or cy != 0.0 or cz != 0.0:
+        x, y, z = turn(qx, qy, qz, qw, cx, cy, cz)
+    position[i, 0], position[i, 1], position[i, 2] = center[i, 0] - x, center[i, 1] - y, center[i, 2] - z
+    if freedom[i, 0] + freedom[i, 1] + freedom[i, 2] < 3.0:  # not by way of the centre, which rounds
+        qx, qy, qz, qw = start_rotation[i, 0], start_rotation[i, 1], start_rotation[i, 2], start_rotation[i, 3]
+        sx, sy, sz = turn(qx, qy, qz, qw, cx, cy, cz)
+        for k, moved in enumerate((sx - x, sy - y, sz - z)):
+            if freedom[i, k] == 0.0:
+                position[i, k] = start_position[i, k] + moved
+    for k in range(3):
+        if ended and decay[i] != 1.0:
+            linear[i, k] = flow[i, k] + (linear[i, k] - flow[i, k]) * decay[i]
+        if ended:
+            angular[i, k] *= angular_decay[i]
 
 
 @kernel("lanes", "depth")
