@@ -28,13 +28,16 @@ class Fast(Resource):
     def __init__(self) -> None:
         self.pairs: Integers = np.empty((0, 2), np.int64)
         self.turns: Floats = np.zeros(0)
+        self._limited = False  # whether some of them are finite
 
     def find(self, world: World, pairs: Integers, found: Found, span: float) -> None:
         """Find who of ``pairs`` (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them."""
         collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
         center = world[Flight].detected_center
         self.pairs, self.numbers = fast_of(world, pairs, span)
-        self.turns, count = np.full(len(motion.asleep), np.inf), len(self.pairs)
+        count, size = len(self.pairs), len(motion.asleep)
+        if self._limited or len(self.turns) != size:
+            self.turns, self._limited = np.full(size, np.inf), False
         if not count:
             return
         given, reaches = self.pairs.copy(), self.numbers.copy()
@@ -54,6 +57,7 @@ class Fast(Resource):
         turning = (bodies >= 0) & (self.numbers[:, :2] > 0.0)  # a ball about its body's centre turns without effect
         trusted = np.broadcast_to(self.numbers[:, 3:], bodies.shape)[turning] / self.numbers[:, :2][turning]
         np.minimum.at(self.turns, bodies[turning], trusted)
+        self._limited = True
         self.pairs, self.numbers = self.pairs[~agrees], self.numbers[~agrees]
         self.position, self.rotation = self.position[~agrees], self.rotation[~agrees]
 

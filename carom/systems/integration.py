@@ -7,7 +7,7 @@ from carom.ecs.components.flight import Flight
 from carom.ecs.components.spring import Spring
 from carom.systems.awake import Awake
 from carom.systems.forces.law import Forces
-from carom.systems.forces.standing import Standing, forces_vary
+from carom.systems.forces.standing import Standing
 from carom.systems.kernels.flight import EULER, SEMI_IMPLICIT, VERLET, accelerate, kick_bodies, predict_middle
 from carom.systems.kernels.forces import clear_sums
 from carom.systems.progress import Progress
@@ -16,11 +16,16 @@ from carom.systems.settings import Settings
 SCHEMES = {"euler": EULER, "semi_implicit": SEMI_IMPLICIT, "verlet": VERLET}
 
 
-@system(reads=(RigidBody, Settings, Awake, Progress, Standing), writes=(Transform, Motion, Flight))
+@system(
+    reads=(RigidBody, Settings, Awake, Progress, Forces, ExternalForce, Spring),
+    writes=(Transform, Motion, Flight, Standing),
+)
 def predict(world: World, dt: float) -> None:
-    """Begin the arcs of bodies; move them to the middle of the substep, where verlet evaluates forces."""
+    """Begin the arcs of bodies; move them to the middle of the substep, where verlet evaluates forces that vary."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
-    half = 0.5 * dt if world[Settings].integrator == "verlet" and forces_vary(world) else 0.0
+    if world[Progress].substep == 1:
+        world[Standing].judge(world)
+    half = 0.5 * dt if in_the_middle(world) else 0.0
     predict_middle(
         world[Awake].now(world), half, body.center_of_mass, body.freedom,
         motion.linear_acceleration, motion.angular_acceleration,
@@ -29,6 +34,11 @@ def predict(world: World, dt: float) -> None:
         flight.start_linear, flight.start_angular,
         flight.angular_acceleration, flight.time, flight.turned, flight.touching,
     )  # fmt: skip
+
+
+def in_the_middle(world: World) -> bool:
+    """Tell whether forces are evaluated where bodies are in the middle of the substep."""
+    return world[Settings].integrator == "verlet" and not world[Standing].stay
 
 
 @system(reads=(RigidBody,), writes=(Force,))
@@ -46,19 +56,20 @@ def clear_forces(world: World, dt: float) -> None:
     )
 
 
-@system(reads=(RigidBody, Force, ExternalForce, Awake, Forces, Spring), writes=(Transform, Motion, Flight, Standing))
+@system(reads=(RigidBody, Force, ExternalForce, Awake, Settings), writes=(Transform, Motion, Flight, Standing))
 def sum_forces(world: World, dt: float) -> None:
     """Divide forces and torques by mass and inertia; bodies return to the start of the substep."""
     transform, motion, flight = world[Transform], world[Motion], world[Flight]
     body, force, external = world[RigidBody], world[Force], world[ExternalForce]
-    turns = accelerate(
-        world[Awake].now(world), body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom,
+    rows = world[Awake].now(world)
+    accelerate(
+        rows, in_the_middle(world), body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom,
         force.force, force.torque, external.force, external.torque,
         flight.start_position, flight.start_rotation, flight.start_linear, flight.start_angular,
         transform.position, transform.rotation, motion.linear, motion.angular,
         flight.felt, flight.angular_acceleration,
     )  # fmt: skip
-    world[Standing].judge(world, turns=turns)
+    world[Standing].rows = rows
 
 
 @system(reads=(RigidBody, Force, Settings, Awake), writes=(Motion, Flight))

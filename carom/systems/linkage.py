@@ -13,7 +13,7 @@ from carom.systems.awake import Awake
 from carom.systems.constants import JOINT_HARDNESS, JOINT_RATE
 from carom.systems.kernels.joint_filling import fill_joints
 from carom.systems.kernels.joint_groups import group_joints
-from carom.systems.kernels.joint_impulses import finish_joints, solve_joints, start_joints_warm
+from carom.systems.kernels.joint_impulses import solve_joints
 from carom.systems.kernels.joint_loads import hand_joints_over
 from carom.systems.kernels.joint_marks import mark_held
 from carom.systems.kernels.joint_places import measure_joints
@@ -27,7 +27,7 @@ class Linkage(Resource):
 
     def __init__(self) -> None:
         self.groups = self.version = 0
-        self.measured = False  # where bodies are packed now
+        self.measured = self.weighed = False  # where bodies are packed now, and what they weigh
         self.holds = True  # bodies may be marked as held
         self.restored = -1
         self.awake = self.rows = np.zeros(0, np.int64)
@@ -53,7 +53,7 @@ class Linkage(Resource):
         self.rows, body_a, body_b = ties.rows[here], ties.body_a[here], ties.body_b[here]
         count, nobody = len(self.rows), len(body.inverse_mass)
         self._reserve(count)
-        self.measured = False
+        self.measured = self.weighed = False
         self.groups, lanes = group_joints(
             self.rows, body_a, body_b, body.inverse_mass, nobody,
             joint.along, joint.about, joint.mode, joint.lower, joint.driven, joint.friction,
@@ -84,27 +84,20 @@ class Linkage(Resource):
         self.kinds, self.row, self.asks = (np.empty(count, np.int64) for _ in range(3))
         self.index_a, self.index_b, self.first, self.place = (np.empty((count, WIDTH), np.int64) for _ in range(4))
 
-    def measure(self, bodies: Floats) -> None:
+    def measure(self, world: World, bodies: Floats) -> None:
         """Find where joints are, of bodies that are packed, unless that is known."""
         if not self.measured:
-            measure_joints(self.groups, self.kinds, self.row, self.index_a, self.index_b, self.lanes, bodies)
-            self.measured = True
+            weigh = not self.weighed or world[Awake].strangers
+            measure_joints(weigh, self.groups, self.kinds, self.row, self.index_a, self.index_b, self.lanes, bodies)
+            self.measured = self.weighed = True
 
-    def start_warm(self, bodies: Floats) -> None:
-        """Apply the impulses of the substep before."""
-        start_joints_warm(self.groups, self.kinds, self.row, self.index_a, self.index_b, self.lanes, bodies)
-
-    def solve(self, sweeps: int, h: float, bodies: Floats, *, relaxing: bool) -> None:
-        """Solve every joint ``sweeps`` times."""
+    def solve(self, sweeps: int, h: float, bodies: Floats, *, relaxing: bool, begins: bool, ended: bool) -> None:
+        """Solve every joint ``sweeps`` times, from the impulses of before, to those of the step."""
         rate, hardness = (0.0, 1.0) if relaxing else (JOINT_RATE / h, JOINT_HARDNESS)
         solve_joints(
-            sweeps, relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
+            begins, sweeps, ended, relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
             self.index_a, self.index_b, self.lanes, bodies,
         )  # fmt: skip
-
-    def finish(self, bodies: Floats) -> None:
-        """Add the impulses of the substep to those of the step."""
-        finish_joints(self.groups, self.kinds, self.row, self.index_a, self.index_b, self.lanes, bodies)
 
     def hand_over(self, world: World) -> None:
         """Write what was found since the last time into the table of joints."""

@@ -153,10 +153,28 @@ def drift(world: World, dt: float) -> None:
 def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[float, int, int]:
     """Fly to the end of the substep or to what stops the flight; append the impacts on the way to their table."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
-    contact, progress, settings = world[Contact], world[Progress], world[Settings]
-    manifolds, ledger, bend = world[Resting], world[Ledger], 0.5 if settings.integrator == "verlet" else 0.0
+    ledger, bend = world[Ledger], 0.5 if world[Settings].integrator == "verlet" else 0.0
+    now, reason = h, DONE
+    if world[Resting].count or len(world[BroadPhase].watched(world)) or until < h:
+        now, reason, events = _meet(world, at, h, bend, events, until)
+    rows = world[Awake].now(world)
+    share_out(
+        world, -(-len(rows) // WIDTH),
+        lambda begin, end: advance_bodies(
+            rows[WIDTH * begin : WIDTH * end], now, bend, flight.center, transform.rotation, flight.turned,
+            motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
+            body.inverse_mass, body.inertia, body.principal_axes, body.freedom, ledger.pull, ledger.arc,
+        ),
+    )  # fmt: skip
+    return now, reason, events
+
+
+def _meet(world: World, at: float, h: float, bend: float, events: int, until: float) -> tuple[float, int, int]:
+    """Find what stops the flight; those who meet before that are where they meet last, on their arcs from there."""
+    transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
+    contact, manifolds, ledger = world[Contact], world[Resting], world[Ledger]
     now, reason, events, cut, count, pair, log = fly(
-        world[Awake].now(world), at, h, bend, progress.clock,
+        world[BroadPhase].watched(world), at, h, bend, world[Progress].clock,
         flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,
         flight.time, flight.acceleration, flight.angular_acceleration,
         flight.felt, flight.detected_center, flight.reach,
@@ -168,15 +186,6 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
         contact.surface, contact.friction, contact.restitution, contact.resting,
         contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, manifolds.closing(world, at, h),
         until, world[Fast].turns, events, ledger.pull, ledger.arc,
-    )  # fmt: skip
-    rows = world[Awake].now(world)
-    share_out(
-        world, -(-len(rows) // WIDTH),
-        lambda begin, end: advance_bodies(
-            rows[WIDTH * begin : WIDTH * end], now, bend, flight.center, transform.rotation, flight.turned,
-            motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
-            body.inverse_mass, body.inertia, body.principal_axes, body.freedom, ledger.pull, ledger.arc,
-        ),
     )  # fmt: skip
     world[Answered].impacts_cut += cut
     if count:

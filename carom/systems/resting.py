@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from math import pi
 from typing import Any, NamedTuple
 
@@ -23,6 +24,7 @@ from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
 from carom.systems.kernels.packing import (
     VELOCITY,
+    are_placed,
     find_bound,
     pack_bodies,
     pack_moving,
@@ -128,19 +130,25 @@ class Resting(Resource):
 
     def pack(self, world: World) -> None:
         """Write what the stage needs to know of bodies, as they are now; of those that have not moved, what moves."""
-        flight, motion, body, awake = world[Flight], world[Motion], world[RigidBody], world[Awake]
-        rows, rotation, now = self.rows(world), world[Transform].rotation, awake.now(world)
+        flight, motion = world[Flight], world[Motion]
+        rows, now = self.rows(world), world[Awake].now(world)
         # Who is awake is found anew after every change from outside.
-        if self.packed and self.packed[0] is rows and self.packed[1] is now and not awake.strangers:
-            if self.placed and self.centred and not self.groups and world[Progress].substep > 1:
-                return  # joints learn of velocities where they are pressed; a centre found by its origin is rounded
-            if pack_moving(rows, flight.center, rotation, motion.linear, motion.angular, flight.felt, self.bodies):
+        if self.packed and self.packed[0] is rows and self.packed[1] is now and not world[Awake].strangers:
+            # A centre that is found by the origin again is rounded.
+            placed = self.placed and self.centred and world[Progress].substep > 1
+            if placed or are_placed(rows, flight.center, world[Transform].rotation, self.bodies):
+                if self.groups:  # joints learn of velocities where they are pressed
+                    pack_moving(rows, motion.linear, motion.angular, flight.felt, self.bodies)
                 return
+        self._pack_anew(world)
+
+    def _pack_anew(self, world: World) -> None:
+        flight, motion, body, rows = world[Flight], world[Motion], world[RigidBody], self.rows(world)
         self.centred = pack_bodies(
             rows, body.center_of_mass, flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
-            body.inverse_inertia, body.principal_axes, body.freedom, rotation, self.bodies,
+            body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation, self.bodies,
         )  # fmt: skip
-        self.packed, world[Linkage].measured = (rows, now), False
+        self.packed, world[Linkage].measured = (rows, world[Awake].now(world)), False
 
     def sort(self, world: World, h: float) -> tuple[int, int]:
         """Find which manifolds rest; return how many do, and how many of those are of balls on exact arcs."""
@@ -168,12 +176,7 @@ class Resting(Resource):
         rows, motion, linkage = self.rows(world), world[Motion], world[Linkage]
         pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         if linkage.groups:
-            linkage.measure(self.bodies)
-            linkage.start_warm(self.bodies)
-        self._together(
-            world, start_warm, self.levels, self.level_ends,
-            self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
-        )  # fmt: skip
+            linkage.measure(world, self.bodies)
         self._solve(world, Stage("solve", 1, h, *yielding(h)))
         unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
@@ -211,30 +214,41 @@ class Resting(Resource):
         """Take the speed by which overlap left out of the velocities."""
         rows, motion, linkage, hard = self.rows(world), world[Motion], world[Linkage], (0.0, 1.0)
         if linkage.groups:
-            self.pack(world)
+            self._pack_anew(world)  # all of them have moved
             self.placed = True
-            linkage.measure(self.bodies)
+            linkage.measure(world, self.bodies)
         else:
             pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         self._solve(world, Stage("relax", RELAX_SWEEPS, h, hard, hard))
-        if linkage.groups:
-            linkage.finish(self.bodies)
         unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
     def _solve(self, world: World, stage: Stage) -> None:
         """Do all sweeps of a stage; joints come first in each, and some are to hear of each."""
-        self._tell(stage, 0)
         linkage, relaxing = world[Linkage], stage.name == "relax"
-        at_once = 1 if self.hearers or (linkage.groups and self.groups) else stage.sweeps
+        solve = partial(linkage.solve, h=stage.h, bodies=self.bodies, relaxing=relaxing)
+        if not (self.groups or self.hearers):
+            solve(stage.sweeps, begins=not relaxing, ended=relaxing)
+            return
+        if not relaxing:
+            if linkage.groups:
+                solve(0, begins=True, ended=False)
+            self._together(
+                world, start_warm, self.levels, self.level_ends,
+                self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
+            )  # fmt: skip
+        self._tell(stage, 0)
+        at_once = 1 if self.hearers or linkage.groups else stage.sweeps
         for done in range(at_once, stage.sweeps + 1, at_once):
             if linkage.groups:
-                linkage.solve(at_once, stage.h, self.bodies, relaxing=relaxing)
+                solve(at_once, begins=False, ended=False)
             self._together(
                 world, press_groups, at_once, relaxing and done == stage.sweeps, stage.h, self.ends, self.levels,
                 self.level_ends, stage.soft, stage.rigid, self.index_a, self.index_b, self.points, self.row, self.asks,
                 self.lanes, self.bodies,
             )  # fmt: skip
             self._tell(stage, done)
+        if relaxing and linkage.groups:
+            solve(0, begins=False, ended=True)
 
     def _tell(self, stage: Stage, done: int) -> None:
         for hear in self.hearers:

@@ -33,6 +33,7 @@ from carom.systems.keyframes import follow_keyframes
 from carom.systems.particles.deaths import end_particles
 from carom.systems.particles.emission import emit_particles, note_emitters
 from carom.systems.particles.moving import move_particles
+from carom.systems.particles.pieces import emits
 from carom.systems.progress import begin_step, begin_substep
 from carom.systems.response import drift, hand_impulses_over, hold, look_ahead, relax, settle, sort_out_contacts
 from carom.systems.sensors import sense
@@ -111,9 +112,13 @@ STEP = Schedule(
         fall_asleep,  # islands that have been still for a while
         clear_inputs,
         carry_children,  # entities carried by others follow them
-        emit_particles,  # each at its own time within the step
-        move_particles,  # by the same forces as bodies, off planes and colliders
-        end_particles,
+        Phase(
+            "particles",
+            emit_particles,  # each at its own time within the step
+            move_particles,  # by the same forces as bodies, off planes and colliders
+            end_particles,
+            when=emits,
+        ),
         check_finite,
     ),
 )

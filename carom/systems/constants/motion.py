@@ -30,9 +30,6 @@ SLEEP_TIME = 0.5
 # off balance. Larger: bodies stop above or below where they float, and heeled. Smaller: they stay awake for longer.
 AFLOAT = 2e-4
 
-# rad. Closest to zero a squared angle may come before the quaternion exponential uses its limit.
-SMALL_ANGLE = 1e-12
-
 # Part of itself, one in this many, by which a step is due early in real time, so that 100 steps of 0.01 s fit into 1 s
 # although the float 0.01 is more than a hundredth; never seen, 16 ns at 60 Hz. Larger: sums of rounded numbers such as
 # 1/144 s may end a step short.

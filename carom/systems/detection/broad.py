@@ -15,6 +15,8 @@ from carom.systems.kernels.broad_pairs import renew_pairs
 from carom.systems.kernels.islands import find_lively
 from carom.systems.settings import Settings
 
+NOBODY: Integers = np.array([-1])
+
 
 def overlapping(world: World) -> Integers:
     """Return the pairs (n, 2) of collider rows whose bounds overlap, lower row first, sorted."""
@@ -58,7 +60,21 @@ class BroadPhase(Resource):
 
     def drop(self) -> None:
         """Forget everything; the next detection finds the same pairs from nothing."""
-        self.rows: Integers = np.array([-1])  # nobody's; also a world without colliders is new
+        self.rows: Integers = NOBODY  # also a world without colliders is new
+        self._watched: tuple[Integers, Integers, Integers] | None = None
+
+    def watched(self, world: World) -> Integers:
+        """Return the rows of bodies that are awake and may meet somebody, who are not to leave their reach unseen."""
+        awake = world[Awake].now(world)
+        if self.rows is NOBODY:
+            return awake
+        if self._watched is None or self._watched[0] is not awake or self._watched[1] is not self.rows:
+            meets = np.zeros(world.used() + 1, np.bool_)
+            meets[world[ColliderPose].body_row[self.rows]] = True
+            meets[-1] = False  # what has no body
+            found = awake[meets[awake]]
+            self._watched = awake, self.rows, awake if len(found) == len(awake) else found
+        return self._watched[2]
 
     def _make_room(self, used: int) -> None:
         self.fat_lower, self.fat_upper = np.zeros((used, 3)), np.zeros((used, 3))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
+from carom.ecs.column import Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
@@ -32,6 +33,8 @@ from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.sleeping import rouse
 from carom.systems.ties import Ties
+
+NOTHING = Found.room(0)
 
 
 @system(
@@ -67,19 +70,26 @@ def detect(world: World, left: float, soon: float) -> None:
     world[Answered].detections += 1
     while True:
         pairs = world[Ties].without_joined(world, without_sensors(world, overlapping(world)))
-        if soon < left and len(pairs) > CROWDED * np.count_nonzero(np.bincount(pairs.ravel())):
+        if len(pairs) and soon < left and len(pairs) > CROWDED * np.count_nonzero(np.bincount(pairs.ravel())):
             progress.crowded, left, moved = True, soon, np.array(pose.moved)
             reach_within(world, left)
             pose.moved[:] |= moved  # nothing has since it was placed just now, but since the step before
             continue
-        reaches = np.empty(len(pairs))
-        reach_of_pairs(pairs, pose.body_row, world[Flight].reach, reaches)
-        found = measure_what_moved(world, pairs, reaches)
+        found = find(world, pairs)
         if not rouse(world, found):
             break
         reach_within(world, left)
     world[Fast].find(world, pairs, found, left)
     store(world, without_seams(world, world[Fast].trusted(found)))
+
+
+def find(world: World, pairs: Integers) -> Found:
+    """Return the points at which ``pairs`` (n, 2) of collider rows touch or may within their reach."""
+    if not len(pairs):
+        return NOTHING
+    reaches = np.empty(len(pairs))
+    reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
+    return measure_what_moved(world, pairs, reaches)
 
 
 def store(world: World, found: Found) -> None:

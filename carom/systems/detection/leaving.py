@@ -9,7 +9,6 @@ from carom.ecs.column import Booleans, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.hierarchy import compose
 from carom.ecs.relations.contact import Contact
-from carom.systems.awake import Awake
 from carom.systems.constants import MOST_WIDENED
 from carom.systems.continuous import fast_of
 from carom.systems.detection.bounds import bound
@@ -31,7 +30,7 @@ def detection_holds(world: World, left: float) -> bool:
     flight, motion = world[Flight], world[Motion]
     leaving: Integers = np.empty(MOST_WIDENED + 1, np.int64)
     count = find_leaving(
-        world[Awake].now(world), left, flight.center, flight.detected_center, flight.reach, motion.linear,
+        world[BroadPhase].watched(world), left, flight.center, flight.detected_center, flight.reach, motion.linear,
         flight.felt, leaving,
     )  # fmt: skip
     return count == 0 or (count <= MOST_WIDENED and _meet_nobody_new(world, leaving[:count], left))

@@ -14,8 +14,6 @@ from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
 
 def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     """Return the contact points of sorted ``pairs`` (n, 2), recycled where a pair has hardly moved since found."""
-    if not len(pairs):
-        return Found.room(0)
     contact, collider, pose = world[Contact], world[Collider], world[ColliderPose]
     moved, moved_reaches = np.empty_like(pairs), np.empty_like(reaches)
     recycled = Found.room(contact.count)

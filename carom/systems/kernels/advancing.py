@@ -5,22 +5,24 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
-from carom.ecs.spatial.trigonometry import QUARTER_TURN, QUARTER_TURN_REST
-from carom.systems.constants import SMALL_ANGLE
+from carom.ecs.spatial.trigonometry import EIGHTH_SQUARED, QUARTER_TURN, QUARTER_TURN_REST
 from carom.systems.kernels.accounting import KEPT, keep_arc, note_arc
 from carom.systems.kernels.bodies import advance_body
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_columns import (
+    are_all,
     give_four,
     give_one,
     give_three,
     in_a_row,
+    load_flat,
+    store_flat,
     take_four,
     take_one,
     take_three,
 )
 from carom.systems.kernels.lanes import WIDTH, choose, larger, root, some, spread, whole
-from carom.systems.kernels.spatial import product, quarter, series, turn, turned_by
+from carom.systems.kernels.spatial import even_series, product, quarter, series, turn, turned_by
 
 
 @kernel("center", "rotation", "turned", "linear", "angular", "time", "arc", makes_arrays=True)
@@ -36,17 +38,21 @@ def advance_bodies(
     kept, took = np.empty((WIDTH, KEPT)), np.empty(WIDTH)
     one, three, four = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4))
     for n in range(0, len(rows), WIDTH):
-        alike = True
-        for lane, i in enumerate(rows[n : n + WIDTH]):
-            took[lane] = now - time[i]
-            free = freedom[i, 3] + freedom[i, 4] + freedom[i, 5] == 3.0
-            alike &= free and inverse_mass[i] != 0.0 and time[i] < now
-            if len(arc):
+        near = in_a_row(rows, n)
+        together = near and set_out_together(rows[n], now, time, inverse_mass, freedom)
+        alike = together or are_alike(rows, n, now, time, inverse_mass, freedom)
+        if len(arc):
+            for lane, i in enumerate(rows[n : n + WIDTH]):
+                took[lane] = now - time[i]
                 keep_arc(i, lane, kept, center, linear, angular, rotation)
+        if together:
+            fly_together(rows[n], now - time[rows[n]], bend, center, linear, acceleration)
+        elif alike:
+            fly_eight(n, now, bend, near, one, three, rows, center, linear, time, acceleration)
         if alike:
-            advance_eight(
-                n, now, bend, in_a_row(rows, n), one, three, four, rows, center, rotation, turned, linear, angular,
-                time, acceleration, angular_acceleration, inertia, principal_axes,
+            turn_eight(
+                n, now, bend, near, one, three, four, rows, rotation, turned, angular, time, angular_acceleration,
+                inertia, principal_axes,
             )  # fmt: skip
         else:
             for i in rows[n : n + WIDTH]:
@@ -64,11 +70,34 @@ def advance_bodies(
 
 
 @woven
-def advance_eight(
-    n, now, bend, near, one, three, four, rows, center, rotation, turned, linear, angular, time,
-    acceleration, angular_acceleration, inertia, principal_axes,
-):  # fmt: skip
-    """Advance the bodies of eight rows as `advance_body` does: half the turning kick, free rotation, the other half."""
+def set_out_together(i, now, time, inverse_mass, freedom):
+    """Tell of body i and the seven in the rows behind it that all are free and fly from one time on to ``now``."""
+    kinematic = choose(load_flat(inverse_mass, i), spread(0.0), spread(1.0))
+    return time[i] < now and are_all(time[i], time, 1, i) and are_all(1.0, freedom, 6, i) and not some(kinematic)
+
+
+@woven
+def are_alike(rows, n, now, time, inverse_mass, freedom):
+    """Tell of eight rows from the n-th on that no body is there yet, kinematic or has locked rotations."""
+    alike = True
+    for k in range(n, min(n + WIDTH, len(rows))):
+        i = rows[k]
+        alike &= freedom[i, 3] + freedom[i, 4] + freedom[i, 5] == 3.0 and inverse_mass[i] != 0.0 and time[i] < now
+    return alike
+
+
+@woven
+def fly_together(i, t, bend, center, linear, acceleration):
+    """Bring body i and the seven in the rows behind it along their arcs, t seconds."""
+    for at in range(3 * i, 3 * (i + WIDTH), WIDTH):
+        v, a = load_flat(linear, at), load_flat(acceleration, at)
+        store_flat(center, at, load_flat(center, at) + (v * t + a * bend * t * t))
+        store_flat(linear, at, v + a * t)
+
+
+@woven
+def fly_eight(n, now, bend, near, one, three, rows, center, linear, time, acceleration):
+    """Bring the bodies of eight rows along their arcs, each from its own time on."""
     t = now - take_one(time, rows, n, near, one)
     v, a = take_three(linear, rows, n, near, three), take_three(acceleration, rows, n, near, three)
     x, y, z = take_three(center, rows, n, near, three)
@@ -79,6 +108,15 @@ def advance_eight(
     )
     give_three(center, rows, n, near, three, (x, y, z))
     give_three(linear, rows, n, near, three, (v[0] + a[0] * t, v[1] + a[1] * t, v[2] + a[2] * t))
+
+
+@woven
+def turn_eight(
+    n, now, bend, near, one, three, four, rows, rotation, turned, angular, time, angular_acceleration,
+    inertia, principal_axes,
+):  # fmt: skip
+    """Turn the bodies of eight rows as `advance_body` does: half the turning kick, free rotation, the other half."""
+    t = now - take_one(time, rows, n, near, one)
     w, b = take_three(angular, rows, n, near, three), take_three(angular_acceleration, rows, n, near, three)
     wx, wy, wz = w[0] + b[0] * bend * t, w[1] + b[1] * bend * t, w[2] + b[2] * bend * t
     x, y, z = take_three(turned, rows, n, near, three)
@@ -109,14 +147,22 @@ def advance_eight(
 @woven
 def spun_in_lanes(qx, qy, qz, qw, wx, wy, wz, t):
     """Return what `spun` does."""
-    squared = (wx * wx + wy * wy + wz * wz) * t * t
-    small = SMALL_ANGLE * SMALL_ANGLE - squared
-    angle = root(choose(small, spread(1.0), squared))
-    s, c = sine_cosine_in_lanes(angle * 0.5)
-    scale = choose(small, 0.5 * t, s / angle * t)
-    x, y, z, w = product(wx * scale, wy * scale, wz * scale, choose(small, spread(1.0), c), qx, qy, qz, qw)
+    x, y, z, w = spinning_in_lanes(qx, qy, qz, qw, wx, wy, wz, t)
     inverse = 1.0 / root(x * x + y * y + z * z + w * w)
     return x * inverse, y * inverse, z * inverse, w * inverse
+
+
+@woven
+def spinning_in_lanes(qx, qy, qz, qw, wx, wy, wz, t):
+    """Return what `spinning` does."""
+    squared = 0.25 * ((wx * wx + wy * wy + wz * wz) * t * t)
+    s, c = even_series(squared)
+    scale, large = 0.5 * t * (1.0 + squared * s), squared - EIGHTH_SQUARED
+    if some(large):
+        half = root(choose(large, squared, spread(1.0)))
+        s, cosine = sine_cosine_in_lanes(half)
+        scale, c = choose(large, 0.5 * t * (s / half), scale), choose(large, cosine, c)
+    return product(wx * scale, wy * scale, wz * scale, c, qx, qy, qz, qw)
 
 
 @woven
@@ -139,13 +185,14 @@ turned_twice = turned_by(sine_cosine_in_lanes)
 @woven
 def turned_in_lanes(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t):
     """Return what `freely_turned` does for bodies whose three moments are not one and none of them 0."""
+    jx, jy, jz = 1.0 / ix, 1.0 / iy, 1.0 / iz
     lx, ly, lz = turn(-qx, -qy, -qz, qw, wx, wy, wz)
     mx, my, mz = ix * lx, iy * ly, iz * lz
     gx, gy, gz = turn(qx, qy, qz, qw, mx, my, mz)  # angular momentum in the world, which stays
     not_y, not_x = (ix - iy) * (iz - iy), (iy - ix) * (iz - ix)  # which of them is not the middle one
-    i, o, middle = middle_last(not_y, not_x, ix, iy, iz)
+    i, o, middle = middle_last(not_y, not_x, jx, jy, jz)
     mx, my, mz = middle_last(not_y, not_x, mx, my, mz)
-    qx, qy, qz, qw = spun_in_lanes(qx, qy, qz, qw, gx / middle, gy / middle, gz / middle, t)
+    qx, qy, qz, qw = spinning_in_lanes(qx, qy, qz, qw, gx * middle, gy * middle, gz * middle, t)
     qx, qy, qz = middle_last(not_y, not_x, qx, qy, qz)
     qx, qy, qz, qw = turned_twice(qx, qy, qz, qw, mx, my, mz, quarter(t, i, middle), quarter(t, o, middle))
     qx, qy, qz = (
@@ -156,7 +203,7 @@ def turned_in_lanes(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t):
     inverse = 1.0 / root(qx * qx + qy * qy + qz * qz + qw * qw)
     qx, qy, qz, qw = qx * inverse, qy * inverse, qz * inverse, qw * inverse
     mx, my, mz = turn(-qx, -qy, -qz, qw, gx, gy, gz)
-    wx, wy, wz = turn(qx, qy, qz, qw, mx / ix, my / iy, mz / iz)
+    wx, wy, wz = turn(qx, qy, qz, qw, mx * jx, my * jy, mz * jz)
     return qx, qy, qz, qw, wx, wy, wz
 
 

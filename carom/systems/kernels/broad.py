@@ -6,13 +6,30 @@ from math import sqrt
 
 import numpy as np
 
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import REACH_FACTOR, REACH_SLACK, REACH_SMALL, REACH_STIRRED
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.flight import offset_of
+from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.lane_columns import (
+    SMALLEST,
+    give_one,
+    give_three,
+    in_a_row,
+    load_flat,
+    load_four,
+    load_three,
+    store_four,
+    store_one,
+    store_three,
+    take_four,
+    take_one,
+    take_three,
+)
+from carom.systems.kernels.lanes import WIDTH, address, choose, larger, root, smaller, spread, which
 from carom.systems.kernels.spatial import product, turn
 
 
-@kernel("reach", "detected_center")
+@kernel("reach", "detected_center", makes_arrays=True)
 def foresee_reach(
     rows, dt, pull, position, rotation, linear, center_of_mass, inertia, inverse_mass, last_acceleration,
     reach, detected_center,
@@ -22,32 +39,39 @@ def foresee_reach(
     Those that are struck travel farther. Where many move they all are given more: the mean of the ways of all, each up
     to REACH_STIRRED of its least radius of gyration. But small ones are given no more than REACH_SMALL of theirs.
     """
+    one, three, four = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4))
     stirred = 0.0
-    for i in rows:
-        way = sqrt(linear[i, 0] ** 2 + linear[i, 1] ** 2 + linear[i, 2] ** 2) * dt
-        stirred += min(way, REACH_STIRRED * least_gyration(i, inertia, inverse_mass))
-    slack = REACH_SLACK + stirred / max(1, len(rows))
-    for i in rows:
-        ox, oy, oz = turn(
-            rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-            center_of_mass[i, 0], center_of_mass[i, 1], center_of_mass[i, 2],
+    for n in range(0, len(rows), WIDTH):
+        near = in_a_row(rows, n)
+        x, y, z = take_three(linear, rows, n, near, three)
+        gyration = least_gyration(take_three(inertia, rows, n, near, three), take_one(inverse_mass, rows, n, near, one))
+        ways = smaller(root(x * x + y * y + z * z) * dt, REACH_STIRRED * gyration)
+        store_one(address(one), 0, (ways,))
+        for lane in range(min(WIDTH, len(rows) - n)):
+            stirred += one[lane]
+    slack = spread(REACH_SLACK + stirred / max(1, len(rows)))
+    for n in range(0, len(rows), WIDTH):
+        near = in_a_row(rows, n)
+        x, y, z = take_three(position, rows, n, near, three)
+        ox, oy, oz = offset_of(
+            take_four(rotation, rows, n, near, four), take_three(center_of_mass, rows, n, near, three)
         )  # fmt: skip
-        detected_center[i, 0], detected_center[i, 1], detected_center[i, 2] = (
-            position[i, 0] + ox, position[i, 1] + oy, position[i, 2] + oz,
+        give_three(detected_center, rows, n, near, three, (x + ox, y + oy, z + oz))
+        gyration = least_gyration(take_three(inertia, rows, n, near, three), take_one(inverse_mass, rows, n, near, one))
+        small = REACH_SMALL * gyration
+        own = choose(small, smaller(slack, small), slack)
+        vx, vy, vz = take_three(linear, rows, n, near, three)
+        ax, ay, az = take_three(last_acceleration, rows, n, near, three)
+        speed, push = root(vx * vx + vy * vy + vz * vz), root(ax * ax + ay * ay + az * az)
+        give_one(
+            reach, rows, n, near, one, own + REACH_FACTOR * (speed + larger(spread(pull), push) * dt) * dt
         )  # fmt: skip
-        small = REACH_SMALL * least_gyration(i, inertia, inverse_mass)
-        own = min(slack, small) if small > 0.0 else slack
-        speed, push = 0.0, 0.0
-        for k in range(3):
-            speed += linear[i, k] * linear[i, k]
-            push += last_acceleration[i, k] * last_acceleration[i, k]
-        reach[i] = own + REACH_FACTOR * (sqrt(speed) + max(pull, sqrt(push)) * dt) * dt
 
 
 @woven
-def least_gyration(i, inertia, inverse_mass):
-    """Return the least radius of gyration of body i about its axes (m); 0 of who is moved by nothing."""
-    return sqrt(min(inertia[i, 0], inertia[i, 1], inertia[i, 2]) * inverse_mass[i])
+def least_gyration(inertia, inverse_mass):
+    """Return the least radius of gyration of eight bodies about their axes (m); 0 of who is moved by nothing."""
+    return root(smaller(smaller(inertia[0], inertia[1]), inertia[2]) * inverse_mass)
 
 
 @kernel("pose_position", "pose_rotation", "lower", "upper", "body_row", "moved")
@@ -60,42 +84,119 @@ def place_bounds(
     What reaches and turns is its ``body``, a row or -1; turning moves no point farther than twice its distance from
     the centre of mass.
     """
-    for i in rows:
-        qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
-        x, y, z = turn(qx, qy, qz, qw, local_position[i, 0], local_position[i, 1], local_position[i, 2])
-        place = (position[i, 0] + x, position[i, 1] + y, position[i, 2] + z)
-        turned = product(
-            qx, qy, qz, qw, local_rotation[i, 0], local_rotation[i, 1], local_rotation[i, 2], local_rotation[i, 3]
-        )
-        moved[i] = False
-        for k, value in enumerate(place):
-            moved[i] |= pose_position[i, k] != value
-            pose_position[i, k] = value
-        for k, value in enumerate(turned):
-            moved[i] |= pose_rotation[i, k] != value
-            pose_rotation[i, k] = value
-        hx, hy, hz = bound_half[i, 0], bound_half[i, 1], bound_half[i, 2]
-        wide = bound_radius[i]
-        cx, cy, cz = turn(qx, qy, qz, qw, bound_center[i, 0], bound_center[i, 1], bound_center[i, 2])
-        center = (cx, cy, cz)
-        b = body[i]
-        body_row[i] = b
-        if b >= 0:
-            spin = sqrt(angular[b, 0] ** 2 + angular[b, 1] ** 2 + angular[b, 2] ** 2)
-            away = 0.0
-            for k in range(3):
-                away += (position[i, k] + center[k] - center_of_mass[b, k]) ** 2
-            wide += reach[b] + min(spin * dt, 2.0) * (sqrt(hx * hx + hy * hy + hz * hz) + sqrt(away))
-        half = (hx, hy, hz)
-        if hx < np.inf:  # a half space has no end whichever way it is turned
-            ax, ay, az = turn(qx, qy, qz, qw, 1.0, 0.0, 0.0)
-            bx, by, bz = turn(qx, qy, qz, qw, 0.0, 1.0, 0.0)
-            gx, gy, gz = turn(qx, qy, qz, qw, 0.0, 0.0, 1.0)
-            half = (
-                abs(ax) * hx + abs(bx) * hy + abs(gx) * hz,
-                abs(ay) * hx + abs(by) * hy + abs(gy) * hz,
-                abs(az) * hx + abs(bz) * hy + abs(gz) * hz,
-            )
+    for n in range(0, len(rows), WIDTH):
+        if in_a_row(rows, n) and are_own(rows[n], body, bound_half):
+            place_eight(
+                rows[n], dt, angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
+                bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, moved,
+            )  # fmt: skip
+            for i in rows[n : n + WIDTH]:
+                body_row[i] = i
+            continue
+        for i in rows[n : n + WIDTH]:
+            body_row[i] = body[i]
+            place_one(
+                i, dt, body[i], angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
+                bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, moved,
+            )  # fmt: skip
+
+
+@woven
+def are_own(first, body, bound_half):
+    """Tell of eight colliders in a row that each is of the body in its row, and has an end."""
+    own = True
+    for i in range(first, first + WIDTH):
+        own &= body[i] == i and bound_half[i, 0] < np.inf
+    return own
+
+
+@woven
+def place_eight(
+    i, dt, angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
+    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, moved,
+):  # fmt: skip
+    """Place collider i and the seven in the rows behind it, as `place_one` does."""
+    q, p = load_four(address(rotation), i), load_three(address(position), i)
+    x, y, z = load_three(address(local_position), i)
+    x, y, z = turn(q[0], q[1], q[2], q[3], x, y, z)
+    place = (p[0] + x, p[1] + y, p[2] + z)
+    x, y, z, w = load_four(address(local_rotation), i)
+    turned = product(q[0], q[1], q[2], q[3], x, y, z, w)
+    before, facing = load_three(address(pose_position), i), load_four(address(pose_rotation), i)
+    off = size_of(place[0] - before[0]) + size_of(place[1] - before[1]) + size_of(place[2] - before[2])
+    off = off + size_of(turned[0] - facing[0]) + size_of(turned[1] - facing[1])
+    stays = which(SMALLEST - (off + size_of(turned[2] - facing[2]) + size_of(turned[3] - facing[3])))
+    for lane in range(WIDTH):
+        moved[i + lane] = stays >> lane & 1 == 0
+    store_three(address(pose_position), i, place)
+    store_four(address(pose_rotation), i, turned)
+    x, y, z = load_three(address(bound_center), i)
+    x, y, z = turn(q[0], q[1], q[2], q[3], x, y, z)
+    x, y, z = p[0] + x, p[1] + y, p[2] + z
+    wx, wy, wz = load_three(address(angular), i)
+    cx, cy, cz = load_three(address(center_of_mass), i)
+    hx, hy, hz = load_three(address(bound_half), i)
+    away = root((x - cx) * (x - cx) + (y - cy) * (y - cy) + (z - cz) * (z - cz))
+    spin = smaller(root(wx * wx + wy * wy + wz * wz) * dt, spread(2.0))
+    wide = load_flat(bound_radius, i) + (load_flat(reach, i) + spin * (root(hx * hx + hy * hy + hz * hz) + away))
+    one, zero = spread(1.0), spread(0.0)
+    ax, ay, az = turn(q[0], q[1], q[2], q[3], one, zero, zero)
+    bx, by, bz = turn(q[0], q[1], q[2], q[3], zero, one, zero)
+    gx, gy, gz = turn(q[0], q[1], q[2], q[3], zero, zero, one)
+    half = (
+        size_of(ax) * hx + size_of(bx) * hy + size_of(gx) * hz,
+        size_of(ay) * hx + size_of(by) * hy + size_of(gy) * hz,
+        size_of(az) * hx + size_of(bz) * hy + size_of(gz) * hz,
+    )
+    store_three(address(lower), i, (x - half[0] - wide, y - half[1] - wide, z - half[2] - wide))
+    store_three(address(upper), i, (x + half[0] + wide, y + half[1] + wide, z + half[2] + wide))
+
+
+@woven
+def size_of(x):
+    """Return the absolute values of eight numbers."""
+    return larger(x, -x)
+
+
+@inlined
+def place_one(
+    i, dt, b, angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
+    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, moved,
+):  # fmt: skip
+    """Place one collider, of body b."""
+    qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
+    x, y, z = turn(qx, qy, qz, qw, local_position[i, 0], local_position[i, 1], local_position[i, 2])
+    place = (position[i, 0] + x, position[i, 1] + y, position[i, 2] + z)
+    turned = product(
+        qx, qy, qz, qw, local_rotation[i, 0], local_rotation[i, 1], local_rotation[i, 2], local_rotation[i, 3]
+    )
+    moved[i] = False
+    for k, value in enumerate(place):
+        moved[i] |= pose_position[i, k] != value
+        pose_position[i, k] = value
+    for k, value in enumerate(turned):
+        moved[i] |= pose_rotation[i, k] != value
+        pose_rotation[i, k] = value
+    hx, hy, hz = bound_half[i, 0], bound_half[i, 1], bound_half[i, 2]
+    wide = bound_radius[i]
+    cx, cy, cz = turn(qx, qy, qz, qw, bound_center[i, 0], bound_center[i, 1], bound_center[i, 2])
+    center = (cx, cy, cz)
+    if b >= 0:
+        spin = sqrt(angular[b, 0] ** 2 + angular[b, 1] ** 2 + angular[b, 2] ** 2)
+        away = 0.0
         for k in range(3):
-            lower[i, k] = position[i, k] + center[k] - half[k] - wide
-            upper[i, k] = position[i, k] + center[k] + half[k] + wide
+            away += (position[i, k] + center[k] - center_of_mass[b, k]) ** 2
+        wide += reach[b] + min(spin * dt, 2.0) * (sqrt(hx * hx + hy * hy + hz * hz) + sqrt(away))
+    half = (hx, hy, hz)
+    if hx < np.inf:  # a half space has no end whichever way it is turned
+        ax, ay, az = turn(qx, qy, qz, qw, 1.0, 0.0, 0.0)
+        bx, by, bz = turn(qx, qy, qz, qw, 0.0, 1.0, 0.0)
+        gx, gy, gz = turn(qx, qy, qz, qw, 0.0, 0.0, 1.0)
+        half = (
+            abs(ax) * hx + abs(bx) * hy + abs(gx) * hz,
+            abs(ay) * hx + abs(by) * hy + abs(gy) * hz,
+            abs(az) * hx + abs(bz) * hy + abs(gz) * hz,
+        )
+    for k in range(3):
+        lower[i, k] = position[i, k] + center[k] - half[k] - wide
+        upper[i, k] = position[i, k] + center[k] + half[k] + wide

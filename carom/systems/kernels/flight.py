@@ -14,6 +14,7 @@ from carom.systems.kernels.lane_columns import (
     give_three,
     in_a_row,
     load_flat,
+    set_all,
     store_flat,
     take_four,
     take_one,
@@ -105,8 +106,8 @@ def begin_eight(
         store_flat(start_position, at, x)
         store_flat(start_linear, at, load_flat(linear, at))
         store_flat(start_angular, at, load_flat(angular, at))
-        store_flat(angular_acceleration, at, zero)
         store_flat(turned, at, zero)
+    set_all(0.0, angular_acceleration, 3, i)
     for at in range(4 * i, 4 * (i + WIDTH), WIDTH):
         store_flat(start_rotation, at, load_flat(rotation, at))
     store_flat(time, i, zero)
@@ -126,16 +127,12 @@ def offset_of(q, center_of_mass):
 
 @kernel("position", "rotation", "linear", "angular", "felt", "angular_acceleration", makes_arrays=True)
 def accelerate(
-    rows, inverse_mass, inverse_inertia, principal_axes, freedom, force, torque, external_force, external_torque,
+    rows, moved, inverse_mass, inverse_inertia, principal_axes, freedom, force, torque, external_force, external_torque,
     start_position, start_rotation, start_linear, start_angular,
     position, rotation, linear, angular, felt, angular_acceleration,
 ):  # fmt: skip
-    """Turn forces into accelerations at the middle of the substep and bring the bodies back to its start.
-
-    Return whether something turns a body.
-    """
+    """Turn forces into accelerations, and bring bodies that were ``moved`` on back to the start of the substep."""
     one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
-    turns = False
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
         x, y, z = take_three(torque, rows, n, near, three)
@@ -143,7 +140,6 @@ def accelerate(
         x, y, z = x + ex, y + ey, z + ez
         give_three(angular_acceleration, rows, n, near, three, (x, y, z))
         if some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z))):
-            turns = True
             for i in rows[n : n + WIDTH]:
                 ax, ay, az = angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2]
                 if ax != 0.0 or ay != 0.0 or az != 0.0:
@@ -153,11 +149,11 @@ def accelerate(
         m, free = take_one(inverse_mass, rows, n, near, one), take_six(freedom, rows, n, near, six)
         x, y, z = (f[0] + e[0]) * m * free[0], (f[1] + e[1]) * m * free[1], (f[2] + e[2]) * m * free[2]
         give_three(felt, rows, n, near, three, (x, y, z))
-        give_three(position, rows, n, near, three, take_three(start_position, rows, n, near, three))
-        give_four(rotation, rows, n, near, four, take_four(start_rotation, rows, n, near, four))
-        give_three(linear, rows, n, near, three, take_three(start_linear, rows, n, near, three))
-        give_three(angular, rows, n, near, three, take_three(start_angular, rows, n, near, three))
-    return turns
+        if moved:
+            give_three(position, rows, n, near, three, take_three(start_position, rows, n, near, three))
+            give_four(rotation, rows, n, near, four, take_four(start_rotation, rows, n, near, four))
+            give_three(linear, rows, n, near, three, take_three(start_linear, rows, n, near, three))
+            give_three(angular, rows, n, near, three, take_three(start_angular, rows, n, near, three))
 
 
 @kernel(
@@ -190,8 +186,8 @@ def kick_bodies(
                     store_flat(acceleration, at, f)
                     store_flat(last_acceleration, at, f)
                     store_flat(last_angular_acceleration, at, b)
-                store_flat(decay, i, spread(1.0))
-                store_flat(angular_decay, i, spread(1.0))
+                set_all(1.0, decay, 1, i)
+                set_all(1.0, angular_decay, 1, i)
                 continue
         for i in rows[n : n + WIDTH]:
             kick_body(
@@ -216,16 +212,13 @@ def kick_by_steps(
     last_acceleration, last_angular_acceleration,
 ):  # fmt: skip
     """Kick body i and the seven in the rows behind it, all semi-implicit and without drag."""
-    zero, one = spread(0.0), spread(1.0)
     for at in range(3 * i, 3 * (i + WIDTH), WIDTH):
         store_flat(linear, at, load_flat(linear, at) + h * load_flat(felt, at))
         store_flat(angular, at, load_flat(angular, at) + h * load_flat(angular_acceleration, at))
-        store_flat(acceleration, at, zero)
-        store_flat(angular_acceleration, at, zero)
-        store_flat(last_acceleration, at, zero)
-        store_flat(last_angular_acceleration, at, zero)
-    store_flat(decay, i, one)
-    store_flat(angular_decay, i, one)
+    for column in (acceleration, angular_acceleration, last_acceleration, last_angular_acceleration):
+        set_all(0.0, column, 3, i)
+    for column in (decay, angular_decay):
+        set_all(1.0, column, 1, i)
 
 
 @inlined

@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import HELD, HELD_TURN, HELD_TURNS
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.spatial import inverse_inertia_times, product, spun, turn
+from carom.systems.kernels.spatial import inverse_inertia_in_world, product, spun, turn
 
 
 @inlined
@@ -18,9 +18,7 @@ def held_inverse(qx, qy, qz, qw, ix, iy, iz, fx, fy, fz):
     """
     if ix == iy and iy == iz:
         return ix * fx, 0.0, 0.0, ix * fy, 0.0, ix * fz
-    xx, xy, xz = inverse_inertia_times(qx, qy, qz, qw, ix, iy, iz, 1.0, 0.0, 0.0)
-    _, yy, yz = inverse_inertia_times(qx, qy, qz, qw, ix, iy, iz, 0.0, 1.0, 0.0)
-    _, _, zz = inverse_inertia_times(qx, qy, qz, qw, ix, iy, iz, 0.0, 0.0, 1.0)
+    xx, xy, xz, yy, yz, zz = inverse_inertia_in_world(qx, qy, qz, qw, ix, iy, iz)
     least = HELD * (ix + iy + iz)
     if fx == 0.0:
         part = 1.0 / xx if xx > least else 0.0

@@ -36,7 +36,7 @@ TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 1
     makes_arrays=True,
 )  # fmt: skip
 def fly(
-    rows, start, h, bend, clock,
+    watched, start, h, bend, clock,
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     felt, detected_center, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
@@ -73,7 +73,7 @@ def fly(
     # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
     log, log_pair, log_count, kept = np.empty((64, WIDTH)), np.empty(64, np.int64), 0, np.empty((1, KEPT))
     now, end, cut, whirls = start, min(h, until), 0, False
-    within = time_within_all(rows, h - now, center, detected_center, reach, linear, acceleration)
+    within = time_within_all(watched, h - now, center, detected_center, reach, linear, acceleration)
     if within < end - now:
         end = now + within
     if not taken and start == 0.0:

@@ -26,33 +26,14 @@ from carom.systems.kernels.lanes import WIDTH, address, gather, load, planes, sc
 from carom.systems.kernels.packing import VELOCITY
 
 
-@kernel("bodies")
-def start_joints_warm(groups, kinds, row, index_a, index_b, lanes, bodies):
-    """Apply the impulses of the substep before."""
-    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
-    for g in range(groups):
-        r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
-        a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-        if slots == WAYS:
-            a, b = moved_point(r, three_of(r, lanes, of.HOLD), a, b, lanes)
-        else:
-            zero = spread(0.0)
-            push, twist = (zero, zero, zero), (zero, zero, zero)
-            for s in range(slots):
-                q = slot(r, s)
-                j = load(lanes, q + of.HOLD)
-                if bounded:
-                    p = bound(r, slots, s)
-                    j = j + load(lanes, p + of.DRIVE) + load(lanes, p + of.RUB)
-                push, twist = added(s, q, j, push, twist, lanes)
-            a, b = moved(g, r, push, twist, a, b, index_a, index_b, lanes, bodies)
-        scatter(bodies[VELOCITY], index_a, g, a)
-        scatter(bodies[VELOCITY], index_b, g, b)
-
-
 @kernel("lanes", "bodies", makes_arrays=True)
-def solve_joints(sweeps, relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, lanes, bodies):
+def solve_joints(
+    begins, sweeps, ended, relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, lanes, bodies
+):  # fmt: skip
     """Solve every group ``sweeps`` times over.
+
+    Where the substep ``begins`` with them, the impulses of the one before are applied first; where it has ``ended``,
+    impulses are added to those of the step, and how fast each way goes is noted.
 
     What is locked goes back to its place at ``rate`` (1/s) times what it is off by, with ``hardness`` of the mass and
     of the impulse that is there (Catto, Soft Constraints, GDC 2011), and stays there when ``relaxing``: the first
@@ -62,54 +43,86 @@ def solve_joints(sweeps, relaxing, h, rate, hardness, groups, kinds, asks, row, 
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     room = np.empty((SLOTS, WIDTH))
     scratch = address(room)
+    if begins:
+        for g in range(groups):
+            start_warm(g, row[g], kinds[g], index_a, index_b, lanes, bodies)
     for _ in range(sweeps):
         for n in range(groups):
             g = groups - 1 - n if relaxing else n
-            r, slots = row[g], slots_of(kinds[g])
-            a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-            if slots == 1:
-                a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-            elif slots == WAYS:
-                push = hold_point(r, rate, hardness, a, b, lanes)
-                a, b = moved_point(r, push, a, b, lanes)
-            else:
-                a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-            if kinds[g] >= KINDS and asks[g]:
-                for s in range(slots):
-                    p = bound(r, slots, s)
-                    if asks[g] & FRICTION_BIT << s:
-                        a, b = rub(s, g, r, p, hardness, h, a, b, index_a, index_b, lanes, bodies)
-                    if asks[g] & DRIVE_BIT << s:
-                        a, b = drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodies)
-                    if asks[g] & LIMIT_BIT << s:
-                        a, b = limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes, bodies)
-                if slots == 1:
-                    a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-                else:
-                    a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-            scatter(bodies[VELOCITY], index_a, g, a)
-            scatter(bodies[VELOCITY], index_b, g, b)
+            solve(g, row[g], kinds[g], asks[g], relaxing, h, rate, hardness, index_a, index_b, lanes, bodies, scratch)
+    if ended:
+        for g in range(groups):
+            finish(g, row[g], kinds[g], index_a, index_b, lanes, bodies)
 
 
-@kernel("lanes")
-def finish_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
-    """Note how fast each way goes, and add the impulses of the substep to those of the step."""
-    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
-    for g in range(groups):
-        r, slots, bounded = row[g], slots_of(kinds[g]), kinds[g] >= KINDS
-        a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-        if slots == WAYS:
-            finish_point(r, a, b, lanes)
-            continue
-        along, turning = parting(r, a, b, lanes)
+@woven
+def start_warm(g, r, kind, index_a, index_b, lanes, bodies):
+    """Apply the impulses of a group in the substep before."""
+    slots = slots_of(kind)
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    if slots == WAYS:
+        a, b = moved_point(r, three_of(r, lanes, of.HOLD), a, b, lanes)
+    else:
+        zero = spread(0.0)
+        push, twist = (zero, zero, zero), (zero, zero, zero)
         for s in range(slots):
             q = slot(r, s)
-            store(lanes, q + of.SPEED, dot(three(lanes, q + of.AXIS), along if s < 3 else turning))
-            store(lanes, q + of.SUM, load(lanes, q + of.SUM) + load(lanes, q + of.HOLD))
-            if bounded:
+            j = load(lanes, q + of.HOLD)
+            if kind >= KINDS:
                 p = bound(r, slots, s)
-                store(lanes, p + of.DRIVE_SUM, load(lanes, p + of.DRIVE_SUM) + load(lanes, p + of.DRIVE))
-                store(lanes, p + of.RUB_SUM, load(lanes, p + of.RUB_SUM) + load(lanes, p + of.RUB))
+                j = j + load(lanes, p + of.DRIVE) + load(lanes, p + of.RUB)
+            push, twist = added(s, q, j, push, twist, lanes)
+        a, b = moved(g, r, push, twist, a, b, index_a, index_b, lanes, bodies)
+    scatter(bodies[VELOCITY], index_a, g, a)
+    scatter(bodies[VELOCITY], index_b, g, b)
+
+
+@woven
+def solve(g, r, kind, asks, relaxing, h, rate, hardness, index_a, index_b, lanes, bodies, scratch):
+    """Solve a group once: what is locked, then what bounds the other ways, and what is locked again."""
+    slots = slots_of(kind)
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    if slots == 1:
+        a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+    elif slots == WAYS:
+        push = hold_point(r, rate, hardness, a, b, lanes)
+        a, b = moved_point(r, push, a, b, lanes)
+    else:
+        a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+    if kind >= KINDS and asks:
+        for s in range(slots):
+            p = bound(r, slots, s)
+            if asks & FRICTION_BIT << s:
+                a, b = rub(s, g, r, p, hardness, h, a, b, index_a, index_b, lanes, bodies)
+            if asks & DRIVE_BIT << s:
+                a, b = drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodies)
+            if asks & LIMIT_BIT << s:
+                a, b = limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes, bodies)
+        if slots == 1:
+            a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+        else:
+            a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+    scatter(bodies[VELOCITY], index_a, g, a)
+    scatter(bodies[VELOCITY], index_b, g, b)
+
+
+@woven
+def finish(g, r, kind, index_a, index_b, lanes, bodies):
+    """Note how fast each way of a group goes, and add the impulses of the substep to those of the step."""
+    slots = slots_of(kind)
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    if slots == WAYS:
+        finish_point(r, a, b, lanes)
+        return
+    along, turning = parting(r, a, b, lanes)
+    for s in range(slots):
+        q = slot(r, s)
+        store(lanes, q + of.SPEED, dot(three(lanes, q + of.AXIS), along if s < 3 else turning))
+        store(lanes, q + of.SUM, load(lanes, q + of.SUM) + load(lanes, q + of.HOLD))
+        if kind >= KINDS:
+            p = bound(r, slots, s)
+            store(lanes, p + of.DRIVE_SUM, load(lanes, p + of.DRIVE_SUM) + load(lanes, p + of.DRIVE))
+            store(lanes, p + of.RUB_SUM, load(lanes, p + of.RUB_SUM) + load(lanes, p + of.RUB))
 
 
 @woven

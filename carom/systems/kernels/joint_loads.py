@@ -45,20 +45,21 @@ def hand_joints_over(
                 impulse[i, s], position[i, s] = lanes[q + of.HOLD, lane], lanes[q + of.PLACE, lane]
                 velocity[i, s] = lanes[q + of.SPEED, lane]
                 whole = lanes[q + of.SUM, lane]
-                if mode[i, s] == LIMITED:
-                    limit[i, s] = -1 if whole > 0.0 else 1 if whole < 0.0 else 0
                 lanes[q + of.SUM, lane] = 0.0
                 if bounded:
+                    if mode[i, s] == LIMITED:
+                        limit[i, s] = -1 if whole > 0.0 else 1 if whole < 0.0 else 0
                     p = bound(r, slots, s)
                     drive_impulse[i, s], friction_impulse[i, s] = lanes[p + of.DRIVE, lane], lanes[p + of.RUB, lane]
                     effort[i, s] += lanes[p + of.DRIVE_SUM, lane] / dt
                     whole += lanes[p + of.DRIVE_SUM, lane] + lanes[p + of.RUB_SUM, lane]
                     lanes[p + of.DRIVE_SUM, lane], lanes[p + of.RUB_SUM, lane] = 0.0, 0.0
+                whole /= dt
                 for k in range(3):
                     if s < 3:
-                        force[i, k] += whole / dt * lanes[q + of.AXIS + k, lane]
+                        force[i, k] += whole * lanes[q + of.AXIS + k, lane]
                     else:
-                        torque[i, k] += whole / dt * lanes[q + of.AXIS + k, lane]
+                        torque[i, k] += whole * lanes[q + of.AXIS + k, lane]
 
 
 @kernel("gap", "twist", "margin", "breaks")

@@ -18,8 +18,11 @@ from carom.systems.kernels.spatial import product, turn
 
 
 @kernel("lanes", makes_arrays=True)
-def measure_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
-    """Find the axes of joints where their bodies are now, where b is on them, and how bodies yield along them."""
+def measure_joints(weigh, groups, kinds, row, index_a, index_b, lanes, bodies):
+    """Find the axes of joints where their bodies are now, where b is on them, and how bodies yield along them.
+
+    ``weigh`` tells that masses are not those of the last time.
+    """
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     room = np.empty((SCRATCH_ROWS, WIDTH))
     scratch = address(room)
@@ -32,7 +35,7 @@ def measure_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
             find_yielding(1, g, r, bounded, index_a, index_b, lanes, bodies, scratch)
         elif kind == POINTS:
             place_point(r, lanes, d)
-            find_yielding_of_point(g, r, index_a, index_b, lanes, bodies)
+            find_yielding_of_point(g, r, weigh, index_a, index_b, lanes, bodies)
         else:
             place_frame(r, kind, lanes, a, b, d)
             find_yielding(6, g, r, bounded, index_a, index_b, lanes, bodies, scratch)

@@ -26,15 +26,17 @@ def place_point(r, lanes, d):
 
 
 @woven
-def find_yielding_of_point(g, r, index_a, index_b, lanes, bodies):
-    """Factor the matrix of how fast the point yields to unit impulses."""
-    mass_a, mass_b = gather(bodies[MASS_AND_FELT], index_a, g), gather(bodies[MASS_AND_FELT], index_b, g)
+def find_yielding_of_point(g, r, weigh, index_a, index_b, lanes, bodies):
+    """Factor the matrix of how fast the point yields to unit impulses; ``weigh`` bodies whose masses are not known."""
+    inert = factor(r, WAYS, WAYS, 0)
+    if weigh:
+        mass_a, mass_b = gather(bodies[MASS_AND_FELT], index_a, g), gather(bodies[MASS_AND_FELT], index_b, g)
+        for k in range(3):
+            store(lanes, inert + of.MASS_A + k, mass_a[k])
+            store(lanes, inert + of.MASS_B + k, mass_b[k])
+    mass_a, mass_b = three(lanes, inert + of.MASS_A), three(lanes, inert + of.MASS_B)
     inverse_a, inverse_b = gather(bodies[INVERSE], index_a, g), gather(bodies[INVERSE], index_b, g)
     a, b = turning_of(three(lanes, r + of.ARM_A), inverse_a), turning_of(three(lanes, r + of.ARM_B), inverse_b)
-    inert = factor(r, WAYS, WAYS, 0)
-    for k in range(3):
-        store(lanes, inert + of.MASS_A + k, mass_a[k])
-        store(lanes, inert + of.MASS_B + k, mass_b[k])
     for k in range(6):
         store(lanes, inert + of.INVERSE_A + k, inverse_a[k])
         store(lanes, inert + of.INVERSE_B + k, inverse_b[k])

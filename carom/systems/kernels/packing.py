@@ -7,10 +7,10 @@ import numpy as np
 
 from carom.systems.kernels.freedom import held_inverse
 from carom.systems.kernels.kernel import inlined, kernel, woven
-from carom.systems.kernels.lane_columns import in_a_row, take_four, take_one, take_six, take_three
+from carom.systems.kernels.lane_columns import are_all, in_a_row, take_four, take_one, take_six, take_three
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, planes, scatter, some, spread
-from carom.systems.kernels.spatial import product, turn
+from carom.systems.kernels.spatial import inverse_inertia_in_world, product
 
 # The planes, each of eight numbers a body: what one sweep reads of neighbours lies side by side.
 # Velocity, and the way since contacts were measured: linear (3), a gap, angular (3), a gap.
@@ -58,8 +58,9 @@ def pack_bodies(
             index[0, lane] = rows[min(n + lane, len(rows) - 1)]
         v, w = take_three(linear, rows, n, near, three), take_three(angular, rows, n, near, three)
         scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], zero, w[0], w[1], w[2], zero))
-        x, y, z = take_three(center_of_mass, rows, n, near, three)
-        centred &= not some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z)))
+        if centred and not (near and are_all(0.0, center_of_mass, 3, rows[n])):
+            x, y, z = take_three(center_of_mass, rows, n, near, three)
+            centred = not some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z)))
         c, q = take_three(center, rows, n, near, three), take_four(rotation, rows, n, near, four)
         scatter(packed[POSE], address(index), 0, (c[0], c[1], c[2], zero, q[0], q[1], q[2], q[3]))
         m, free = take_one(inverse_mass, rows, n, near, one), take_six(freedom, rows, n, near, six)
@@ -84,12 +85,7 @@ def pack_bodies(
 def inverse_of(q, axes, ix, iy, iz, uneven, even):
     """Return the inverse inertia of eight bodies turned to q in the world, as `held_inverse`, where it is not even."""
     qx, qy, qz, qw = product(q[0], q[1], q[2], q[3], axes[0], axes[1], axes[2], axes[3])
-    x, y, z = turn(-qx, -qy, -qz, qw, 1.0, 0.0, 0.0)
-    xx, xy, xz = turn(qx, qy, qz, qw, ix * x, iy * y, iz * z)
-    x, y, z = turn(-qx, -qy, -qz, qw, 0.0, 1.0, 0.0)
-    _, yy, yz = turn(qx, qy, qz, qw, ix * x, iy * y, iz * z)
-    x, y, z = turn(-qx, -qy, -qz, qw, 0.0, 0.0, 1.0)
-    _, _, zz = turn(qx, qy, qz, qw, ix * x, iy * y, iz * z)
+    xx, xy, xz, yy, yz, zz = inverse_inertia_in_world(qx, qy, qz, qw, ix, iy, iz)
     return (
         choose(uneven, xx, even[0]), choose(uneven, xy, even[1]), choose(uneven, xz, even[2]),
         choose(uneven, yy, even[3]), choose(uneven, yz, even[4]), choose(uneven, zz, even[5]),
@@ -109,20 +105,26 @@ def pack_held(i, inverse_inertia, principal, freedom, rotation, bodies):
         bodies[INVERSE, i, k] = value
 
 
-@kernel("bodies")
-def pack_moving(rows, center, rotation, linear, angular, felt, bodies):
-    """Write the velocities of bodies and what they feel, which are where they were packed; False where one is not."""
+@kernel()
+def are_placed(rows, center, rotation, bodies):
+    """Tell whether bodies are where they were packed."""
     for i in rows:
-        same = True
         for k in range(3):
-            same &= bodies[CENTER, i, k] == center[i, k]
+            if bodies[CENTER, i, k] != center[i, k]:
+                return False
+        for k in range(4):
+            if bodies[POSE, i, ANGULAR + k] != rotation[i, k]:
+                return False
+    return True
+
+
+@kernel("bodies")
+def pack_moving(rows, linear, angular, felt, bodies):
+    """Write the velocities of bodies and what they feel, which are where they were packed."""
+    for i in rows:
+        for k in range(3):
             bodies[VELOCITY, i, k], bodies[VELOCITY, i, ANGULAR + k] = linear[i, k], angular[i, k]
             bodies[MASS_AND_FELT, i, 3 + k] = felt[i, k]
-        for k in range(4):
-            same &= bodies[POSE, i, ANGULAR + k] == rotation[i, k]
-        if not same:
-            return False
-    return True
 
 
 @kernel("velocity")

@@ -7,11 +7,10 @@ from math import sqrt
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import REACH_FACTOR, ROOT_GAP
 from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.lane_columns import in_a_row, load_one, load_three
+from carom.systems.kernels.lane_columns import ALL, in_a_row, load_one, load_three
 from carom.systems.kernels.lanes import WIDTH, address, which
 
 WELL_WITHIN = 3.001  # a little more than 3, whatever rounding does
-ALL = (1 << WIDTH) - 1
 
 
 @woven

@@ -7,10 +7,11 @@ from typing import Any
 
 # mypy: disable-error-code="no-untyped-call"
 from carom.ecs.spatial import scalars, trigonometry
-from carom.systems.constants import SMALL_ANGLE
+from carom.ecs.spatial.trigonometry import EIGHTH_SQUARED
 from carom.systems.kernels.kernel import calling, inlined, woven
 
-series = inlined(trigonometry.series)
+even_series = inlined(trigonometry.even_series)
+series = inlined(calling(trigonometry.series, even_series=even_series))
 sine_cosine = inlined(calling(trigonometry.sine_cosine, series=series))
 exponential = inlined(trigonometry.exponential)
 cross = inlined(scalars.cross)
@@ -36,16 +37,23 @@ def across(x, y, z):  # type: ignore[no-untyped-def]
 @inlined
 def spun(qx, qy, qz, qw, wx, wy, wz, t):  # type: ignore[no-untyped-def]
     """Return the quaternion after turning at angular velocity w (rad/s, outer frame) for t seconds."""
-    squared = (wx * wx + wy * wy + wz * wz) * t * t
-    if squared < SMALL_ANGLE * SMALL_ANGLE:
-        scale, c = 0.5 * t, 1.0
-    else:
-        angle = sqrt(squared)
-        s, c = sine_cosine(0.5 * angle)
-        scale = s / angle * t
-    x, y, z, w = product(wx * scale, wy * scale, wz * scale, c, qx, qy, qz, qw)
+    x, y, z, w = spinning(qx, qy, qz, qw, wx, wy, wz, t)
     inverse = 1.0 / sqrt(x * x + y * y + z * z + w * w)
     return x * inverse, y * inverse, z * inverse, w * inverse
+
+
+@inlined
+def spinning(qx, qy, qz, qw, wx, wy, wz, t):  # type: ignore[no-untyped-def]
+    """Return what `spun` does, but for rounding of the length."""
+    squared = 0.25 * ((wx * wx + wy * wy + wz * wz) * t * t)  # of half the angle
+    if squared <= EIGHTH_SQUARED:
+        s, c = even_series(squared)
+        scale = 0.5 * t * (1.0 + squared * s)
+    else:
+        half = sqrt(squared)
+        s, c = sine_cosine(half)
+        scale = 0.5 * t * (s / half)
+    return product(wx * scale, wy * scale, wz * scale, c, qx, qy, qz, qw)
 
 
 @inlined
@@ -55,6 +63,24 @@ def inverse_inertia_times(qx, qy, qz, qw, ix, iy, iz, x, y, z):  # type: ignore[
         return ix * x, ix * y, ix * z
     lx, ly, lz = turn(-qx, -qy, -qz, qw, x, y, z)
     return turn(qx, qy, qz, qw, ix * lx, iy * ly, iz * lz)
+
+
+@inlined
+def inverse_inertia_in_world(qx, qy, qz, qw, ix, iy, iz):  # type: ignore[no-untyped-def]
+    """Return the upper half of R diag(i) R^T, R the matrix of q from principal axes to world, i the inverse moments.
+
+    Of one body, or of one in each lane.
+    """
+    tx, ty, tz = 2.0 * qx, 2.0 * qy, 2.0 * qz
+    ax, ay, az = 1.0 - (qy * ty + qz * tz), qx * ty + qw * tz, qx * tz - qw * ty
+    bx, by, bz = qx * ty - qw * tz, 1.0 - (qx * tx + qz * tz), qy * tz + qw * tx
+    cx, cy, cz = qx * tz + qw * ty, qy * tz - qw * tx, 1.0 - (qx * tx + qy * ty)
+    ux, uy, uz, vx, vy, vz = ix * ax, ix * ay, ix * az, iy * bx, iy * by, iy * bz
+    wx, wy, wz = iz * cx, iz * cy, iz * cz
+    return (
+        ux * ax + vx * bx + wx * cx, ux * ay + vx * by + wx * cy, ux * az + vx * bz + wx * cz,
+        uy * ay + vy * by + wy * cy, uy * az + vy * bz + wy * cz, uz * az + vz * bz + wz * cz,
+    )  # fmt: skip
 
 
 def turned_about(qx, qy, qz, qw, my, mz, half):  # type: ignore[no-untyped-def]
@@ -96,29 +122,30 @@ def freely_turned(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t):  # type: ignore[no
     if (ix == iy and iy == iz) or ix == 0.0 or iy == 0.0 or iz == 0.0:
         nx, ny, nz, nw = spun(qx, qy, qz, qw, wx, wy, wz, t)
         return nx, ny, nz, nw, wx, wy, wz
+    jx, jy, jz = 1.0 / ix, 1.0 / iy, 1.0 / iz
     lx, ly, lz = turn(-qx, -qy, -qz, qw, wx, wy, wz)
     mx, my, mz = ix * lx, iy * ly, iz * lz
     gx, gy, gz = turn(qx, qy, qz, qw, mx, my, mz)  # angular momentum in the world, which stays
     if (ix - iy) * (iz - iy) <= 0.0:  # the middle one of three axes in a circle comes last
-        qx, qy, qz, qw = spun(qx, qy, qz, qw, gx / iy, gy / iy, gz / iy, t)
-        qz, qx, qy, qw = turned_twice(qz, qx, qy, qw, mz, mx, my, quarter(t, iz, iy), quarter(t, ix, iy))
+        qx, qy, qz, qw = spinning(qx, qy, qz, qw, gx * jy, gy * jy, gz * jy, t)
+        qz, qx, qy, qw = turned_twice(qz, qx, qy, qw, mz, mx, my, quarter(t, jz, jy), quarter(t, jx, jy))
     elif (iy - ix) * (iz - ix) <= 0.0:
-        qx, qy, qz, qw = spun(qx, qy, qz, qw, gx / ix, gy / ix, gz / ix, t)
-        qy, qz, qx, qw = turned_twice(qy, qz, qx, qw, my, mz, mx, quarter(t, iy, ix), quarter(t, iz, ix))
+        qx, qy, qz, qw = spinning(qx, qy, qz, qw, gx * jx, gy * jx, gz * jx, t)
+        qy, qz, qx, qw = turned_twice(qy, qz, qx, qw, my, mz, mx, quarter(t, jy, jx), quarter(t, jz, jx))
     else:
-        qx, qy, qz, qw = spun(qx, qy, qz, qw, gx / iz, gy / iz, gz / iz, t)
-        qx, qy, qz, qw = turned_twice(qx, qy, qz, qw, mx, my, mz, quarter(t, ix, iz), quarter(t, iy, iz))
+        qx, qy, qz, qw = spinning(qx, qy, qz, qw, gx * jz, gy * jz, gz * jz, t)
+        qx, qy, qz, qw = turned_twice(qx, qy, qz, qw, mx, my, mz, quarter(t, jx, jz), quarter(t, jy, jz))
     inverse = 1.0 / sqrt(qx * qx + qy * qy + qz * qz + qw * qw)
     qx, qy, qz, qw = qx * inverse, qy * inverse, qz * inverse, qw * inverse
     mx, my, mz = turn(-qx, -qy, -qz, qw, gx, gy, gz)
-    wx, wy, wz = turn(qx, qy, qz, qw, mx / ix, my / iy, mz / iz)
+    wx, wy, wz = turn(qx, qy, qz, qw, mx * jx, my * jy, mz * jz)
     return qx, qy, qz, qw, wx, wy, wz
 
 
 @woven
-def quarter(t, i, middle):  # type: ignore[no-untyped-def]
-    """Return half the angle per momentum by which a moment turns about its axis in t/2 faster than the middle one."""
-    return 0.25 * t * (1.0 / i - 1.0 / middle)
+def quarter(t, j, middle):  # type: ignore[no-untyped-def]
+    """Return half the angle per momentum by which an inverse moment turns in t/2 faster than the middle one."""
+    return 0.25 * t * (j - middle)
 
 
 @inlined

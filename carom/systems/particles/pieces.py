@@ -26,6 +26,11 @@ class Piece(NamedTuple):
         return slice(self.first, self.first + self.size)
 
 
+def emits(world: World) -> bool:
+    """Tell whether there are particles, or something that may bring them forth."""
+    return world[Particle].count > 0 or len(world.row_numbers(Emitter)) > 0
+
+
 def pieces(world: World) -> list[Piece]:
     """Return the pieces that are there, in order."""
     count = world.count(Particle)
