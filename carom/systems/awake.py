@@ -53,10 +53,10 @@ class Awake(Resource):
         """Tell whether all who are awake stand still for as long as nobody touches them."""
         if self.strangers or len(world.row_numbers(Path)):
             return False
-        motion, rows = world[Motion], self.rows
-        moving = (world[RigidBody].inverse_mass, motion.linear, motion.angular)
-        # Most often the first of them moves.
-        return not any(values[part].any() for part in (rows[:1], rows) for values in moving)
+        motion, rows, inverse_mass = world[Motion], self.rows, world[RigidBody].inverse_mass
+        if len(rows) and inverse_mass.item(rows.item(0)):  # most often the first can be moved
+            return False
+        return not any(values[rows].any() for values in (inverse_mass, motion.linear, motion.angular))
 
     def look(self, world: World) -> Changes:
         """Return what has changed since the last look."""

@@ -27,7 +27,7 @@ def predict(world: World, dt: float) -> None:
         world[Standing].judge(world)
     half = 0.5 * dt if in_the_middle(world) else 0.0
     predict_middle(
-        world[Awake].now(world), half, body.center_of_mass, body.freedom,
+        world[Awake].now(world), half, body.center_of_mass, body.freedom, flight.held,
         motion.linear_acceleration, motion.angular_acceleration,
         transform.position, transform.rotation, motion.linear, motion.angular,
         flight.center, flight.start_center, flight.start_position, flight.start_rotation,

@@ -24,7 +24,8 @@ def join_bodies(world: World, dt: float) -> None:
     linkage, begins = world[Linkage], world[Progress].substep == 1
     if not (linkage.groups or len(world[Ties].now(world).rows)):  # most worlds, in every substep
         if linkage.holds:
-            world[Flight].held[world[Awake].now(world)] = linkage.holds = False
+            rows, flight = world[Awake].now(world), world[Flight]
+            flight.held[rows] = flight.touching[rows] = linkage.holds = False
         return
     if not linkage.is_of(world) or (begins and world[Awake].edited & {Joint, RigidBody, Transform}):
         if not begins:  # at the end of a step it has been done

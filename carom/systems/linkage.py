@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Floats
+from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
@@ -21,6 +21,9 @@ from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.settings import Settings
 from carom.systems.ties import Ties
 
+NOBODY: Integers = np.zeros(0, np.int64)
+NO_MOTION: Floats = np.zeros((0, 3))
+
 
 class Linkage(Resource):
     """Joints (``rows``) in groups, found anew when others are held, fall asleep or wake; a cache."""
@@ -29,8 +32,9 @@ class Linkage(Resource):
         self.groups = self.version = 0
         self.measured = self.weighed = False  # where bodies are packed now, and what they weigh
         self.holds = True  # bodies may be marked as held
+        self.marked = False  # who is held, now and for as long as these joints are
         self.restored = -1
-        self.awake = self.rows = np.zeros(0, np.int64)
+        self.awake = self.rows = NOBODY
         self.lanes = aligned(0, WIDTH)
         self._reserve(0)
 
@@ -53,7 +57,7 @@ class Linkage(Resource):
         self.rows, body_a, body_b = ties.rows[here], ties.body_a[here], ties.body_b[here]
         count, nobody = len(self.rows), len(body.inverse_mass)
         self._reserve(count)
-        self.measured = self.weighed = False
+        self.measured = self.weighed = self.marked = False
         self.groups, lanes = group_joints(
             self.rows, body_a, body_b, body.inverse_mass, nobody,
             joint.along, joint.about, joint.mode, joint.lower, joint.driven, joint.friction,
@@ -72,9 +76,14 @@ class Linkage(Resource):
         )  # fmt: skip
 
     def mark(self, world: World, h: float) -> None:
-        """Count bodies as touching and held by joints in the next h seconds; ropes that hang slack do not hold."""
+        """Count bodies as touching and held by joints in the next h seconds; ropes that hang slack do not hold.
+
+        Who is held goes on to be, and its arc begins as one who touches, until joints are found anew.
+        """
+        if self.marked:
+            return
         flight, motion = world[Flight], world[Motion]
-        mark_held(
+        self.marked = not mark_held(
             self.awake, self.groups, self.kinds, self.asks, h, self.row, self.index_a, self.index_b, self.first,
             self.lanes, flight.center, world[Transform].rotation, motion.linear, motion.angular, flight.felt,
             flight.touching, flight.held,
@@ -91,12 +100,19 @@ class Linkage(Resource):
             measure_joints(weigh, self.groups, self.kinds, self.row, self.index_a, self.index_b, self.lanes, bodies)
             self.measured = self.weighed = True
 
-    def solve(self, sweeps: int, h: float, bodies: Floats, *, relaxing: bool, begins: bool, ended: bool) -> None:
-        """Solve every joint ``sweeps`` times, from the impulses of before, to those of the step."""
+    def solve(
+        self, sweeps: int, h: float, bodies: Floats, *, relaxing: bool = False, begins: bool = False,
+        ended: bool = False, rows: Integers = NOBODY, motion: Motion | None = None,
+    ) -> None:  # fmt: skip
+        """Solve every joint ``sweeps`` times, from the impulses of before where the substep ``begins``.
+
+        Where it has ``ended`` impulses count for the step. Velocities of ``rows`` are those of their ``motion``.
+        """
         rate, hardness = (0.0, 1.0) if relaxing else (JOINT_RATE / h, JOINT_HARDNESS)
+        linear, angular = (NO_MOTION, NO_MOTION) if motion is None else (motion.linear, motion.angular)
         solve_joints(
             begins, sweeps, ended, relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
-            self.index_a, self.index_b, self.lanes, bodies,
+            self.index_a, self.index_b, rows, self.lanes, bodies, linear, angular,
         )  # fmt: skip
 
     def hand_over(self, world: World) -> None:

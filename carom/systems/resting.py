@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from math import pi
 from typing import Any, NamedTuple
 
@@ -132,14 +131,13 @@ class Resting(Resource):
         """Write what the stage needs to know of bodies, as they are now; of those that have not moved, what moves."""
         flight, motion = world[Flight], world[Motion]
         rows, now = self.rows(world), world[Awake].now(world)
-        # Who is awake is found anew after every change from outside.
-        if self.packed and self.packed[0] is rows and self.packed[1] is now and not world[Awake].strangers:
-            # A centre that is found by the origin again is rounded.
-            placed = self.placed and self.centred and world[Progress].substep > 1
-            if placed or are_placed(rows, flight.center, world[Transform].rotation, self.bodies):
-                if self.groups:  # joints learn of velocities where they are pressed
-                    pack_moving(rows, motion.linear, motion.angular, flight.felt, self.bodies)
-                return
+        # Who is awake is found anew after every change from outside; a centre that is found by its origin is rounded.
+        known = self.packed and self.packed[0] is rows and self.packed[1] is now and not world[Awake].strangers
+        placed = known and self.placed and self.centred
+        if placed or (known and are_placed(rows, flight.center, world[Transform].rotation, self.bodies)):
+            if self.groups:  # joints learn of velocities where they are pressed
+                pack_moving(rows, motion.linear, motion.angular, flight.felt, self.bodies)
+            return
         self._pack_anew(world)
 
     def _pack_anew(self, world: World) -> None:
@@ -174,9 +172,12 @@ class Resting(Resource):
     def press(self, world: World, h: float) -> None:
         """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
         rows, motion, linkage = self.rows(world), world[Motion], world[Linkage]
-        pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         if linkage.groups:
             linkage.measure(world, self.bodies)
+        if not (self.groups or self.hearers):
+            linkage.solve(1, h, self.bodies, begins=True, rows=rows, motion=motion)
+            return
+        pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         self._solve(world, Stage("solve", 1, h, *yielding(h)))
         unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
@@ -217,21 +218,20 @@ class Resting(Resource):
             self._pack_anew(world)  # all of them have moved
             self.placed = True
             linkage.measure(world, self.bodies)
-        else:
+        if not (self.groups or self.hearers):
+            linkage.solve(RELAX_SWEEPS, h, self.bodies, relaxing=True, ended=True, rows=rows, motion=motion)
+            return
+        if not linkage.groups:
             pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         self._solve(world, Stage("relax", RELAX_SWEEPS, h, hard, hard))
         unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
     def _solve(self, world: World, stage: Stage) -> None:
-        """Do all sweeps of a stage; joints come first in each, and some are to hear of each."""
+        """Do all sweeps of a stage, one by one for joints, which come first, and for those who are to hear of each."""
         linkage, relaxing = world[Linkage], stage.name == "relax"
-        solve = partial(linkage.solve, h=stage.h, bodies=self.bodies, relaxing=relaxing)
-        if not (self.groups or self.hearers):
-            solve(stage.sweeps, begins=not relaxing, ended=relaxing)
-            return
         if not relaxing:
             if linkage.groups:
-                solve(0, begins=True, ended=False)
+                linkage.solve(0, stage.h, self.bodies, begins=True)
             self._together(
                 world, start_warm, self.levels, self.level_ends,
                 self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
@@ -240,7 +240,7 @@ class Resting(Resource):
         at_once = 1 if self.hearers or linkage.groups else stage.sweeps
         for done in range(at_once, stage.sweeps + 1, at_once):
             if linkage.groups:
-                solve(at_once, begins=False, ended=False)
+                linkage.solve(1, stage.h, self.bodies, relaxing=relaxing)
             self._together(
                 world, press_groups, at_once, relaxing and done == stage.sweeps, stage.h, self.ends, self.levels,
                 self.level_ends, stage.soft, stage.rigid, self.index_a, self.index_b, self.points, self.row, self.asks,
@@ -248,7 +248,7 @@ class Resting(Resource):
             )  # fmt: skip
             self._tell(stage, done)
         if relaxing and linkage.groups:
-            solve(0, begins=False, ended=True)
+            linkage.solve(0, stage.h, self.bodies, relaxing=True, ended=True)
 
     def _tell(self, stage: Stage, done: int) -> None:
         for hear in self.hearers:

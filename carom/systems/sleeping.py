@@ -174,7 +174,8 @@ def place_frozen(world: World, rows: Integers) -> None:
         flight.flow, flight.turned,
     ):  # fmt: skip
         column[rows] = 0.0
-    flight.reach[rows], flight.time[rows], flight.touching[rows] = 0.0, 0.0, False
+    flight.reach[rows], flight.time[rows] = 0.0, 0.0
+    flight.touching[rows] = flight.held[rows] = False
     flight.decay[rows], flight.angular_decay[rows] = 1.0, 1.0
     flight.start_position[rows], flight.start_rotation[rows] = transform.position[rows], transform.rotation[rows]
     for center in (flight.center, flight.start_center, flight.detected_center):

@@ -110,6 +110,23 @@ def test_links_that_are_given_another_mass_have_it_at_once() -> None:
     assert hashes(simulation, 3) == hashes(fresh, 3)
 
 
+def test_who_slept_on_a_joint_falls_freely_without_it() -> None:
+    """By verlet's exact parabola, also while others are awake: nobody counts as held by what is no more."""
+    simulation = Simulation(sleeping=True)
+    ball = simulation.add(collider={"sphere": {"radius": 0.1}}, body={})
+    simulation.add(
+        body={"mass": 1.0, "gravity_scale": 0.0, "inertia": (1.0, 1.0, 1.0)}, motion={"linear": (1.0, 0.0, 0.0)}
+    )
+    rod = simulation.add(joint={"distance": {"b": ball, "anchor_a": (0.0, 1.0, 0.0)}})
+    simulation.step(120)
+    assert simulation[ball].motion.asleep
+    before = float(simulation[ball].transform.position[1])
+    simulation.world.despawn(rod)
+    simulation.step(10)
+    fallen = 0.5 * 9.81 * (10 / 60) ** 2
+    assert simulation[ball].transform.position[1] - before == pytest.approx(-fallen, rel=1e-12)
+
+
 PLAIN = """
 from heaps import hashes, jointed_heap
 print(*hashes(jointed_heap(), 6), sep="\\n")

@@ -48,8 +48,8 @@ def find_contacts(world: World, dt: float) -> None:
     """Fill the contact table with every pair that touches or may touch within the step; note those of sensors."""
     contact = world[Contact]
     world[Sensing].forget()
-    contact.impulse[: contact.count] = 0.0
-    contact.friction_impulse[: contact.count] = 0.0
+    if contact.count:
+        contact.impulse[: contact.count] = contact.friction_impulse[: contact.count] = 0.0
     detect(world, dt, dt / world[Settings].substeps)
 
 

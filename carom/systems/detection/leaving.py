@@ -27,10 +27,12 @@ def detection_holds(world: World, left: float) -> bool:
     Who was struck goes another way than was foreseen, but most often meets nobody there who is not in the table: to
     know that costs a tenth of detecting all anew.
     """
-    flight, motion = world[Flight], world[Motion]
+    flight, motion, rows = world[Flight], world[Motion], world[BroadPhase].watched(world)
+    if not len(rows):
+        return True
     leaving: Integers = np.empty(MOST_WIDENED + 1, np.int64)
     count = find_leaving(
-        world[BroadPhase].watched(world), left, flight.center, flight.detected_center, flight.reach, motion.linear,
+        rows, left, flight.center, flight.detected_center, flight.reach, motion.linear,
         flight.felt, leaving,
     )  # fmt: skip
     return count == 0 or (count <= MOST_WIDENED and _meet_nobody_new(world, leaving[:count], left))

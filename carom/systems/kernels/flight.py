@@ -34,7 +34,7 @@ EULER, SEMI_IMPLICIT, VERLET = 0, 1, 2
     makes_arrays=True,
 )  # fmt: skip
 def predict_middle(
-    rows, half, center_of_mass, freedom, last_acceleration, last_angular_acceleration,
+    rows, half, center_of_mass, freedom, held, last_acceleration, last_angular_acceleration,
     position, rotation, linear, angular,
     center, start_center, start_position, start_rotation, start_linear, start_angular,
     angular_acceleration, time, turned, touching,
@@ -50,7 +50,7 @@ def predict_middle(
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
         for i in rows[n : n + WIDTH]:
-            touching[i] = False
+            touching[i] = held[i]
         if near and half == 0.0 and are_all(0.0, center_of_mass, 3, rows[n]) and are_all(1.0, freedom, 6, rows[n]):
             begin_eight(
                 rows[n], position, rotation, linear, angular, center, start_center, start_position, start_rotation,

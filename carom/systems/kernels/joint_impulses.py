@@ -23,26 +23,31 @@ from carom.systems.kernels.joint_points import WAYS, finish_point, hold_point, m
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import WIDTH, address, gather, load, planes, scatter, spread, store
-from carom.systems.kernels.packing import VELOCITY
+from carom.systems.kernels.packing import ANGULAR, VELOCITY
 
 
-@kernel("lanes", "bodies", makes_arrays=True)
+@kernel("lanes", "bodies", "linear", "angular", makes_arrays=True)
 def solve_joints(
-    begins, sweeps, ended, relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, lanes, bodies
+    begins, sweeps, ended, relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, rows,
+    lanes, bodies, linear, angular,
 ):  # fmt: skip
     """Solve every group ``sweeps`` times over.
 
     Where the substep ``begins`` with them, the impulses of the one before are applied first; where it has ``ended``,
-    impulses are added to those of the step, and how fast each way goes is noted.
+    impulses are added to those of the step, and how fast each way goes is noted. Velocities of ``rows`` are packed
+    where it begins, and unpacked.
 
     What is locked goes back to its place at ``rate`` (1/s) times what it is off by, with ``hardness`` of the mass and
     of the impulse that is there (Catto, Soft Constraints, GDC 2011), and stays there when ``relaxing``: the first
     pushes along the axes at the start of the way, the second takes what goes along those at its end, which keeps energy
     (Andersen, Rattle, J. Comput. Phys. 52, 24, 1983). The groups go in their order, and back when relaxing.
     """
+    room, velocity = np.empty((SLOTS, WIDTH)), bodies[VELOCITY]
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
-    room = np.empty((SLOTS, WIDTH))
     scratch = address(room)
+    for i in rows if begins else rows[:0]:
+        for k in range(3):
+            velocity[i, k], velocity[i, ANGULAR + k] = linear[i, k], angular[i, k]
     if begins:
         for g in range(groups):
             start_warm(g, row[g], kinds[g], index_a, index_b, lanes, bodies)
@@ -53,6 +58,9 @@ def solve_joints(
     if ended:
         for g in range(groups):
             finish(g, row[g], kinds[g], index_a, index_b, lanes, bodies)
+    for i in rows:
+        for k in range(3):
+            linear[i, k], angular[i, k] = velocity[i, k], velocity[i, ANGULAR + k]
 
 
 @woven

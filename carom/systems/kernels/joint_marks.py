@@ -18,12 +18,16 @@ def mark_held(
     rows, groups, kinds, asks, h, row, index_a, index_b, first, lanes, center, rotation, linear, angular, felt,
     touching, held,
 ):  # fmt: skip
-    """Mark both bodies of each joint as touching and held, but where a line stays within its limits for h seconds."""
-    nobody = len(touching)
+    """Mark both bodies of each joint as touching and held, but where a line stays within its limits for h seconds.
+
+    Nobody else of ``rows`` is held or touches yet. Return whether lines may come to be taut or slack.
+    """
+    nobody, lines = len(touching), False
     for i in rows:
-        held[i] = False
+        held[i] = touching[i] = False
     for g in range(groups):
         may_be_slack = kinds[g] == LINES + KINDS and asks[g] == LIMIT_BIT
+        lines |= may_be_slack
         for lane in range(WIDTH):
             if first[g, lane] < 0:
                 continue
@@ -35,6 +39,7 @@ def mark_held(
                 touching[a] = held[a] = True
             if b >= 0:
                 touching[b] = held[b] = True
+    return lines
 
 
 @inlined
