@@ -8,8 +8,9 @@ from carom.ecs.components.spring import Spring
 from carom.systems.awake import Awake
 from carom.systems.forces.law import Forces
 from carom.systems.forces.standing import Standing
-from carom.systems.kernels.flight import EULER, SEMI_IMPLICIT, VERLET, accelerate, kick_bodies, predict_middle
+from carom.systems.kernels.flight import accelerate, predict_middle
 from carom.systems.kernels.forces import clear_sums
+from carom.systems.kernels.kicking import EULER, SEMI_IMPLICIT, VERLET, kick_bodies
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 
