@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Protocol
+
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
@@ -22,7 +25,16 @@ from carom.systems.settings import Settings
 from carom.systems.ties import Ties
 
 NOBODY: Integers = np.zeros(0, np.int64)
-NO_MOTION: Floats = np.zeros((0, 3))
+
+
+class Velocities(Protocol):
+    """Columns of velocities by row."""
+
+    linear: Floats
+    angular: Floats
+
+
+STILL: Velocities = SimpleNamespace(linear=np.zeros((0, 3)), angular=np.zeros((0, 3)))
 
 
 class Linkage(Resource):
@@ -101,18 +113,19 @@ class Linkage(Resource):
             self.measured = self.weighed = True
 
     def solve(
-        self, sweeps: int, h: float, bodies: Floats, *, relaxing: bool = False, begins: bool = False,
-        ended: bool = False, rows: Integers = NOBODY, motion: Motion | None = None,
+        self, sweeps: int, h: float, bodies: Floats, relaxing: bool = False, begins: bool = False, ended: bool = False,
+        rows: Integers = NOBODY, motion: Velocities = STILL,
     ) -> None:  # fmt: skip
         """Solve every joint ``sweeps`` times, from the impulses of before where the substep ``begins``.
 
         Where it has ``ended`` impulses count for the step. Velocities of ``rows`` are those of their ``motion``.
         """
+        if not self.groups:
+            return
         rate, hardness = (0.0, 1.0) if relaxing else (JOINT_RATE / h, JOINT_HARDNESS)
-        linear, angular = (NO_MOTION, NO_MOTION) if motion is None else (motion.linear, motion.angular)
         solve_joints(
             begins, sweeps, ended, relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
-            self.index_a, self.index_b, rows, self.lanes, bodies, linear, angular,
+            self.index_a, self.index_b, rows, self.lanes, bodies, motion.linear, motion.angular,
         )  # fmt: skip
 
     def hand_over(self, world: World) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import pi
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from carom.systems.awake import Awake
 from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, RELAX_SWEEPS, RIGID_RATE
 from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
-from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
@@ -31,10 +30,10 @@ from carom.systems.kernels.packing import (
     pack_ways,
     unpack_velocities,
 )
-from carom.systems.kernels.resting import press_groups, start_warm
+from carom.systems.kernels.resting import press_groups
 from carom.systems.kernels.settling import sink_contacts
 from carom.systems.kernels.sorting import sort_groups
-from carom.systems.linkage import Linkage
+from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.threads import Threads, parts_for, share_out
@@ -171,15 +170,9 @@ class Resting(Resource):
 
     def press(self, world: World, h: float) -> None:
         """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
-        rows, motion, linkage = self.rows(world), world[Motion], world[Linkage]
-        if linkage.groups:
-            linkage.measure(world, self.bodies)
-        if not (self.groups or self.hearers):
-            linkage.solve(1, h, self.bodies, begins=True, rows=rows, motion=motion)
-            return
-        pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
+        if world[Linkage].groups:
+            world[Linkage].measure(world, self.bodies)
         self._solve(world, Stage("solve", 1, h, *yielding(h)))
-        unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
     def closing(self, world: World, at: float, h: float) -> Booleans:
         """Tell which manifolds, by their first contacts, may strike; all of them in the middle of a substep."""
@@ -213,57 +206,63 @@ class Resting(Resource):
 
     def relax(self, world: World, h: float) -> None:
         """Take the speed by which overlap left out of the velocities."""
-        rows, motion, linkage, hard = self.rows(world), world[Motion], world[Linkage], (0.0, 1.0)
+        linkage, hard = world[Linkage], (0.0, 1.0)
         if linkage.groups:
             self._pack_anew(world)  # all of them have moved
             self.placed = True
             linkage.measure(world, self.bodies)
-        if not (self.groups or self.hearers):
-            linkage.solve(RELAX_SWEEPS, h, self.bodies, relaxing=True, ended=True, rows=rows, motion=motion)
-            return
-        if not linkage.groups:
-            pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         self._solve(world, Stage("relax", RELAX_SWEEPS, h, hard, hard))
-        unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
     def _solve(self, world: World, stage: Stage) -> None:
-        """Do all sweeps of a stage, one by one for joints, which come first, and for those who are to hear of each."""
-        linkage, relaxing = world[Linkage], stage.name == "relax"
+        """Do all sweeps of a stage: at once where joints or contacts are alone and nobody is to hear of each.
+
+        Else one by one, joints first.
+        """
+        rows, motion, linkage, relaxing = self.rows(world), world[Motion], world[Linkage], stage.name == "relax"
+        if not (self.hearers or (self.groups and linkage.groups)):
+            if self.groups:
+                self._press(world, stage, stage.sweeps, begins=not relaxing, ended=relaxing, rows=rows, motion=motion)
+            else:
+                linkage.solve(stage.sweeps, stage.h, self.bodies, relaxing, not relaxing, relaxing, rows, motion)
+            return
+        pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         if not relaxing:
-            if linkage.groups:
-                linkage.solve(0, stage.h, self.bodies, begins=True)
-            self._together(
-                world, start_warm, self.levels, self.level_ends,
-                self.index_a, self.index_b, self.points, self.row, self.asks, self.lanes, self.bodies,
-            )  # fmt: skip
+            linkage.solve(0, stage.h, self.bodies, begins=True)
+            self._press(world, stage, 0, begins=True)
         self._tell(stage, 0)
-        at_once = 1 if self.hearers or linkage.groups else stage.sweeps
-        for done in range(at_once, stage.sweeps + 1, at_once):
-            if linkage.groups:
-                linkage.solve(1, stage.h, self.bodies, relaxing=relaxing)
-            self._together(
-                world, press_groups, at_once, relaxing and done == stage.sweeps, stage.h, self.ends, self.levels,
-                self.level_ends, stage.soft, stage.rigid, self.index_a, self.index_b, self.points, self.row, self.asks,
-                self.lanes, self.bodies,
-            )  # fmt: skip
+        for done in range(1, stage.sweeps + 1):
+            linkage.solve(1, stage.h, self.bodies, relaxing)
+            self._press(world, stage, 1, ended=relaxing and done == stage.sweeps)
             self._tell(stage, done)
-        if relaxing and linkage.groups:
-            linkage.solve(0, stage.h, self.bodies, relaxing=True, ended=True)
+        if relaxing:
+            linkage.solve(0, stage.h, self.bodies, relaxing, ended=True)
+        unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
+
+    def _press(
+        self, world: World, stage: Stage, sweeps: int, *, begins: bool = False, ended: bool = False,
+        rows: Integers = NOBODY, motion: Velocities = STILL,
+    ) -> None:  # fmt: skip
+        """Press all groups in all threads at once; a kernel goes level by level."""
+        if not self.groups:
+            return
+        parts = parts_for(world, self.groups)
+        gate = NO_GATE if parts == 1 else np.zeros(1, np.int64)
+
+        def press(part: int) -> None:
+            press_groups(
+                part, parts, gate, begins, sweeps, ended, stage.h, self.ends, self.levels, self.level_ends,
+                stage.soft, stage.rigid, self.index_a, self.index_b, self.points, self.row, self.asks,
+                rows, self.lanes, self.bodies, motion.linear, motion.angular,
+            )  # fmt: skip
+
+        if parts == 1:
+            press(0)
+        else:
+            world[Threads].run(parts, press)
 
     def _tell(self, stage: Stage, done: int) -> None:
         for hear in self.hearers:
             hear(stage, done)
-
-    def _together(self, world: World, kernel: Kernel, *arguments: Any) -> None:
-        """Run a kernel that goes level by level in all threads at once."""
-        if not self.groups:
-            return
-        parts = parts_for(world, self.groups)
-        if parts == 1:
-            kernel(0, 1, NO_GATE, *arguments)
-        else:
-            gate = np.zeros(1, np.int64)
-            world[Threads].run(parts, lambda part: kernel(part, parts, gate, *arguments))
 
     def hand_over(self, contact: Contact) -> None:
         """Write the impulses of the resting stage into the contact table, those of the step added to what is there."""

@@ -26,28 +26,12 @@ from carom.systems.kernels.lanes import (
     store,
 )
 from carom.systems.kernels.levers import parting_at, parting_of
-from carom.systems.kernels.packing import VELOCITY
+from carom.systems.kernels.packing import ANGULAR, VELOCITY
 from carom.systems.kernels.rubbing import IDLE, ROLLING, RUBBING, TWISTING, rub
 
 # Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, and the
 # mass that counts along the normal.
 IMPULSE, TARGET, STIFF, SCRATCH_ROWS = 0, 1, 2, 3
-
-
-@kernel("gate", "bodies")
-def start_warm(part, parts, gate, levels, level_ends, index_a, index_b, points, row, asks, lanes, bodies):
-    """Apply the impulses of the substep before.
-
-    One of ``parts`` threads takes its share of each level, and waits at the ``gate`` for the others after it.
-    """
-    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
-    for level in range(levels):
-        begin, end = share_of(level, level_ends, part, parts)
-        for g in range(begin, end):
-            if asks[g] != IDLE:
-                press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
-        if parts > 1:
-            wait_for_all(gate, parts, level + 1)
 
 
 @woven
@@ -78,19 +62,38 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
     scatter(bodies[VELOCITY], index_b, g, b)
 
 
-@kernel("gate", "lanes", "bodies", makes_arrays=True)
+@kernel("gate", "lanes", "bodies", "linear", "angular", makes_arrays=True)
 def press_groups(
-    part, parts, gate, sweeps, ended, h, ends, levels, level_ends, soft, rigid,
-    index_a, index_b, points, row, asks, lanes, bodies,
+    part, parts, gate, begins, sweeps, ended, h, ends, levels, level_ends, soft, rigid,
+    index_a, index_b, points, row, asks, rows, lanes, bodies, linear, angular,
 ):  # fmt: skip
-    """Solve every group that rests ``sweeps`` times over, sharing the groups of a level as `start_warm` does.
+    """Solve every group that rests ``sweeps`` times over.
 
     ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`press_points`). Those with something
-    that cannot move come last, so that what is under a pile has the last word. Where the substep has ``ended`` with
-    them, its impulses are added to those of the step.
+    that cannot move come last, so that what is under a pile has the last word. Where the substep ``begins`` with them,
+    the impulses of the one before are applied first; where it has ``ended``, its impulses are added to those of the
+    step. Velocities of ``rows`` are packed before and unpacked behind.
+
+    One of ``parts`` threads takes its share of each level, and waits at the ``gate`` for the others after it.
     """
+    velocity, scratch = bodies[VELOCITY], np.empty((SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH))
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
-    scratch = np.empty((SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH))
+    mine = rows[len(rows) * part // parts : len(rows) * (part + 1) // parts]
+    passed = 0
+    for i in mine:
+        for k in range(3):
+            velocity[i, k], velocity[i, ANGULAR + k] = linear[i, k], angular[i, k]
+    if parts > 1 and len(rows):
+        passed += 1
+        wait_for_all(gate, parts, passed)
+    for level in range(levels if begins else 0):
+        begin, end = share_of(level, level_ends, part, parts)
+        for g in range(begin, end):
+            if asks[g] != IDLE:
+                press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
+        if parts > 1:
+            passed += 1
+            wait_for_all(gate, parts, passed)
     for sweep in range(sweeps):
         for level in range(levels):
             begin, end = share_of(level, level_ends, part, parts)
@@ -104,7 +107,11 @@ def press_groups(
                     if ended and sweep == sweeps - 1:
                         sum_impulses(row[g], points[g], lanes)
             if parts > 1:
-                wait_for_all(gate, parts, sweep * levels + level + 1)
+                passed += 1
+                wait_for_all(gate, parts, passed)
+    for i in mine:
+        for k in range(3):
+            linear[i, k], angular[i, k] = velocity[i, k], velocity[i, ANGULAR + k]
 
 
 @woven
