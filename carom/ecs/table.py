@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from typing import Any
+from zlib import crc32
 
 import numpy as np
 import numpy.typing as npt
@@ -47,7 +48,7 @@ class Table:
     def grow(self, capacity: int, used: int) -> None:
         """Enlarge every array to ``capacity`` rows, keeping the first ``used``."""
         for name, column in self.kind.columns.items():
-            array = column.allocate(capacity)
+            array = column.allocate(capacity, crc32(f"{self.kind.__name__}.{name}".encode()))
             if used:
                 array[:used] = self.arrays[name][:used]
             self.arrays[name] = array
