@@ -129,21 +129,27 @@ class Resting(Resource):
     def pack(self, world: World) -> None:
         """Write what the stage needs to know of bodies, as they are now; of those that have not moved, what moves."""
         flight, motion = world[Flight], world[Motion]
-        rows, now = self.rows(world), world[Awake].now(world)
-        # Who is awake is found anew after every change from outside; a centre that is found by its origin is rounded.
-        known = self.packed and self.packed[0] is rows and self.packed[1] is now and not world[Awake].strangers
-        placed = known and self.placed and self.centred
+        rows = self.rows(world)
+        known = self._knows(world)
+        placed = known and self.placed and self.centred  # a centre that is found by its origin is rounded
         if placed or (known and are_placed(rows, flight.center, world[Transform].rotation, self.bodies)):
             if self.groups:  # joints learn of velocities where they are pressed
                 pack_moving(rows, motion.linear, motion.angular, flight.felt, self.bodies)
             return
         self._pack_anew(world)
 
+    def _knows(self, world: World) -> bool:
+        """Tell whether the same bodies are packed; who is awake is found anew after every change from outside."""
+        packed, now = self.packed, world[Awake].now(world)
+        return packed is not None and packed[0] is self.rows(world) and packed[1] is now and not world[Awake].strangers
+
     def _pack_anew(self, world: World) -> None:
         flight, motion, body, rows = world[Flight], world[Motion], world[RigidBody], self.rows(world)
+        weigh = bool(self.groups) or not self._knows(world)
         self.centred = pack_bodies(
-            rows, body.center_of_mass, flight.center, motion.linear, motion.angular, flight.felt, body.inverse_mass,
-            body.inverse_inertia, body.principal_axes, body.freedom, world[Transform].rotation, self.bodies,
+            rows, weigh, body.center_of_mass, flight.center, motion.linear, motion.angular, flight.felt,
+            body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom,
+            world[Transform].rotation, self.bodies,
         )  # fmt: skip
         self.packed, world[Linkage].measured = (rows, world[Awake].now(world)), False
 

@@ -39,11 +39,12 @@ def find_bound(rows, nobody, groups, index_a, index_b, joint_groups, joint_a, jo
 
 @kernel("bodies", makes_arrays=True)
 def pack_bodies(
-    rows, center_of_mass, center, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom, rotation,
-    bodies,
+    rows, weigh, center_of_mass, center, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom,
+    rotation, bodies,
 ):  # fmt: skip
     """Write where bodies are, their velocities, inverse masses and inertias; the world is at its origin.
 
+    Without ``weigh`` masses are what they were, and nobody asks for what forces do.
     Return whether all have their centres of mass at their origins.
     """
     for plane in range(PLANES):
@@ -63,10 +64,11 @@ def pack_bodies(
             centred = not some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z)))
         c, q = take_three(center, rows, n, near, three), take_four(rotation, rows, n, near, four)
         scatter(packed[POSE], address(index), 0, (c[0], c[1], c[2], zero, q[0], q[1], q[2], q[3]))
-        m, free = take_one(inverse_mass, rows, n, near, one), take_six(freedom, rows, n, near, six)
-        f = take_three(felt, rows, n, near, three)
-        masses = (m * free[0], m * free[1], m * free[2], f[0], f[1], f[2], m, zero)
-        scatter(packed[MASS_AND_FELT], address(index), 0, masses)
+        free = take_six(freedom, rows, n, near, six)
+        if weigh:
+            m, f = take_one(inverse_mass, rows, n, near, one), take_three(felt, rows, n, near, three)
+            masses = (m * free[0], m * free[1], m * free[2], f[0], f[1], f[2], m, zero)
+            scatter(packed[MASS_AND_FELT], address(index), 0, masses)
         ix, iy, iz = take_three(inverse_inertia, rows, n, near, three)
         uneven = larger(larger(ix - iy, iy - ix), larger(iy - iz, iz - iy))
         inverse = (ix * free[3], zero, zero, ix * free[4], zero, ix * free[5])
