@@ -113,8 +113,8 @@ class Linkage(Resource):
             self.measured = self.weighed = True
 
     def solve(
-        self, sweeps: int, h: float, bodies: Floats, relaxing: bool = False, begins: bool = False, ended: bool = False,
-        rows: Integers = NOBODY, motion: Velocities = STILL,
+        self, sweeps: int, h: float, bodies: Floats, *, relaxing: bool = False, begins: bool = False,
+        ended: bool = False, rows: Integers = NOBODY, motion: Velocities = STILL,
     ) -> None:  # fmt: skip
         """Solve every joint ``sweeps`` times, from the impulses of before where the substep ``begins``.
 

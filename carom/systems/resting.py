@@ -229,7 +229,10 @@ class Resting(Resource):
             if self.groups:
                 self._press(world, stage, stage.sweeps, begins=not relaxing, ended=relaxing, rows=rows, motion=motion)
             else:
-                linkage.solve(stage.sweeps, stage.h, self.bodies, relaxing, not relaxing, relaxing, rows, motion)
+                linkage.solve(
+                    stage.sweeps, stage.h, self.bodies, relaxing=relaxing, begins=not relaxing, ended=relaxing,
+                    rows=rows, motion=motion,
+                )  # fmt: skip
             return
         pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         if not relaxing:
@@ -237,11 +240,11 @@ class Resting(Resource):
             self._press(world, stage, 0, begins=True)
         self._tell(stage, 0)
         for done in range(1, stage.sweeps + 1):
-            linkage.solve(1, stage.h, self.bodies, relaxing)
+            linkage.solve(1, stage.h, self.bodies, relaxing=relaxing)
             self._press(world, stage, 1, ended=relaxing and done == stage.sweeps)
             self._tell(stage, done)
         if relaxing:
-            linkage.solve(0, stage.h, self.bodies, relaxing, ended=True)
+            linkage.solve(0, stage.h, self.bodies, relaxing=relaxing, ended=True)
         unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
     def _press(

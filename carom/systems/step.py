@@ -69,7 +69,7 @@ STEP = Schedule(
         "substep",
         begin_substep,
         look_ahead,  # once more for all bodies that are faster now than was foreseen
-        predict,  # arcs begin; bodies at the middle of the substep, where forces vary in it (verlet)
+        predict,  # arcs begin; bodies at the middle of the substep, if forces may vary in the step (verlet)
         Phase(
             "forces",
             clear_forces,
@@ -89,7 +89,7 @@ STEP = Schedule(
             apply_quadratic_drag,
             apply_damping,
             apply_constant_push,  # last: leaving its stroke depends on the forces before
-            sum_forces,  # accelerations, and whether they stay; bodies back at the start of the substep
+            sum_forces,  # accelerations; bodies back at the start of the substep
             when=forces_vary,
         ),
         join_bodies,  # which joints hold somebody

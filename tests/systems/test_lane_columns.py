@@ -13,8 +13,8 @@ from carom.systems.kernels.lane_columns import (
     give_three,
     in_a_row,
     take_four,
+    take_freedom,
     take_one,
-    take_six,
     take_three,
 )
 from carom.systems.kernels.lanes import WIDTH
@@ -29,7 +29,7 @@ def turn_round(rows, one, three, four, six):
         a = take_one(one, rows, n, near, room_1)
         x, y, z = take_three(three, rows, n, near, room_3)
         p, q, r, s = take_four(four, rows, n, near, room_4)
-        others = take_six(six, rows, n, near, room_6)
+        others = take_freedom(six, rows, n, near, room_6)
         give_one(one, rows, n, near, room_1, a + others[0] - others[1] + others[2] - others[3] + others[4] - others[5])
         give_three(three, rows, n, near, room_3, (z, x, y))
         give_four(four, rows, n, near, room_4, (s, r, p, q))

@@ -17,8 +17,8 @@ from carom.systems.kernels.lane_columns import (
     set_all,
     store_flat,
     take_four,
+    take_freedom,
     take_one,
-    take_six,
     take_three,
 )
 from carom.systems.kernels.lanes import WIDTH, choose, larger, root, some, spread
@@ -56,7 +56,7 @@ def predict_middle(
             )  # fmt: skip
             continue
         q, c = take_four(rotation, rows, n, near, four), take_three(center_of_mass, rows, n, near, three)
-        free = take_six(freedom, rows, n, near, six)
+        free = take_freedom(freedom, rows, n, near, six)
         v, w = take_three(linear, rows, n, near, three), take_three(angular, rows, n, near, three)
         v = (choose(free[0], v[0], zero), choose(free[1], v[1], zero), choose(free[2], v[2], zero))
         w = (choose(free[3], w[0], zero), choose(free[4], w[1], zero), choose(free[5], w[2], zero))
@@ -144,7 +144,7 @@ def accelerate(
                     ax, ay, az = turned_by(i, ax, ay, az, inverse_inertia, principal_axes, freedom, rotation)
                 angular_acceleration[i, 0], angular_acceleration[i, 1], angular_acceleration[i, 2] = ax, ay, az
         f, e = take_three(force, rows, n, near, three), take_three(external_force, rows, n, near, three)
-        m, free = take_one(inverse_mass, rows, n, near, one), take_six(freedom, rows, n, near, six)
+        m, free = take_one(inverse_mass, rows, n, near, one), take_freedom(freedom, rows, n, near, six)
         x, y, z = (f[0] + e[0]) * m * free[0], (f[1] + e[1]) * m * free[1], (f[2] + e[2]) * m * free[2]
         give_three(felt, rows, n, near, three, (x, y, z))
         if moved:

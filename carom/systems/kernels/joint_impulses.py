@@ -23,7 +23,7 @@ from carom.systems.kernels.joint_points import WAYS, finish_point, hold_point, m
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import WIDTH, address, gather, load, planes, scatter, spread, store
-from carom.systems.kernels.packing import ANGULAR, VELOCITY
+from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
 
 
 @kernel("lanes", "bodies", "linear", "angular", makes_arrays=True)
@@ -45,10 +45,8 @@ def solve_joints(
     room, velocity = np.empty((SLOTS, WIDTH)), bodies[VELOCITY]
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     scratch = address(room)
-    for i in rows if begins else rows[:0]:
-        for k in range(3):
-            velocity[i, k], velocity[i, ANGULAR + k] = linear[i, k], angular[i, k]
     if begins:
+        write_velocities(rows, linear, angular, velocity)
         for g in range(groups):
             start_warm(g, row[g], kinds[g], index_a, index_b, lanes, bodies)
     for _ in range(sweeps):
@@ -58,9 +56,7 @@ def solve_joints(
     if ended:
         for g in range(groups):
             finish(g, row[g], kinds[g], index_a, index_b, lanes, bodies)
-    for i in rows:
-        for k in range(3):
-            linear[i, k], angular[i, k] = velocity[i, k], velocity[i, ANGULAR + k]
+    read_velocities(rows, velocity, linear, angular)
 
 
 @woven

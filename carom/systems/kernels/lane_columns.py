@@ -7,7 +7,7 @@ import numba
 import numpy as np
 
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lanes import WIDTH, address, larger, some, spread, which
+from carom.systems.kernels.lanes import WIDTH, address, larger, spread, which
 
 ALL = (1 << WIDTH) - 1
 SMALLEST = 5e-324  # the smallest number above 0: nothing lies between
@@ -96,21 +96,26 @@ def store_flat(column, at, lane):
 
 
 @woven
+def is_all(value, lane):
+    """Tell whether eight numbers are one value; NaN is none."""
+    off = lane - value
+    return which(SMALLEST - larger(off, -off)) == ALL
+
+
+@woven
 def are_all(value, column, width, i):
     """Tell whether the ``width`` numbers of row i and of the seven behind it all are one value."""
+    same = True
     for at in range(width * i, width * (i + WIDTH), WIDTH):
-        off = load_flat(column, at) - value
-        if some(larger(off, -off)):
-            return False
-    return True
+        same &= is_all(value, load_flat(column, at))
+    return same
 
 
 @woven
 def set_all(value, column, width, i):
     """Let the ``width`` numbers of row i and the seven behind it be one value; where they are, memory is only read."""
     for at in range(width * i, width * (i + WIDTH), WIDTH):
-        off = load_flat(column, at) - value
-        if which(SMALLEST - larger(off, -off)) != ALL:
+        if not is_all(value, load_flat(column, at)):
             store_flat(column, at, spread(value))
 
 
@@ -150,7 +155,7 @@ def take_four(column, rows, n, side_by_side, room):
 
 
 @woven
-def take_six(column, rows, n, side_by_side, room):
+def take_freedom(column, rows, n, side_by_side, room):
     """Return the six numbers of each row as `take_one` does; most often all are 1, which is seen sooner."""
     if side_by_side:
         if are_all(1.0, column, 6, rows[n]):

@@ -7,7 +7,7 @@ import numpy as np
 
 from carom.systems.kernels.freedom import held_inverse
 from carom.systems.kernels.kernel import inlined, kernel, woven
-from carom.systems.kernels.lane_columns import are_all, in_a_row, take_four, take_one, take_six, take_three
+from carom.systems.kernels.lane_columns import are_all, in_a_row, take_four, take_freedom, take_one, take_three
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, planes, scatter, some, spread
 from carom.systems.kernels.spatial import inverse_inertia_in_world, product
@@ -64,7 +64,7 @@ def pack_bodies(
             centred = not some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z)))
         c, q = take_three(center, rows, n, near, three), take_four(rotation, rows, n, near, four)
         scatter(packed[POSE], address(index), 0, (c[0], c[1], c[2], zero, q[0], q[1], q[2], q[3]))
-        free = take_six(freedom, rows, n, near, six)
+        free = take_freedom(freedom, rows, n, near, six)
         if weigh:
             m, f = take_one(inverse_mass, rows, n, near, one), take_three(felt, rows, n, near, three)
             masses = (m * free[0], m * free[1], m * free[2], f[0], f[1], f[2], m, zero)
@@ -132,6 +132,12 @@ def pack_moving(rows, linear, angular, felt, bodies):
 @kernel("velocity")
 def pack_velocities(rows, linear, angular, velocity):
     """Write the velocities of bodies into their plane."""
+    write_velocities(rows, linear, angular, velocity)
+
+
+@woven
+def write_velocities(rows, linear, angular, velocity):
+    """Do what `pack_velocities` does, within a kernel."""
     for i in rows:
         for k in range(3):
             velocity[i, k], velocity[i, ANGULAR + k] = linear[i, k], angular[i, k]
@@ -140,6 +146,12 @@ def pack_velocities(rows, linear, angular, velocity):
 @kernel("linear", "angular")
 def unpack_velocities(rows, velocity, linear, angular):
     """Read the velocities of bodies back."""
+    read_velocities(rows, velocity, linear, angular)
+
+
+@woven
+def read_velocities(rows, velocity, linear, angular):
+    """Do what `unpack_velocities` does, within a kernel."""
     for i in rows:
         for k in range(3):
             linear[i, k], angular[i, k] = velocity[i, k], velocity[i, ANGULAR + k]

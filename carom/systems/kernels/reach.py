@@ -58,8 +58,11 @@ def time_within_reach(i, span, center, detected_center, reach, linear, accelerat
 
 
 @woven
-def are_well_within(i, span, center, detected_center, reach, linear, acceleration):
-    """Tell of eight bodies, i and those in the rows behind it, that none can leave its reach; most often none can."""
+def are_well_within(rows, n, span, center, detected_center, reach, linear, acceleration):
+    """Tell of eight rows from the n-th on, if they are in a row, that no body can leave its reach; most cannot."""
+    if not in_a_row(rows, n):
+        return False
+    i = rows[n]
     x, y, z = load_three(address(center), i)
     dx, dy, dz = load_three(address(detected_center), i)
     vx, vy, vz = load_three(address(linear), i)
@@ -75,9 +78,7 @@ def time_within_all(rows, span, center, detected_center, reach, linear, accelera
     """Return for how long (s, at most ``span``) no body can leave its reach."""
     least = span
     for n in range(0, len(rows), WIDTH):
-        if in_a_row(rows, n) and are_well_within(
-            rows[n], span, center, detected_center, reach, linear, acceleration
-        ):  # fmt: skip
+        if are_well_within(rows, n, span, center, detected_center, reach, linear, acceleration):
             continue
         for k in range(n, min(n + WIDTH, len(rows))):
             least = min(least, time_within_reach(rows[k], span, center, detected_center, reach, linear, acceleration))
@@ -89,9 +90,7 @@ def find_leaving(rows, span, center, detected_center, reach, linear, acceleratio
     """Write which bodies may leave their reach within ``span`` seconds, as many as there is room for; count them."""
     count = 0
     for n in range(0, len(rows), WIDTH):
-        if in_a_row(rows, n) and are_well_within(
-            rows[n], span, center, detected_center, reach, linear, acceleration
-        ):  # fmt: skip
+        if are_well_within(rows, n, span, center, detected_center, reach, linear, acceleration):
             continue
         for k in range(n, min(n + WIDTH, len(rows))):
             i = rows[k]

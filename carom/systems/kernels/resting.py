@@ -26,7 +26,7 @@ from carom.systems.kernels.lanes import (
     store,
 )
 from carom.systems.kernels.levers import parting_at, parting_of
-from carom.systems.kernels.packing import ANGULAR, VELOCITY
+from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
 from carom.systems.kernels.rubbing import IDLE, ROLLING, RUBBING, TWISTING, rub
 
 # Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, and the
@@ -80,9 +80,7 @@ def press_groups(
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     mine = rows[len(rows) * part // parts : len(rows) * (part + 1) // parts]
     passed = 0
-    for i in mine:
-        for k in range(3):
-            velocity[i, k], velocity[i, ANGULAR + k] = linear[i, k], angular[i, k]
+    write_velocities(mine, linear, angular, velocity)
     if parts > 1 and len(rows):
         passed += 1
         wait_for_all(gate, parts, passed)
@@ -109,9 +107,7 @@ def press_groups(
             if parts > 1:
                 passed += 1
                 wait_for_all(gate, parts, passed)
-    for i in mine:
-        for k in range(3):
-            linear[i, k], angular[i, k] = velocity[i, k], velocity[i, ANGULAR + k]
+    read_velocities(mine, velocity, linear, angular)
 
 
 @woven
