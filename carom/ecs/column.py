@@ -17,7 +17,7 @@ Integers = npt.NDArray[np.int64]
 Booleans = npt.NDArray[np.bool_]
 Texts = npt.NDArray[np.str_]
 Role = Literal["state", "input", "derived", "cache"]
-LINE, PAGE = 64, 4096  # bytes
+LINE = 64  # bytes of the processor's cache
 ACCEPTED = {"f": "numbers", "i": "whole numbers", "u": "whole numbers from 0", "b": "true or false", "U": "texts"}
 
 
@@ -52,16 +52,14 @@ class Column:
         """Whether the default is what storage holds anyway."""
         return not np.any(self.default)
 
-    def allocate(self, capacity: int, place: int) -> npt.NDArray[Any]:
+    def allocate(self, capacity: int) -> npt.NDArray[Any]:
         """Return zeroed storage for ``capacity`` rows; untouched rows cost address space, not memory.
 
-        It begins where a line of the processor's cache does, so that eight rows are whole lines. Large columns of
-        another ``place`` begin elsewhere in a page: processors take addresses for the same that differ by pages.
+        It begins where a line of the processor's cache does, so that eight rows are whole lines.
         """
         size = math.prod(self.shape) * capacity * self.dtype.itemsize
-        apart = place * LINE % PAGE if size > PAGE else 0
-        room = np.zeros(size + LINE + apart, np.uint8)
-        begin = -room.ctypes.data % LINE + apart
+        room = np.zeros(size + LINE, np.uint8)
+        begin = -room.ctypes.data % LINE
         return room[begin : begin + size].view(self.dtype).reshape(capacity, *self.shape)
 
     def accept(self, value: Any, where: str) -> npt.NDArray[Any]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from typing import Any
-from zlib import crc32
 
 import numpy as np
 import numpy.typing as npt
@@ -48,7 +47,7 @@ class Table:
     def grow(self, capacity: int, used: int) -> None:
         """Enlarge every array to ``capacity`` rows, keeping the first ``used``."""
         for name, column in self.kind.columns.items():
-            array = column.allocate(capacity, crc32(f"{self.kind.__name__}.{name}".encode()))
+            array = column.allocate(capacity)
             if used:
                 array[:used] = self.arrays[name][:used]
             self.arrays[name] = array
