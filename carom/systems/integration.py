@@ -11,14 +11,16 @@ from carom.systems.forces.standing import Standing
 from carom.systems.kernels.flight import accelerate, predict_middle
 from carom.systems.kernels.forces import clear_sums
 from carom.systems.kernels.kicking import EULER, SEMI_IMPLICIT, VERLET, kick_bodies
+from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
+from carom.systems.threads import Threads, crew_for
 
 SCHEMES = {"euler": EULER, "semi_implicit": SEMI_IMPLICIT, "verlet": VERLET}
 
 
 @system(
-    reads=(RigidBody, Settings, Awake, Progress, Forces, ExternalForce, Spring),
+    reads=(RigidBody, Settings, Awake, Progress, Forces, ExternalForce, Spring, Threads),
     writes=(Transform, Motion, Flight, Standing),
 )
 def predict(world: World, dt: float) -> None:
@@ -27,8 +29,9 @@ def predict(world: World, dt: float) -> None:
     if world[Progress].substep == 1:
         world[Standing].judge(world)
     half = 0.5 * dt if in_the_middle(world) else 0.0
+    rows = world[Awake].now(world)
     predict_middle(
-        world[Awake].now(world), half, body.center_of_mass, body.freedom, flight.held,
+        crew_for(world, len(rows) // WIDTH), rows, half, body.center_of_mass, body.freedom, flight.held,
         motion.linear_acceleration, motion.angular_acceleration,
         transform.position, transform.rotation, motion.linear, motion.angular,
         flight.center, flight.start_center, flight.start_position, flight.start_rotation,
@@ -73,13 +76,14 @@ def sum_forces(world: World, dt: float) -> None:
     world[Standing].rows = rows
 
 
-@system(reads=(RigidBody, Force, Settings, Awake), writes=(Motion, Flight))
+@system(reads=(RigidBody, Force, Settings, Awake, Threads), writes=(Motion, Flight))
 def kick(world: World, dt: float) -> None:
     """Set each body's arc by the integrator; bodies in contact are stepped semi-implicitly."""
     motion, flight, force, body = world[Motion], world[Flight], world[Force], world[RigidBody]
+    rows = world[Awake].now(world)
     kick_bodies(
-        world[Awake].now(world), dt, SCHEMES[world[Settings].integrator], body.inverse_mass, body.freedom,
-        force.drag, force.drag_flow, force.angular_drag, flight.felt, flight.touching,
+        crew_for(world, len(rows) // WIDTH), rows, dt, SCHEMES[world[Settings].integrator],
+        body.inverse_mass, body.freedom, force.drag, force.drag_flow, force.angular_drag, flight.felt, flight.touching,
         motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
         flight.decay, flight.angular_decay, flight.flow, motion.linear_acceleration, motion.angular_acceleration,
     )  # fmt: skip

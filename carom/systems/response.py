@@ -34,12 +34,12 @@ from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
-from carom.systems.threads import Threads, share_out
+from carom.systems.threads import Threads, crew_for
 from carom.systems.ties import Ties
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Joint),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, ColliderPose, Answered, BroadPhase, FclObjects,
         PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ties,
@@ -54,7 +54,7 @@ def look_ahead(world: World, dt: float) -> None:
     if world[Resting].structure != world.structure or (
         progress.substep > 1 and not detection_holds(world, dt + progress.foreseen)
     ):
-        world[Resting].hand_over(world[Contact])
+        world[Resting].hand_over(world)
         detect_again(world, dt)
 
 
@@ -107,10 +107,10 @@ def relax(world: World, dt: float) -> None:
         world[Landings].tell(world, dt)
 
 
-@system(reads=(Awake,), writes=(Contact, Resting), when=stirs)
+@system(reads=(Settings, Threads, Awake), writes=(Contact, Resting), when=stirs)
 def hand_impulses_over(world: World, dt: float) -> None:
     """Write what the resting stage has found into the contact table."""
-    world[Resting].hand_over(world[Contact])
+    world[Resting].hand_over(world)
 
 
 @system(
@@ -140,7 +140,7 @@ def drift(world: World, dt: float) -> None:
         if reason == OUT_OF_REACH and (at, events) != before and detection_holds(world, left + progress.foreseen):
             continue
         world[Landings].tell(world, dt)
-        world[Resting].hand_over(contact)
+        world[Resting].hand_over(world)
         detect_again(world, left)
         world[Fast].let_go(contact)
         rows, flight = world[Awake].now(world), world[Flight]
@@ -158,13 +158,10 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
     if world[Resting].count or len(world[BroadPhase].watched(world)) or until < h:
         now, reason, events = _meet(world, at, h, bend, events, until)
     rows = world[Awake].now(world)
-    share_out(
-        world, -(-len(rows) // WIDTH),
-        lambda begin, end: advance_bodies(
-            rows[WIDTH * begin : WIDTH * end], now, bend, flight.center, transform.rotation, flight.turned,
-            motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
-            body.inverse_mass, body.inertia, body.principal_axes, body.freedom, ledger.pull, ledger.arc,
-        ),
+    advance_bodies(
+        crew_for(world, len(rows) // WIDTH), rows, now, bend, flight.center, transform.rotation, flight.turned,
+        motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
+        body.inverse_mass, body.inertia, body.principal_axes, body.freedom, ledger.pull, ledger.arc,
     )  # fmt: skip
     return now, reason, events
 
@@ -208,8 +205,9 @@ def settle(world: World, dt: float) -> None:
 
 def _finish(world: World, dt: float, *, ended: bool) -> None:
     flight, motion, transform, body = world[Flight], world[Motion], world[Transform], world[RigidBody]
+    rows = world[Awake].now(world)
     finish_drift(
-        world[Awake].now(world), ended, dt, body.inverse_mass, body.center_of_mass, body.freedom,
+        crew_for(world, len(rows) // WIDTH), rows, ended, dt, body.inverse_mass, body.center_of_mass, body.freedom,
         flight.start_position, flight.start_rotation, flight.decay, flight.angular_decay, flight.flow,
         transform.rotation, flight.center, motion.linear, motion.angular, transform.position,
     )  # fmt: skip

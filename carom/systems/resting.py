@@ -9,13 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.awake import Awake
-from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, RELAX_SWEEPS, RIGID_RATE
+from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, MANIFOLD_POINTS, RELAX_SWEEPS, RIGID_RATE
 from carom.systems.kernels.closing import find_closing
+from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, aligned
@@ -30,16 +31,15 @@ from carom.systems.kernels.packing import (
     pack_ways,
     unpack_velocities,
 )
-from carom.systems.kernels.resting import press_groups
+from carom.systems.kernels.resting import SCRATCH_ROWS, press_groups
 from carom.systems.kernels.settling import sink_contacts
 from carom.systems.kernels.sorting import sort_groups
 from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
-from carom.systems.threads import Threads, parts_for, share_out
+from carom.systems.threads import crew_for
 
 Yielding = tuple[float, float]
-NO_GATE = np.zeros(1, np.int64)  # for a kernel that nobody waits for
 
 
 class Stage(NamedTuple):
@@ -69,7 +69,7 @@ class Resting(Resource):
         self.centred = False  # whether all of them have their centres of mass at their origins
         self.placed = False  # whether they have not moved since
         self.start, self.closes = np.zeros(1, np.int64), np.ones(1, np.bool_)
-        self.bodies, self.lanes = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH)
+        self.bodies, self.lanes, self.scratch = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH), aligned(0, 0, WIDTH)
         self._reserve(0)
 
     def _reserve(self, count: int) -> None:
@@ -82,8 +82,9 @@ class Resting(Resource):
         self.fresh, self.stale, self.looks = (np.ones(count, np.bool_) for _ in range(3))
         self.ends = np.zeros(2, np.int64)
 
-    def group(self, contact: Contact, inverse_mass: Floats) -> None:
+    def group(self, world: World) -> None:
         """Find the manifolds of the contact table, which detection has replaced, and put them into groups."""
+        contact, inverse_mass = world[Contact], world[RigidBody].inverse_mass
         points, nobody = contact.count, len(inverse_mass)
         if len(self.start) <= points:
             self.start, self.closes = np.empty(2 * points + 1, np.int64), np.empty(2 * points + 1, np.bool_)
@@ -107,7 +108,7 @@ class Resting(Resource):
         if len(self.lanes) < rows:
             self.lanes = aligned(2 * rows, WIDTH)
         fill_groups(
-            self.order[: self.groups], self.first, self.size, self.row, self.points,
+            crew_for(world, self.groups), self.order[: self.groups], self.first, self.size, self.row, self.points,
             contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.kind,
             contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
@@ -146,11 +147,14 @@ class Resting(Resource):
     def _pack_anew(self, world: World) -> None:
         flight, motion, body, rows = world[Flight], world[Motion], world[RigidBody], self.rows(world)
         weigh = bool(self.groups) or not self._knows(world)
-        self.centred = pack_bodies(
-            rows, weigh, body.center_of_mass, flight.center, motion.linear, motion.angular, flight.felt,
+        crew = crew_for(world, len(rows) // WIDTH)
+        apart = np.zeros(threads_of(crew), np.bool_)
+        pack_bodies(
+            crew, rows, weigh, body.center_of_mass, flight.center, motion.linear, motion.angular, flight.felt,
             body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom,
-            world[Transform].rotation, self.bodies,
+            world[Transform].rotation, self.bodies, apart,
         )  # fmt: skip
+        self.centred = not any(apart.tolist())
         self.packed, world[Linkage].measured = (rows, world[Awake].now(world)), False
 
     def sort(self, world: World, h: float) -> tuple[int, int]:
@@ -158,21 +162,20 @@ class Resting(Resource):
         contact, flight, settings = world[Contact], world[Flight], world[Settings]
         last, joined = world[Progress].left == 0.0, world[Linkage].holds
 
-        def sort(begin: int, end: int) -> tuple[int, int]:
-            found: tuple[int, int] = sort_groups(
-                self.order[begin:end], h, settings.integrator == "verlet", last, float(settings.response == "full"),
-                joined, self.ends, self.index_a, self.index_b, self.first, self.size, self.points, self.row,
-                self.fresh, self.stale, self.looks, self.asks, self.lanes, self.bodies,
-                flight.center, world[Transform].rotation,
-                contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
-                contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
-                contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.held,
-                flight.touching,
-            )  # fmt: skip
-            return found
-
-        numbers, balls = zip(*share_out(world, self.groups, sort), strict=True)
-        return sum(numbers), sum(balls)
+        crew = crew_for(world, self.groups)
+        numbers = np.zeros((threads_of(crew), 2), np.int64)
+        sort_groups(
+            crew, self.order[: self.groups], h, settings.integrator == "verlet", last,
+            float(settings.response == "full"), joined, self.ends, self.index_a, self.index_b, self.first, self.size,
+            self.points, self.row, self.fresh, self.stale, self.looks, self.asks, self.lanes, self.bodies,
+            flight.center, world[Transform].rotation,
+            contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
+            contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
+            contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.held,
+            flight.touching, numbers,
+        )  # fmt: skip
+        resting, balls = zip(*numbers.tolist(), strict=True)
+        return sum(resting), sum(balls)
 
     def press(self, world: World, h: float) -> None:
         """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
@@ -186,12 +189,9 @@ class Resting(Resource):
         if at == 0.0 and self.solids:
             motion = world[Motion]
             pack_velocities(self.rows(world), motion.linear, motion.angular, self.bodies[VELOCITY])
-            share_out(
-                world, self.groups,
-                lambda begin, end: find_closing(
-                    self.order[begin:end], h, self.index_a, self.index_b, self.first, self.points, self.row,
-                    self.lanes, self.bodies, self.closes,
-                ),
+            find_closing(
+                crew_for(world, self.groups), self.order[: self.groups], h, self.index_a, self.index_b, self.first,
+                self.points, self.row, self.lanes, self.bodies, self.closes,
             )  # fmt: skip
         return self.closes
 
@@ -201,13 +201,13 @@ class Resting(Resource):
         if not self.groups:
             return
         flight, contact, self.packed = world[Flight], world[Contact], None
-        pack_ways(self.rows(world), flight.start_center, flight.center, flight.turned, self.bodies)
-        share_out(
-            world, self.groups,
-            lambda begin, end: sink_contacts(
-                self.order[begin:end], self.index_a, self.index_b, self.first, self.size, self.points, self.row,
-                contact.kind, self.bodies, self.lanes, contact.depth,
-            ),
+        rows = self.rows(world)
+        pack_ways(
+            crew_for(world, len(rows) // WIDTH), rows, flight.start_center, flight.center, flight.turned, self.bodies
+        )
+        sink_contacts(
+            crew_for(world, self.groups), self.order[: self.groups], self.index_a, self.index_b, self.first, self.size,
+            self.points, self.row, contact.kind, self.bodies, self.lanes, contact.depth,
         )  # fmt: skip
 
     def relax(self, world: World, h: float) -> None:
@@ -251,34 +251,29 @@ class Resting(Resource):
         self, world: World, stage: Stage, sweeps: int, *, begins: bool = False, ended: bool = False,
         rows: Integers = NOBODY, motion: Velocities = STILL,
     ) -> None:  # fmt: skip
-        """Press all groups in all threads at once; a kernel goes level by level."""
+        """Press all groups, level by level."""
         if not self.groups:
             return
-        parts = parts_for(world, self.groups)
-        gate = NO_GATE if parts == 1 else np.zeros(1, np.int64)
-
-        def press(part: int) -> None:
-            press_groups(
-                part, parts, gate, begins, sweeps, ended, stage.h, self.ends, self.levels, self.level_ends,
-                stage.soft, stage.rigid, self.index_a, self.index_b, self.points, self.row, self.asks,
-                rows, self.lanes, self.bodies, motion.linear, motion.angular,
-            )  # fmt: skip
-
-        if parts == 1:
-            press(0)
-        else:
-            world[Threads].run(parts, press)
+        crew = crew_for(world, self.groups)
+        if len(self.scratch) < threads_of(crew):
+            self.scratch = aligned(threads_of(crew), SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH)
+        press_groups(
+            crew, begins, sweeps, ended, stage.h, self.ends, self.levels, self.level_ends, stage.soft, stage.rigid,
+            self.index_a, self.index_b, self.points, self.row, self.asks, rows, self.scratch, self.lanes, self.bodies,
+            motion.linear, motion.angular,
+        )  # fmt: skip
 
     def _tell(self, stage: Stage, done: int) -> None:
         for hear in self.hearers:
             hear(stage, done)
 
-    def hand_over(self, contact: Contact) -> None:
+    def hand_over(self, world: World) -> None:
         """Write the impulses of the resting stage into the contact table, those of the step added to what is there."""
         if not self.groups:
             return
+        contact = world[Contact]
         hand_over(
-            self.order[: self.groups], self.first, self.size, self.row, self.lanes,
+            crew_for(world, self.groups), self.order[: self.groups], self.first, self.size, self.row, self.lanes,
             contact.impulse, contact.friction_impulse,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling,
         )  # fmt: skip

@@ -49,6 +49,7 @@ from carom.systems.queries.space import Space
 from carom.systems.resources import resources
 from carom.systems.settings import settings_of
 from carom.systems.step import STEP, has_strangers
+from carom.systems.threads import Threads
 from carom.systems.tracing import find_source, refuse_stated
 
 CHECK_VARIABLE = "CAROM_CHECK"
@@ -225,7 +226,8 @@ class Simulation:
             for hear in hearers:
                 hear(system)
 
-        self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=tell if hearers else None)
+        with self.world[Threads].step():
+            self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=tell if hearers else None)
 
     def advance(self, seconds: float) -> float:
         """Take the steps that ``seconds`` of real time ask for; return how far (0 to 1) time is into the next one.

@@ -1,37 +1,95 @@
-"""Threads: kernels that are shared out where the settings ask for more than one."""
+"""Threads: those that share kernels where the settings ask for more than one."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from contextvars import copy_context
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import cache
-from typing import TypeVar
+from threading import Lock, Thread
+from weakref import finalize
 
 import numba
 
 from carom.ecs import World
+from carom.ecs.column import Integers
 from carom.ecs.component import Resource
+from carom.systems.kernels.crew import ALONE, SHIFT, make_crew, serve
 from carom.systems.settings import Settings
 
-Result = TypeVar("Result")
-FEWEST = 2048  # groups of eight contacts or bodies below which handing some of them over takes longer than it saves
+FEWEST = 64  # groups of eight contacts or bodies below which sharing takes about as long as it saves
 
 
 class Threads(Resource):
-    """The other threads of a world, made when it first shares a kernel out among so many."""
+    """The crew of a world: its other threads come when a step first has work to share, and go when that ends."""
 
     def __init__(self) -> None:
-        self.pool: ThreadPoolExecutor | None = None
-        self.parts = 1
+        self.crew = ALONE
+        self.stepping = self.called = self._awaited = False
+        self._parts, self._bells = 1, list[Lock]()
+        self._dismissal: finalize[..., Threads] | None = None
 
-    def run(self, parts: int, task: Callable[[int], Result]) -> list[Result]:
-        """Run ``task`` for each of ``parts`` numbers, all at once: tasks may wait for each other."""
-        if self.pool is None or self.parts != parts:
-            self.pool, self.parts = ThreadPoolExecutor(parts - 1, thread_name_prefix="carom"), parts
-        others = [self.pool.submit(copy_context().run, task, part) for part in range(1, parts)]
-        return [task(0), *(other.result() for other in others)]
+    @contextmanager
+    def step(self) -> Iterator[None]:
+        """Let work be shared until this is left; who was called in the step before is called at once."""
+        self.stepping = True
+        if self._awaited:
+            self.call(self._parts)
+        try:
+            yield
+        finally:
+            self.stepping, self._awaited = False, self.called
+            self._send_away()
+
+    def call(self, parts: int) -> Integers:
+        """Return a crew of so many threads, called if they have not been in this step."""
+        if self._parts != parts:
+            self._send_away()
+            self._engage(parts)
+        if not self.called:
+            self.called = True
+            self.crew[SHIFT] += 1
+            ring(self._bells)
+        return self.crew
+
+    def _send_away(self) -> None:
+        if self.called:
+            self.called = False
+            self.crew[SHIFT] += 1
+
+    def _engage(self, parts: int) -> None:
+        if self._dismissal:
+            self._dismissal()
+        serve(make_crew(2), 1, 0)  # compiled before anybody waits for it
+        self.crew, self._parts, self._bells = make_crew(parts), parts, [Lock() for _ in range(1, parts)]
+        for part, bell in enumerate(self._bells, 1):
+            bell.acquire()
+            Thread(target=work, args=(self.crew, part, bell), name=f"carom {part}", daemon=True).start()
+        self._dismissal = finalize(self, dismiss, self.crew, self._bells)
+
+
+def work(crew: Integers, part: int, bell: Lock) -> None:
+    """Take a part of what there is to do whenever the bell rings, until dismissed."""
+    while True:
+        bell.acquire()
+        shift = int(crew[SHIFT])
+        if shift < 0:
+            return
+        if shift % 2 == 0:  # else it is over already
+            serve(crew, part, shift)
+
+
+def dismiss(crew: Integers, bells: Sequence[Lock]) -> None:
+    """Let threads end."""
+    crew[SHIFT] = -1
+    ring(bells)
+
+
+def ring(bells: Sequence[Lock]) -> None:
+    """Wake threads; those that have not heard the last time do now."""
+    for bell in bells:
+        if bell.locked():
+            bell.release()
 
 
 @cache  # to ask takes longer than most kernels
@@ -40,19 +98,10 @@ def processors() -> int:
     return os.cpu_count() or 1
 
 
-def parts_for(world: World, count: int, fewest: int | None = None) -> int:
-    """Return how many threads share ``count`` groups of eight; what they compute does not depend on it."""
-    if count < (FEWEST if fewest is None else fewest) or numba.config.DISABLE_JIT:
-        return 1
-    return min(world[Settings].threads, processors())
-
-
-def share_out(world: World, count: int, run: Callable[[int, int], Result], fewest: int | None = None) -> list[Result]:
-    """Run ``run(begin, end)`` over slices of ``count`` groups of eight that do not touch each other, a thread each.
-
-    Fewer than ``fewest``, of contacts or bodies `FEWEST`, are not worth it.
-    """
-    parts = parts_for(world, count, fewest)
-    if parts == 1:
-        return [run(0, count)]
-    return world[Threads].run(parts, lambda part: run(count * part // parts, count * (part + 1) // parts))
+def crew_for(world: World, count: int) -> Integers:
+    """Return who shares ``count`` groups of eight contacts or bodies; what they compute does not depend on it."""
+    threads = world[Threads]
+    if count < FEWEST or not threads.stepping or numba.config.DISABLE_JIT:
+        return ALONE
+    parts = min(world[Settings].threads, processors())
+    return threads.call(parts) if parts > 1 else ALONE

@@ -24,6 +24,7 @@ from carom.systems.detection.recycling import measure_what_moved
 from carom.systems.detection.seams import without_seams
 from carom.systems.detection.sensors import Sensing, without_sensors
 from carom.systems.kernels.contacts import complete_contacts
+from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.kernels.renewal import renew_contacts
@@ -32,13 +33,14 @@ from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.sleeping import rouse
+from carom.systems.threads import Threads, crew_for
 from carom.systems.ties import Ties
 
 NOTHING = Found.room(0)
 
 
 @system(
-    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Joint),
+    reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint),
     writes=(
         Transform, Motion, ColliderPose, Contact, SleepingContact, Answered, Flight, BroadPhase, FclObjects,
         PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ties,
@@ -98,14 +100,16 @@ def store(world: World, found: Found) -> None:
     world.resize(Contact, count)
     if count or old_count:
         fill(world, found, old_count, count)
-    world[Resting].group(world[Contact], world[RigidBody].inverse_mass)
+    world[Resting].group(world)
     world[Resting].structure = world.structure
 
 
 def fill(world: World, found: Found, old_count: int, count: int) -> None:
     """Write what is known of contacts, and what follows from it, into the contact table."""
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
+    crew = crew_for(world, count // WIDTH)
     renew_contacts(
+        crew, np.full(count, -1), np.zeros(old_count, np.bool_),
         old_count, world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
         found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point, found.by_fcl,
         found.recycled, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
@@ -119,7 +123,7 @@ def fill(world: World, found: Found, old_count: int, count: int) -> None:
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
     complete_contacts(
-        count, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,
+        crew, count, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,
         pose.body_row, collider.shape, collider.size, collider.bound_radius, pose.position, pose.rotation,
         world[Flight].detected_center, world[Transform].rotation, world[RigidBody].inverse_mass,
         material.friction, material.restitution, material.rolling_friction, material.spinning_friction,

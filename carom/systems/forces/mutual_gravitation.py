@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 from typing import ClassVar
 
 from carom.ecs import Force, RigidBody, Transform, World, system
@@ -11,11 +10,11 @@ from carom.ecs.column import Floats
 from carom.systems.bodies import centers_of_mass
 from carom.systems.forces.law import Forces, Law, parameter
 from carom.systems.gravitation import attract
+from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.settings import Settings
-from carom.systems.threads import Threads, share_out
+from carom.systems.threads import Threads, crew_for
 
 NEWTON = 6.67430e-11  # m3/(kg s2), CODATA 2018
-FEWEST_LEAVES = 64  # of eight bodies in the tree, below which handing some of them to other threads does not pay
 
 
 @dataclass(frozen=True)
@@ -49,4 +48,4 @@ def apply_mutual_gravitation(world: World, dt: float) -> None:
     for law, rows in world[Forces].acting(MutualGravitation, world):
         mass, center = world[RigidBody].mass[rows], centers_of_mass(world, rows)
         words = law.constant, law.softening, law.opening
-        world[Force].force[rows] += attract(mass, center, *words, partial(share_out, world, fewest=FEWEST_LEAVES))[0]
+        world[Force].force[rows] += attract(mass, center, *words, crew_for(world, len(rows) // WIDTH))[0]

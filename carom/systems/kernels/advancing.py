@@ -8,7 +8,8 @@ import numpy as np
 from carom.ecs.spatial.trigonometry import EIGHTH_SQUARED, QUARTER_TURN, QUARTER_TURN_REST
 from carom.systems.kernels.accounting import KEPT, keep_arc, note_arc
 from carom.systems.kernels.bodies import advance_body
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.crew import eights_of, shared
+from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import (
     are_all,
     give_four,
@@ -25,9 +26,9 @@ from carom.systems.kernels.lanes import WIDTH, choose, larger, root, some, sprea
 from carom.systems.kernels.spatial import even_series, product, quarter, series, turn, turned_by
 
 
-@kernel("center", "rotation", "turned", "linear", "angular", "time", "arc", makes_arrays=True)
+@shared("center", "rotation", "turned", "linear", "angular", "time", "arc", makes_arrays=True)
 def advance_bodies(
-    rows, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
+    crew, rows, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     inverse_mass, inertia, principal_axes, freedom, pull, arc,
 ):  # fmt: skip
     """Bring all bodies that are not there yet along their arcs to ``now``.
@@ -37,6 +38,8 @@ def advance_bodies(
     """
     kept, took = np.empty((WIDTH, KEPT)), np.empty(WIDTH)
     one, three, four = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4))
+    begin, end = eights_of(crew, len(rows))
+    rows = rows[begin:end]
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
         together = near and set_out_together(rows[n], now, time, inverse_mass, freedom)

@@ -6,23 +6,24 @@ from __future__ import annotations
 from carom.systems.constants import ROOT_GAP
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls_in_lanes import are_balls
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
-from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
 
 
-@kernel("lanes", "closing")
-def find_closing(order, h, index_a, index_b, first, points, row, lanes, bodies, closing):
+@shared("lanes", "closing")
+def find_closing(crew, order, h, index_a, index_b, first, points, row, lanes, bodies, closing):
     """Tell for the first contact of each manifold that does not rest whether a point may close within ``h`` seconds.
 
     What `foresee_blow` finds is among them: forces count in full where they press. Groups of balls alone are left out.
     """
     rows, packed, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     one, none = spread(1.0), spread(0.0)
-    for g in order:
+    begin, end = part_of(crew, len(order))
+    for g in order[begin:end]:
         r = row[g]
         free = choose(load(rows, r + of.SHARE), one - load(rows, r + of.RESTS), none)
         if are_balls(r, lanes) or not some(free):

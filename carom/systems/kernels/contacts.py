@@ -8,8 +8,9 @@ import numpy as np
 from carom.ecs.components.material import Combine
 from carom.systems.constants import LEANING
 from carom.systems.kernels.balls import BOX, HALF_SPACE
+from carom.systems.kernels.crew import runs_of, shared
 from carom.systems.kernels.frames import turned_back
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
 from carom.systems.kernels.recycling import is_alike, turned
 
@@ -33,13 +34,13 @@ def combined(x, y, rule_x, rule_y, default):
     return max(x, y)
 
 
-@kernel(
+@shared(
     "friction", "restitution", "rolling", "spinning", "surface", "row_a", "row_b", "body_a", "body_b",
     "offset_a", "offset_b", "share", "kind", "ball", "other", "sign", "radius", "extent",
     "other_position", "other_rotation",
 )  # fmt: skip
 def complete_contacts(
-    count, normal, depth, point, row_a, row_b,
+    crew, count, normal, depth, point, row_a, row_b,
     body_row, shape, size, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
     material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
     surface_velocity, friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b,
@@ -49,10 +50,10 @@ def complete_contacts(
 
     Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces.
     """
-    end = 0
-    while end < count:
+    end, until = runs_of(crew, row_a[:count], row_b[:count])
+    while end < until:
         first, a, b = end, row_a[end], row_b[end]
-        while end < count and row_a[end] == a and row_b[end] == b:
+        while end < until and row_a[end] == a and row_b[end] == b:
             end += 1
         on_a, on_b = body_row[a], body_row[b]
         ax, ay, az = seat_of(a, on_a, center, pose_position)

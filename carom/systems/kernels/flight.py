@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.systems.kernels.bodies import turned_by
+from carom.systems.kernels.crew import eights_of, shared
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_columns import (
     are_all,
@@ -25,14 +26,14 @@ from carom.systems.kernels.lanes import WIDTH, choose, larger, root, some, sprea
 from carom.systems.kernels.spatial import product, turn
 
 
-@kernel(
+@shared(
     "position", "rotation", "linear", "angular",
     "center", "start_center", "start_position", "start_rotation", "start_linear", "start_angular",
     "angular_acceleration", "time", "turned", "touching",
     makes_arrays=True,
 )  # fmt: skip
 def predict_middle(
-    rows, half, center_of_mass, freedom, held, last_acceleration, last_angular_acceleration,
+    crew, rows, half, center_of_mass, freedom, held, last_acceleration, last_angular_acceleration,
     position, rotation, linear, angular,
     center, start_center, start_position, start_rotation, start_linear, start_angular,
     angular_acceleration, time, turned, touching,
@@ -45,6 +46,8 @@ def predict_middle(
     """
     one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
     zero = spread(0.0)
+    begin, end = eights_of(crew, len(rows))
+    rows = rows[begin:end]
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
         for i in rows[n : n + WIDTH]:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_vectors import TINY
 from carom.systems.kernels.lanes import WIDTH, address, choose, load, root, some, spread, store
@@ -111,15 +112,16 @@ def add_moments(node, mass, x, y, z, nodes):
         nodes[node, SECOND + k] += mass * product
 
 
-@kernel("pull", "energy", makes_arrays=True)
-def sum_tree(begin, end, mass, center, constant, softening, opening, order, span, nodes, pull, energy):
-    """Write the pulls (n, 3) on the bodies of the leaves ``begin`` to ``end``, and their shares of the energy (n,).
+@shared("pull", "energy", makes_arrays=True)
+def sum_tree(crew, mass, center, constant, softening, opening, order, span, nodes, pull, energy):
+    """Write the pulls (n, 3) on the bodies of leaves, and their shares of the energy (n,).
 
     A node whose extent is at most ``opening`` times how far its centre of mass is from each body pulls as one: as the
     softened points in it do to the second order of their distances from that centre. Others are opened, and the bodies
     of leaves pull one by one.
     """
     count = len(order)
+    begin, end = part_of(crew, (count + WIDTH - 1) // WIDTH)
     bodies, sums = np.zeros((4, WIDTH)), np.zeros((4, WIDTH))
     at, into = address(bodies), address(sums)
     soft, sharpness, zero, one = softening * softening, opening * opening, spread(0.0), spread(1.0)

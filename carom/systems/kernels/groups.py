@@ -7,6 +7,7 @@ import numpy as np
 
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import MANIFOLD_POINTS
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.lane_vectors import dot, keep, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, load, spread, store
@@ -163,14 +164,15 @@ def is_moving(i, inverse_mass):
     return i >= 0 and inverse_mass[i] > 0.0
 
 
-@kernel("lanes")
+@shared("lanes")
 def fill_groups(
-    order, first, size, row, points, normal, depth, offset_a, offset_b, kind,
+    crew, order, first, size, row, points, normal, depth, offset_a, offset_b, kind,
     friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
 ):  # fmt: skip
     """Write what contacts hold into the lanes of their groups."""
     rows = address(lanes)
-    for g in order:
+    begin, end = part_of(crew, len(order))
+    for g in order[begin:end]:
         r = row[g]
         for k in range(FILLED):
             store(rows, r + k, spread(0.0))
@@ -261,10 +263,13 @@ def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
             store(rows, q + AT + k, choose(there, dot(axis, three(rows, r + PLACES + 6 * p + 3)) - of_b, zero))
 
 
-@kernel("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
-def hand_over(order, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling):
+@shared("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
+def hand_over(
+    crew, order, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling
+):
     """Write the impulses that the resting stage has found back into the contact table."""
-    for g in order:
+    begin, end = part_of(crew, len(order))
+    for g in order[begin:end]:
         r = row[g]
         for lane in range(WIDTH):
             share, spun = lanes[r + SHARE, lane], lanes[r + SPUN, lane]

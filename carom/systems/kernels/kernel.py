@@ -91,6 +91,11 @@ def making(function: Callable[..., Any]) -> Any:
     return compiled(function, no_cpython_wrapper=True, _nrt=True)
 
 
+def names_of(function: Callable[..., Any]) -> tuple[str, ...]:
+    """Return the names of a function's arguments."""
+    return function.__code__.co_varnames[: function.__code__.co_argcount]
+
+
 def calling(function: Callable[..., Any], **compiled_ones: Any) -> Callable[..., Any]:
     """Return a plain function as one that calls compiled functions in the place of plain ones of these names."""
     return FunctionType(function.__code__, vars(sys.modules[function.__module__]) | compiled_ones)
@@ -103,8 +108,9 @@ class Kernel:
     they are passed as writable views; handing a read-only array to an output is an AccessError.
     """
 
-    def __init__(self, function: Callable[..., Any], outputs: tuple[str, ...], makes_arrays: bool) -> None:
-        names = function.__code__.co_varnames[: function.__code__.co_argcount]
+    def __init__(
+        self, function: Callable[..., Any], outputs: tuple[str, ...], names: tuple[str, ...], *, makes_arrays: bool
+    ) -> None:
         unknown = set(outputs) - set(names)
         assert not unknown, f"{function.__name__} has no arguments {unknown}"
         self.name = function.__name__
@@ -148,4 +154,4 @@ def kernel(*outputs: str, makes_arrays: bool = False) -> Callable[[Callable[...,
     One that makes no arrays of its own takes those it is handed in half the time; where one does, Numba says "NRT
     required but not enabled" until it says so.
     """
-    return lambda function: Kernel(function, outputs, makes_arrays)
+    return lambda function: Kernel(function, outputs, names_of(function), makes_arrays=makes_arrays)

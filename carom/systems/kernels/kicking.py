@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.crew import eights_of, shared
+from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, set_all, store_flat
 from carom.systems.kernels.lanes import WIDTH
 from carom.systems.kernels.spatial import exponential
@@ -11,12 +12,12 @@ from carom.systems.kernels.spatial import exponential
 EULER, SEMI_IMPLICIT, VERLET = 0, 1, 2
 
 
-@kernel(
+@shared(
     "linear", "angular", "acceleration", "angular_acceleration", "decay", "angular_decay", "flow",
     "last_acceleration", "last_angular_acceleration",
 )  # fmt: skip
 def kick_bodies(
-    rows, h, integrator, inverse_mass, freedom, drag, drag_flow, angular_drag, felt, touching,
+    crew, rows, h, integrator, inverse_mass, freedom, drag, drag_flow, angular_drag, felt, touching,
     linear, angular, acceleration, angular_acceleration, decay, angular_decay, flow,
     last_acceleration, last_angular_acceleration,
 ):  # fmt: skip
@@ -25,6 +26,8 @@ def kick_bodies(
     Drag relaxes the velocity towards the flow by a factor exp(-rate h): all of it before the drift (semi-implicit),
     after it (Euler), or half before and half after (Verlet, Strang's splitting, which keeps second order).
     """
+    begin, end = eights_of(crew, len(rows))
+    rows = rows[begin:end]
     for n in range(0, len(rows), WIDTH):
         if in_a_row(rows, n):
             i, steps = rows[n], number_of(touching, rows[n])

@@ -5,6 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
+from carom.systems.kernels.crew import eights_of, part_of, shared
 from carom.systems.kernels.freedom import held_inverse
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_columns import are_all, in_a_row, take_four, take_freedom, take_one, take_three
@@ -37,15 +38,15 @@ def find_bound(rows, nobody, groups, index_a, index_b, joint_groups, joint_a, jo
     return count
 
 
-@kernel("bodies", makes_arrays=True)
+@shared("bodies", "apart", makes_arrays=True)
 def pack_bodies(
-    rows, weigh, center_of_mass, center, linear, angular, felt, inverse_mass, inverse_inertia, principal, freedom,
-    rotation, bodies,
+    crew, rows, weigh, center_of_mass, center, linear, angular, felt,
+    inverse_mass, inverse_inertia, principal, freedom, rotation, bodies, apart,
 ):  # fmt: skip
     """Write where bodies are, their velocities, inverse masses and inertias; the world is at its origin.
 
     Without ``weigh`` masses are what they were, and nobody asks for what forces do.
-    Return whether all have their centres of mass at their origins.
+    Tell in ``apart``, of which each thread has one, whether a centre of mass is not at the origin.
     """
     for plane in range(PLANES):
         for k in range(BLOCK):
@@ -53,6 +54,8 @@ def pack_bodies(
     bodies[POSE, -1, BLOCK - 1] = 1.0
     index, packed, zero, centred = np.empty((1, WIDTH), np.int64), planes(bodies), spread(0.0), True
     one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
+    begin, end = eights_of(crew, len(rows))
+    rows = rows[begin:end]
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
         for lane in range(WIDTH):  # the last again where there are fewer, as `take_one` reads them
@@ -80,7 +83,7 @@ def pack_bodies(
         if some(choose(uneven, 3.0 - (free[3] + free[4] + free[5]), zero)):
             for i in index[0]:
                 pack_held(i, inverse_inertia, principal, freedom, rotation, bodies)
-    return centred
+    apart[crew[1]] = not centred
 
 
 @woven
@@ -157,11 +160,12 @@ def read_velocities(rows, velocity, linear, angular):
             linear[i, k], angular[i, k] = velocity[i, k], velocity[i, ANGULAR + k]
 
 
-@kernel("bodies")
-def pack_ways(rows, start_center, center, turned, bodies):
+@shared("bodies")
+def pack_ways(crew, rows, start_center, center, turned, bodies):
     """Write how far bodies have moved and turned since their contacts were measured."""
     for k in range(BLOCK):
         bodies[WAY, -1, k] = 0.0
-    for i in rows:
+    begin, end = part_of(crew, len(rows))
+    for i in rows[begin:end]:
         for k in range(3):
             bodies[WAY, i, k], bodies[WAY, i, ANGULAR + k] = center[i, k] - start_center[i, k], turned[i, k]

@@ -6,7 +6,8 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import SAME_POINT
-from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.crew import runs_of, shared, wait_for_all
+from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.recycling import first_of_pair, smaller_reach
 
 
@@ -38,14 +39,14 @@ def match_points(begin, end, o, until, near, feature, point, found_feature, foun
             taken[match[new]] = True
 
 
-@kernel(
-    "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
+@shared(
+    "match", "taken", "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
     "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
     "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form",
     makes_arrays=True,
 )  # fmt: skip
 def renew_contacts(
-    old_count, handles, row_shift, bound_half, bound_radius,
+    crew, match, taken, old_count, handles, row_shift, bound_half, bound_radius,
     found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, recycled,
     a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
     warm_normal, warm_friction, warm_rolling, impulse, friction_impulse, strikes, plastic,
@@ -53,13 +54,13 @@ def renew_contacts(
 ):  # fmt: skip
     """Replace the contacts by those found, keeping what a contact of the same colliders and feature held.
 
-    Both lists are sorted by rows and feature, so that one pass matches them. Where corners and edges change places
-    under bodies that hardly move, a point of another feature within SAME_POINT takes over what the old one held. Where
+    Both lists are sorted by rows and feature, so that one pass matches them: ``match`` (-1: none) is which one of the
+    old each was, ``taken`` are those that somebody was. Where corners and edges change places under bodies that hardly
+    move, a point of another feature within SAME_POINT takes over what the old one held. Where
     on the two shapes they were found goes with those recycled only: others are `seat_contacts` to say.
     """
-    count = len(found_a)
-    match, taken = np.full(count, -1), np.zeros(old_count, np.bool_)
-    o, c = 0, 0
+    begin, count = runs_of(crew, found_a, found_b)
+    o, c = 0, begin
     while c < count:
         x, y = found_a[c], found_b[c]
         end = c + 1
@@ -79,9 +80,9 @@ def renew_contacts(
             )  # fmt: skip
         o, c = until, end
     # Rows that stay where they are keep what they hold; what others held is put aside before it is written over.
-    moves = np.empty(count, np.int64)
+    moves = np.empty(max(0, count - begin), np.int64)
     moving = 0
-    for c in range(count):
+    for c in range(begin, count):
         if match[c] != c:
             moves[moving] = c
             moving += 1
@@ -99,6 +100,7 @@ def renew_contacts(
                 for k in range(3):
                     kept[m, 13 + k], kept[m, 16 + k] = seat_a[o, k], seat_b[o, k]
                     kept[m, 19 + k], kept[m, 22 + k] = lean_a[o, k], lean_b[o, k]
+    wait_for_all(crew, 1)
     for m in range(moving):
         c = moves[m]
         a[c], b[c] = handles[found_a[c]], handles[found_b[c]]
@@ -112,7 +114,7 @@ def renew_contacts(
             for k in range(3):
                 seat_a[c, k], seat_b[c, k] = kept[m, 13 + k], kept[m, 16 + k]
                 lean_a[c, k], lean_b[c, k] = kept[m, 19 + k], kept[m, 22 + k]
-    for c in range(count):
+    for c in range(begin, count):
         row_a[c], row_b[c], feature[c], by_fcl[c] = found_a[c], found_b[c], found_feature[c], found_by_fcl[c]
         depth[c] = found_depth[c]
         for k in range(3):

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-import numpy as np
-
-from carom.systems.constants import MANIFOLD_POINTS, POINT_SWEEPS, PUSH_SPEED
+from carom.systems.constants import POINT_SWEEPS, PUSH_SPEED
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.gate import wait_for_all
+from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, couplings, pair
 from carom.systems.kernels.impulses import pressed, rolled, struck
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import three
 from carom.systems.kernels.lanes import (
-    WIDTH,
     address,
     choose,
     gather,
@@ -35,11 +32,11 @@ IMPULSE, TARGET, STIFF, SCRATCH_ROWS = 0, 1, 2, 3
 
 
 @woven
-def share_of(level, level_ends, part, parts):
+def part_of_level(crew, level, level_ends):
     """Return where the run of groups of a level begins and ends that is one thread's: bodies stay in its cache."""
     first = level_ends[level - 1] if level else 0
-    count = level_ends[level] - first
-    return first + count * part // parts, first + count * (part + 1) // parts
+    begin, end = part_of(crew, level_ends[level] - first)
+    return first + begin, first + end
 
 
 @woven
@@ -62,10 +59,10 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
     scatter(bodies[VELOCITY], index_b, g, b)
 
 
-@kernel("gate", "lanes", "bodies", "linear", "angular", makes_arrays=True)
+@shared("scratch", "lanes", "bodies", "linear", "angular")
 def press_groups(
-    part, parts, gate, begins, sweeps, ended, h, ends, levels, level_ends, soft, rigid,
-    index_a, index_b, points, row, asks, rows, lanes, bodies, linear, angular,
+    crew, begins, sweeps, ended, h, ends, levels, level_ends, soft, rigid,
+    index_a, index_b, points, row, asks, rows, scratch, lanes, bodies, linear, angular,
 ):  # fmt: skip
     """Solve every group that rests ``sweeps`` times over.
 
@@ -74,39 +71,36 @@ def press_groups(
     the impulses of the one before are applied first; where it has ``ended``, its impulses are added to those of the
     step. Velocities of ``rows`` are packed before and unpacked behind.
 
-    One of ``parts`` threads takes its share of each level, and waits at the ``gate`` for the others after it.
+    A thread takes its part of each level, waits for the others after it, and has a page of ``scratch`` for itself.
     """
-    velocity, scratch = bodies[VELOCITY], np.empty((SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH))
+    velocity, scratch = bodies[VELOCITY], address(scratch[crew[1]])
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
-    mine = rows[len(rows) * part // parts : len(rows) * (part + 1) // parts]
-    passed = 0
+    begin, end = part_of(crew, len(rows))
+    mine = rows[begin:end]
     write_velocities(mine, linear, angular, velocity)
-    if parts > 1 and len(rows):
-        passed += 1
-        wait_for_all(gate, parts, passed)
+    passed = 1
+    wait_for_all(crew, passed)
     for level in range(levels if begins else 0):
-        begin, end = share_of(level, level_ends, part, parts)
+        begin, end = part_of_level(crew, level, level_ends)
         for g in range(begin, end):
             if asks[g] != IDLE:
                 press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
-        if parts > 1:
-            passed += 1
-            wait_for_all(gate, parts, passed)
+        passed += 1
+        wait_for_all(crew, passed)
     for sweep in range(sweeps):
         for level in range(levels):
-            begin, end = share_of(level, level_ends, part, parts)
+            begin, end = part_of_level(crew, level, level_ends)
             for g in range(begin, end):
                 if asks[g] != IDLE:
                     rate, hardness = soft if g < ends[0] else rigid
                     press(
                         g, row[g], points[g], asks[g], 1.0 / h, rate, hardness,
-                        index_a, index_b, lanes, bodies, address(scratch),
+                        index_a, index_b, lanes, bodies, scratch,
                     )  # fmt: skip
                     if ended and sweep == sweeps - 1:
                         sum_impulses(row[g], points[g], lanes)
-            if parts > 1:
-                passed += 1
-                wait_for_all(gate, parts, passed)
+            passed += 1
+            wait_for_all(crew, passed)
     read_velocities(mine, velocity, linear, angular)
 
 

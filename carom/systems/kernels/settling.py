@@ -4,8 +4,9 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
+from carom.systems.kernels.crew import eights_of, part_of, shared
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
-from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, store_flat
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, load, planes, some, spread, store
@@ -14,12 +15,14 @@ from carom.systems.kernels.packing import WAY
 from carom.systems.kernels.spatial import turn
 
 
-@kernel("rotation", "center", "linear", "angular", "position")
+@shared("rotation", "center", "linear", "angular", "position")
 def finish_drift(
-    rows, ended, h, inverse_mass, center_of_mass, freedom, start_position, start_rotation, decay, angular_decay, flow,
-    rotation, center, linear, angular, position,
+    crew, rows, ended, h, inverse_mass, center_of_mass, freedom, start_position, start_rotation,
+    decay, angular_decay, flow, rotation, center, linear, angular, position,
 ):  # fmt: skip
     """End the substep of h seconds: the second half of drag, and the origins placed."""
+    begin, end = eights_of(crew, len(rows))
+    rows = rows[begin:end]
     for n in range(0, len(rows), WIDTH):
         if in_a_row(rows, n) and are_plain(
             rows[n], ended, inverse_mass, center_of_mass, freedom, decay, angular_decay
@@ -72,14 +75,15 @@ def finish_body(
             angular[i, k] *= angular_decay[i]
 
 
-@kernel("lanes", "depth")
-def sink_contacts(order, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
+@shared("lanes", "depth")
+def sink_contacts(crew, order, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
     """Write the depths that contacts have come to be; those of balls on exact arcs are measured.
 
     A point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
     """
     rows, moved, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
-    for g in order:
+    begin, end = part_of(crew, len(order))
+    for g in order[begin:end]:
         r = row[g]
         parting = parting_of(r, rows, gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g))
         for p in range(points[g]):

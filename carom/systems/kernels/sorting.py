@@ -13,8 +13,9 @@ from carom.systems.kernels.balls_in_lanes import (
     write_normals,
     write_touches,
 )
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, place_points, tangents_of
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.kinematic import follow_turning
 from carom.systems.kernels.lane_vectors import dot, keep, three
 from carom.systems.kernels.lanes import (
@@ -38,15 +39,15 @@ from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
 from carom.systems.kernels.rubbing import IDLE, RESTING, ROLLING, RUBBING, TWISTING
 
 
-@kernel(
-    "fresh", "stale", "looks", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b", "resting",
-    "touching",
+@shared(
+    "numbers", "fresh", "stale", "looks", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b",
+    "resting", "touching",
 )  # fmt: skip
 def sort_groups(
-    order, h, bends, last, resting_stage, joined, ends, index_a, index_b, first, size, points, row,
+    crew, order, h, bends, last, resting_stage, joined, ends, index_a, index_b, first, size, points, row,
     fresh, stale, looks, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
-    normal, depth, point, offset_a, offset_b, resting, on_joint, touching,
+    normal, depth, point, offset_a, offset_b, resting, on_joint, touching, numbers,
 ):  # fmt: skip
     """Say which manifolds rest at the start of the substep and prepare them, mark their bodies as touching.
 
@@ -54,11 +55,12 @@ def sort_groups(
     ``looks`` at its manifolds one by one where they have to be measured so. The contact table learns where balls touch
     each other in the ``last`` substep, else only what `bend_arcs` asks for. What rested before is read from it where it
     is ``stale``: someone else has written it since; and where bodies may be ``joined``.
-    Return how many manifolds rest, and how many of those are of balls on exact arcs.
+    Count in ``numbers``, a row each thread, how many manifolds rest, and how many of those are of balls on exact arcs.
     """
     rows, packed, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
+    begin, end = part_of(crew, len(order))
     number, balls = 0, 0
-    for g in order:
+    for g in order[begin:end]:
         r = row[g]
         changed = fresh[g]
         if changed:
@@ -124,7 +126,7 @@ def sort_groups(
         fresh[g] = stale[g] = False
         if asks[g] != IDLE and (changed or moved_on):
             prepare(g, r, points[g], asks[g], rests, of_a, of_b, masses_a, masses_b, rows, packed)
-    return number, balls
+    numbers[crew[1], 0], numbers[crew[1], 1] = number, balls
 
 
 @woven

@@ -140,12 +140,14 @@ def compile_frame() -> None:
 def compile_rest() -> None:
     """Let a ball fall asleep and wake, and another, which is not balanced, fly at one that stands; reach out."""
     from carom.ecs.components.joint import FREE, LOCKED, Joint
+    from carom.systems.kernels.crew import make_crew, serve
     from carom.systems.kernels.observing import compile_observing
     from carom.systems.kinematics import Kinematics
     from carom.systems.simulation import Simulation
     from carom.systems.why_awake import why_awake
 
     compile_observing()
+    serve(make_crew(2), 1, 0)  # what another thread does: nothing, since this shift is over
     simulation, ball = Simulation(checked=False), {"sphere": {"radius": 0.5}}
     simulation.add(collider={"plane": {}})
     sleeper = simulation.add(collider=ball, body={}, transform={"position": (0.0, 0.5, 0.0)})
