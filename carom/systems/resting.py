@@ -77,7 +77,7 @@ class Resting(Resource):
         self.index_a, self.index_b = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.points, self.row = np.empty(count, np.int64), np.empty(count, np.int64)
-        self.asks, self.level_ends = np.zeros(count, np.int64), np.empty(count, np.int64)
+        self.asks, self.run_ends = np.zeros(count, np.int64), np.empty(2 * MANIFOLD_POINTS * count, np.int64)
         self.order = np.empty(count, np.int64)
         self.fresh, self.stale, self.looks = (np.ones(count, np.bool_) for _ in range(3))
         self.ends = np.zeros(2, np.int64)
@@ -102,7 +102,7 @@ class Resting(Resource):
         self.groups, rows, self.levels = group_manifolds(
             self.count, self.start, contact.a, contact.b, contact.body_a, contact.body_b, inverse_mass, nobody,
             self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
-            self.points, self.row, self.ends, self.level_ends, self.order,
+            self.points, self.row, self.ends, self.run_ends, self.order,
         )  # fmt: skip
         self.asks[:], self.fresh[:], self.stale[:], self.bound_of = 0, True, True, None
         if len(self.lanes) < rows:
@@ -126,6 +126,11 @@ class Resting(Resource):
             if not np.array_equal(found[:count], self.bound):  # else they may be packed already
                 self.bound = found[:count]
         return self.bound
+
+    def level_ends(self) -> list[int]:
+        """Return where the groups of each level end."""
+        ends: list[int] = self.run_ends[MANIFOLD_POINTS - 1 : self.levels * MANIFOLD_POINTS : MANIFOLD_POINTS].tolist()
+        return ends
 
     def pack(self, world: World) -> None:
         """Write what the stage needs to know of bodies, as they are now; of those that have not moved, what moves."""
@@ -258,7 +263,7 @@ class Resting(Resource):
         if len(self.scratch) < threads_of(crew):
             self.scratch = aligned(threads_of(crew), SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH)
         press_groups(
-            crew, begins, sweeps, ended, stage.h, self.ends, self.levels, self.level_ends, stage.soft, stage.rigid,
+            crew, begins, sweeps, ended, stage.h, self.ends, self.levels, self.run_ends, stage.soft, stage.rigid,
             self.index_a, self.index_b, self.points, self.row, self.asks, rows, self.scratch, self.lanes, self.bodies,
             motion.linear, motion.angular,
         )  # fmt: skip

@@ -91,7 +91,7 @@ class Solving:
 
     def _look_at_levels(self, part: int, time: float) -> None:
         resting, begin = self._resting, 0
-        for level, end in enumerate(resting.level_ends[: resting.levels].tolist()):
+        for level, end in enumerate(resting.level_ends()):
             rests = resting.lanes[resting.row[begin:end] + of.RESTS] > 0.0
             points = int(resting.size[begin:end][rests].sum())
             self.levels.append(Level(part, time, level, end - begin, int(rests.sum()), points))

@@ -17,7 +17,7 @@ from carom.ecs.component import Resource
 from carom.systems.kernels.crew import ALONE, SHIFT, make_crew, serve
 from carom.systems.settings import Settings
 
-FEWEST = 64  # groups of eight contacts or bodies below which sharing takes about as long as it saves
+FEWEST = 128  # groups of eight contacts or bodies below which sharing takes about as long as it saves
 
 
 class Threads(Resource):

@@ -9,10 +9,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from crews import parts_taken
 
 from carom.ecs import state_hash
 from carom.systems.resting import Resting
 from carom.systems.simulation import Simulation
+from carom.systems.threads import Threads
 
 TESTS = Path(__file__).parents[1]
 FRAMES = 240
@@ -111,7 +113,7 @@ def test_kernels_do_the_same_without_the_jit(here: list[str]) -> None:
     assert plain == [line for line in here if int(line.split()[1]) <= frames] + hashes(frames, "shapes")
 
 
-FEWEST = 64  # groups of eight that are shared out here, fewer than pays
+FEWEST = 8  # groups of eight that are shared here, fewer than pays
 
 
 def crowd(threads: int) -> list[str]:
@@ -130,6 +132,7 @@ def crowd(threads: int) -> list[str]:
             simulation.settings = replace(simulation.settings, threads=5)
             simulation.world.add(simulation.settings)
     assert simulation.world[Resting].groups >= FEWEST
+    assert (sum(parts_taken(simulation.world[Threads].crew)) > 0) == (threads > 1)
     return found
 
 

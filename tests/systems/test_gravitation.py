@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from crews import gathered, parts_taken
 
 from carom.ecs import Motion
 from carom.ecs.column import Floats
@@ -74,16 +75,16 @@ def test_a_smaller_opening_is_nearer_by_its_third_power() -> None:
 
 
 def test_the_order_of_bodies_and_threads_do_not_matter() -> None:
-    """Shuffled bodies are pulled as before, to rounding; leaves shared out in slices give the same bits."""
+    """Shuffled bodies are pulled as before, to rounding; leaves shared by three threads give the same bits."""
     mass, center = cluster(1001)
     pull, _ = attract_by_tree(mass, center, 1.0, 0.0, OPENING)
     shuffled = np.random.default_rng(2).permutation(len(mass))
     again, _ = attract_by_tree(mass[shuffled], center[shuffled], 1.0, 0.0, OPENING)
     assert again == pytest.approx(pull[shuffled], rel=1e-12, abs=1e-12)
-    sliced, _ = attract_by_tree(
-        mass, center, 1.0, 0.0, OPENING, lambda count, run: [run(begin, begin + 7) for begin in range(0, count, 7)]
-    )
-    assert (sliced == pull).all()
+    with gathered(3) as crew:
+        shared, _ = attract_by_tree(mass, center, 1.0, 0.0, OPENING, crew)
+        assert parts_taken(crew) == [1, 1]
+    assert (shared == pull).all()
 
 
 def test_bodies_at_one_point_do_not_pull_each_other() -> None:

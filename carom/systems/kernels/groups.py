@@ -49,13 +49,13 @@ BUCKETS = 256  # of manifolds that are shuffled
     "points",
     "row",
     "ends",
-    "level_ends",
+    "run_ends",
     "order",
     makes_arrays=True,
 )
 def group_manifolds(
     count, start, a, b, body_a, body_b, inverse_mass, nobody,
-    group_of, lane_of, index_a, index_b, first, size, points, row, ends, level_ends, order,
+    group_of, lane_of, index_a, index_b, first, size, points, row, ends, run_ends, order,
 ):  # fmt: skip
     """Put manifolds into groups that, one after the other, do what the manifolds would in a shuffled order.
 
@@ -64,10 +64,11 @@ def group_manifolds(
     an order that runs through a pile from one end to the other have hundreds of levels. Those with something that
     cannot move come last.
 
-    Return (groups, rows of all, levels). Of a level first come those with the most points. ``row`` is where the rows of
-    a group begin, ``ends`` (2,) where the groups of either kind end, ``level_ends`` where those of each level do;
-    ``nobody`` is the index of what has no body. Where levels do not matter, groups are gone through in ``order``: by
-    where in the contact table they begin, so that bodies of one are still in the cache when they are met in the next.
+    Return (groups, rows of all, levels). ``row`` is where the rows of a group begin, ``ends`` (2,) where the groups of
+    either kind end, ``run_ends`` where each run of groups does that have as many points: a level has `MANIFOLD_POINTS`
+    of them, the most points first. ``nobody`` is the index of what has no body. Where levels do not matter, groups are
+    gone through in ``order``: by where in the contact table they begin, so that bodies of one are still in the cache
+    when they are met in the next.
     """
     shuffled = shuffle(count, start, a, b)
     reached = np.zeros((2, len(inverse_mass)), np.int64)
@@ -98,15 +99,14 @@ def group_manifolds(
         by_level[begin[k]] = m
         begin[k] += 1
     group, lane, rows, last, begun = -1, WIDTH, 0, -1, 0
-    ends[0] = 0
+    ends[0], run_ends[: 2 * levels * MANIFOLD_POINTS] = 0, 0
     for m in by_level:
         if lane == WIDTH or stands[m] * levels + level[m] != last:
             if stands[m] * levels + level[m] != last:
-                level_ends[begun] = level_ends[begun - 1] if begun else 0
                 begun += 1
             group, lane, last = group + 1, 0, stands[m] * levels + level[m]
-            level_ends[begun - 1] = group + 1
             row[group], points[group] = rows, start[m + 1] - start[m]
+            run_ends[begun * MANIFOLD_POINTS - points[group]] = group + 1
             rows += couplings(0, points[group]) + pair(points[group], 0)
             for k in range(WIDTH):
                 index_a[group, k], index_b[group, k], first[group, k], size[group, k] = nobody, nobody, -1, 0
@@ -118,6 +118,8 @@ def group_manifolds(
         size[group, lane] = start[m + 1] - start[m]
         lane += 1
     ends[1] = group + 1
+    for k in range(1, begun * MANIFOLD_POINTS):
+        run_ends[k] = max(run_ends[k], run_ends[k - 1])
     gone = 0
     for m in range(count):
         if lane_of[m] == 0:

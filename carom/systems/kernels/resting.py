@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import POINT_SWEEPS, PUSH_SPEED
+from carom.systems.constants import MANIFOLD_POINTS, POINT_SWEEPS, PUSH_SPEED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, couplings, pair
@@ -32,10 +32,10 @@ IMPULSE, TARGET, STIFF, SCRATCH_ROWS = 0, 1, 2, 3
 
 
 @woven
-def part_of_level(crew, level, level_ends):
-    """Return where the run of groups of a level begins and ends that is one thread's: bodies stay in its cache."""
-    first = level_ends[level - 1] if level else 0
-    begin, end = part_of(crew, level_ends[level] - first)
+def part_of_run(crew, run, run_ends):
+    """Return where a thread's part of a run of groups begins and ends: bodies stay in its cache."""
+    first = run_ends[run - 1] if run else 0
+    begin, end = part_of(crew, run_ends[run] - first)
     return first + begin, first + end
 
 
@@ -61,7 +61,7 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
 
 @shared("scratch", "lanes", "bodies", "linear", "angular")
 def press_groups(
-    crew, begins, sweeps, ended, h, ends, levels, level_ends, soft, rigid,
+    crew, begins, sweeps, ended, h, ends, levels, run_ends, soft, rigid,
     index_a, index_b, points, row, asks, rows, scratch, lanes, bodies, linear, angular,
 ):  # fmt: skip
     """Solve every group that rests ``sweeps`` times over.
@@ -71,7 +71,7 @@ def press_groups(
     the impulses of the one before are applied first; where it has ``ended``, its impulses are added to those of the
     step. Velocities of ``rows`` are packed before and unpacked behind.
 
-    A thread takes its part of each level, waits for the others after it, and has a page of ``scratch`` for itself.
+    A thread takes its part of each run of a level, waits for the others after that, and has a page of ``scratch``.
     """
     velocity, scratch = bodies[VELOCITY], address(scratch[crew[1]])
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
@@ -81,17 +81,20 @@ def press_groups(
     passed = 1
     wait_for_all(crew, passed)
     for level in range(levels if begins else 0):
-        begin, end = part_of_level(crew, level, level_ends)
-        for g in range(begin, end):
-            if asks[g] != IDLE:
-                press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
+        for run in range(MANIFOLD_POINTS * level, MANIFOLD_POINTS * (level + 1)):
+            begin, end = part_of_run(crew, run, run_ends)
+            for g in range(begin, end):
+                if asks[g] != IDLE:
+                    press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
         passed += 1
         wait_for_all(crew, passed)
     for sweep in range(sweeps):
         for level in range(levels):
-            begin, end = part_of_level(crew, level, level_ends)
-            for g in range(begin, end):
-                if asks[g] != IDLE:
+            for run in range(MANIFOLD_POINTS * level, MANIFOLD_POINTS * (level + 1)):
+                begin, end = part_of_run(crew, run, run_ends)
+                for g in range(begin, end):
+                    if asks[g] == IDLE:
+                        continue
                     rate, hardness = soft if g < ends[0] else rigid
                     press(
                         g, row[g], points[g], asks[g], 1.0 / h, rate, hardness,
