@@ -9,8 +9,8 @@ from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import MANIFOLD_POINTS
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.kernel import kernel, making, woven
-from carom.systems.kernels.lane_vectors import dot, keep, three
-from carom.systems.kernels.lanes import WIDTH, address, choose, load, spread, store
+from carom.systems.kernels.lane_vectors import dot, keep, plus, three
+from carom.systems.kernels.lanes import WIDTH, address, choose, lane_of, load, pick, spread, store
 
 # Rows of eight numbers that a group has, a lane each manifold. First what is filled in when contacts are found: the
 # frame, which is two tangents and the normal, each the cross product of the other two; friction, restitution,
@@ -25,9 +25,6 @@ RUB, SPUN, ROLLED, RUBBED, SURFACE, RESTS, TOGETHER, MIDDLE_A, MIDDLE_B, FILLED 
 # normal, and about any axis across it; at last 1 where a point may close within the substep.
 MASS_A, MASS_B, TURN_A, TURN_B, GIVE, SPIN, ROLL, CLOSES, MANIFOLD_ROWS = 35, 38, 41, 50, 59, 62, 63, 64, 65
 
-# Before that is known its rows hold vectors of the world for a while: both offsets of each point, and friction.
-PLACES, PUSHED = 35, 59
-
 # Rows of each point, after those of the manifold: where it is from the middle along the tangents (along the normal it
 # has no lever), depth, normal impulse and its sum over the step; then the mass along the normal, and how far it is from
 # the middle.
@@ -36,6 +33,7 @@ MASS, AWAY, POINT_ROWS = 5, 6, 7
 # After those of all points a row for each two of them: how fast a unit impulse at either parts the bodies at the other.
 
 ABSENT = -1e300  # m, the depth of a point that a lane does not have
+LANES = tuple(range(WIDTH))
 BUCKETS = 256  # of manifolds that are shuffled
 
 
@@ -171,28 +169,34 @@ def fill_groups(
     crew, order, first, size, row, points, normal, depth, offset_a, offset_b, kind,
     friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
 ):  # fmt: skip
-    """Write what contacts hold into the lanes of their groups."""
-    rows = address(lanes)
+    """Write what contacts hold into the lanes of their groups.
+
+    Of friction and rolling only their sums are of use: all points share them alike.
+    """
+    rows, zero, one = address(lanes), spread(0.0), spread(1.0)
     begin, end = part_of(crew, len(order))
     for g in order[begin:end]:
-        r = row[g]
-        for k in range(FILLED):
-            store(rows, r + k, spread(0.0))
-        for k in range(3):
-            store(rows, r + PUSHED + k, spread(0.0))
+        r, at, sizes = row[g], places_of(g, 0, first, size), lane_of(numbers_at(size[g], LANES))
+        keep(rows, r + RUBBED, zero, zero, zero)
+        store(rows, r + RESTS, zero)
+        store(rows, r + TOGETHER, zero)
+        store(rows, r + SHARE, choose(sizes, one / sizes, zero))
+        store(rows, r + BALL, choose(sizes, choose(lane_of(numbers_at(kind, at)) + 0.5, one, zero), zero))
+        store(rows, r + FRICTION, read_one(friction, at, sizes))
+        store(rows, r + RESTITUTION, read_one(restitution, at, sizes))
+        store(rows, r + ROLLING, read_one(rolling, at, sizes))
+        store(rows, r + SPINNING, read_one(spinning, at, sizes))
+        x, y, z = read_three(surface, at, sizes)
+        keep(rows, r + SURFACE, x, y, z)
+        n, pushed, rolled = read_three(normal, at, sizes), (zero, zero, zero), (zero, zero, zero)
         for p in range(points[g]):
-            q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            for k in range(POINT_FILLED):
-                store(rows, q + k, spread(0.0))
-            store(rows, q + DEPTH, spread(ABSENT))
-        for lane in range(WIDTH):
-            if first[g, lane] >= 0:
-                fill_lane(
-                    r, lane, first[g, lane], size[g, lane], normal, kind,
-                    friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
-                )  # fmt: skip
-        n, pushed, rolled = three(rows, r + NORMAL), three(rows, r + PUSHED), three(rows, r + ROLLED)
+            q, at, there = r + MANIFOLD_ROWS + POINT_ROWS * p, places_of(g, p, first, size), sizes - float(p)
+            store(rows, q + WARM, read_one(warm_normal, at, there))
+            store(rows, q + SUM, zero)
+            pushed = plus(pushed, read_three(warm_friction, at, there))
+            rolled = plus(rolled, read_three(warm_rolling, at, there))
         t, u = tangents_of(n)
+        keep(rows, r + NORMAL, n[0], n[1], n[2])
         keep(rows, r + TANGENT, t[0], t[1], t[2])
         keep(rows, r + TANGENT + 3, u[0], u[1], u[2])
         store(rows, r + RUB, dot(pushed, t))
@@ -204,25 +208,45 @@ def fill_groups(
 
 
 @woven
-def fill_lane(
-    r, lane, c, count, normal, kind,
-    friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
-):  # fmt: skip
-    """Write what the ``count`` contacts of a manifold, from c on, hold into its lane, vectors as they are in the world.
+def places_of(g, p, first, size):
+    """Return where the p-th contacts of a group's manifolds are, the last ones of those that have fewer."""
+    return (
+        place_of(g, 0, p, first, size), place_of(g, 1, p, first, size), place_of(g, 2, p, first, size),
+        place_of(g, 3, p, first, size), place_of(g, 4, p, first, size), place_of(g, 5, p, first, size),
+        place_of(g, 6, p, first, size), place_of(g, 7, p, first, size),
+    )  # fmt: skip
 
-    Of friction and rolling only their sums are of use: all points share them alike.
-    """
-    lanes[r + FRICTION, lane], lanes[r + RESTITUTION, lane] = friction[c], restitution[c]
-    lanes[r + ROLLING, lane], lanes[r + SPINNING, lane] = rolling[c], spinning[c]
-    lanes[r + BALL, lane], lanes[r + SHARE, lane] = 1.0 if kind[c] >= 0 else 0.0, 1.0 / count
-    for k in range(3):
-        lanes[r + NORMAL + k, lane], lanes[r + SURFACE + k, lane] = normal[c, k], surface[c, k]
-        pushed, rolled = 0.0, 0.0
-        for p in range(count):
-            pushed, rolled = pushed + warm_friction[c + p, k], rolled + warm_rolling[c + p, k]
-        lanes[r + PUSHED + k, lane], lanes[r + ROLLED + k, lane] = pushed, rolled
-    for p in range(count):
-        lanes[r + MANIFOLD_ROWS + POINT_ROWS * p + WARM, lane] = warm_normal[c + p]
+
+@woven
+def place_of(g, lane, p, first, size):
+    """Return where the p-th contact of a manifold is; anywhere, where there is no manifold."""
+    return max(0, first[g, lane] + min(p, size[g, lane] - 1))
+
+
+@woven
+def numbers_at(column, at):
+    """Return eight whole numbers of a column."""
+    return (
+        column[at[0]], column[at[1]], column[at[2]], column[at[3]],
+        column[at[4]], column[at[5]], column[at[6]], column[at[7]],
+    )  # fmt: skip
+
+
+@woven
+def read_one(column, at, there):
+    """Return the numbers of a column at eight places, 0 where there is none."""
+    return choose(there, pick(address(column), 1, 0, at), spread(0.0))
+
+
+@woven
+def read_three(column, at, there):
+    """Return the vectors of a column as `read_one` does numbers."""
+    rows, zero = address(column), spread(0.0)
+    return (
+        choose(there, pick(rows, 3, 0, at), zero),
+        choose(there, pick(rows, 3, 1, at), zero),
+        choose(there, pick(rows, 3, 2, at), zero),
+    )
 
 
 @woven
@@ -241,28 +265,24 @@ def tangents_of(n):
 @woven
 def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
     """Write where the points of a group are in its frame, and how deep."""
-    rows, zero = address(lanes), spread(0.0)
-    for k in range(6 * points):
-        store(rows, r + PLACES + k, zero)
-    for lane in range(WIDTH):
-        for p in range(size[g, lane]):
-            c, q = first[g, lane] + p, r + PLACES + 6 * p
-            for k in range(3):
-                lanes[q + k, lane], lanes[q + 3 + k, lane] = offset_a[c, k], offset_b[c, k]
-            lanes[r + MANIFOLD_ROWS + POINT_ROWS * p + DEPTH, lane] = depth[c]
+    rows, zero, sizes = address(lanes), spread(0.0), lane_of(numbers_at(size[g], LANES))
+    t, u, n = three(rows, r + TANGENT), three(rows, r + TANGENT + 3), three(rows, r + NORMAL)
+    of_a, of_b = (zero, zero, zero), (zero, zero, zero)
+    for p in range(points):
+        q, at, there = r + MANIFOLD_ROWS + POINT_ROWS * p, places_of(g, p, first, size), sizes - float(p)
+        a, b = read_three(offset_a, at, there), read_three(offset_b, at, there)
+        along, across = dot(t, b), dot(u, b)
+        of_a, of_b = plus(of_a, (dot(t, a), dot(u, a), dot(n, a))), plus(of_b, (along, across, dot(n, b)))
+        store(rows, q + AT, along)
+        store(rows, q + AT + 1, across)
+        store(rows, q + DEPTH, choose(there, pick(address(depth), 1, 0, at), spread(ABSENT)))
     share = load(rows, r + SHARE)
-    for k in range(3):
-        axis, of_a, of_b = three(rows, r + TANGENT + 3 * k), zero, zero
-        for p in range(points):
-            q = r + PLACES + 6 * p
-            of_a, of_b = of_a + dot(axis, three(rows, q)), of_b + dot(axis, three(rows, q + 3))
-        of_a, of_b = share * of_a, share * of_b
-        store(rows, r + MIDDLE_A + k, of_a)
-        store(rows, r + MIDDLE_B + k, of_b)
-        for p in range(points if k < 2 else 0):
-            q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            there = load(rows, q + DEPTH) - spread(0.5 * ABSENT)
-            store(rows, q + AT + k, choose(there, dot(axis, three(rows, r + PLACES + 6 * p + 3)) - of_b, zero))
+    keep(rows, r + MIDDLE_A, share * of_a[0], share * of_a[1], share * of_a[2])
+    keep(rows, r + MIDDLE_B, share * of_b[0], share * of_b[1], share * of_b[2])
+    for p in range(points):
+        q, there = r + MANIFOLD_ROWS + POINT_ROWS * p, sizes - float(p)
+        store(rows, q + AT, choose(there, load(rows, q + AT) - share * of_b[0], zero))
+        store(rows, q + AT + 1, choose(there, load(rows, q + AT + 1) - share * of_b[1], zero))
 
 
 @shared("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")

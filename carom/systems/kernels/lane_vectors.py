@@ -30,6 +30,12 @@ def dot(a, b):
 
 
 @woven
+def plus(a, b):
+    """Return a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@woven
 def about(inertia, x, y, z):
     """Return I^-1 v; ``inertia`` begins with the upper half of I^-1."""
     return (
