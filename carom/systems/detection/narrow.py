@@ -21,6 +21,7 @@ from carom.systems.kernels.capsules_narrow import measure_balls_on_capsules, mea
 from carom.systems.kernels.capsules_on_boxes import measure_capsules_on_boxes
 from carom.systems.kernels.hulls_narrow import measure_hulls, measure_hulls_on_planes
 from carom.systems.kernels.kernel import Kernel
+from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.mesh_points import MOST_MESH_POINTS
 from carom.systems.kernels.narrow import collect_points, sort_by_function
 from carom.systems.kernels.planes_narrow import measure_boxes_on_planes, measure_capsules_on_planes
@@ -40,6 +41,7 @@ from carom.systems.shapes.plane import Plane
 from carom.systems.shapes.point import Point
 from carom.systems.shapes.shape import Shape
 from carom.systems.shapes.sphere import Sphere
+from carom.systems.threads import crew_for
 
 BY_FCL = 0  # the place in the table of what no function stands in for
 
@@ -144,15 +146,17 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     for number, function in enumerate(FUNCTIONS, 1):
         bucket = slice(begins[number], begins[number + 1])
         if bucket.stop > bucket.start:
-            taken = function(
-                order[bucket], first[bucket], second[bucket], reaches, taken,
+            count, room = bucket.stop - bucket.start, ROOMS[number]
+            function(
+                crew_for(world, count // WIDTH), order[bucket], first[bucket], second[bucket], reaches, taken, room,
                 collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls, meshes,
                 points.start, points.count, points.feature, points.normal, points.depth, points.point,
             )  # fmt: skip
-    taken = keep_sound(world, pairs, reaches, points)
-    found = Found.room(taken)
+            taken += room * count
+    kept = keep_sound(world, pairs, reaches, points)
+    found = Found.room(kept)
     collect_points(
-        pairs, order, first, by_fcl, points.start, points.count,
-        points.feature, points.normal, points.depth, points.point, *found[:-1],
+        crew_for(world, n // WIDTH), pairs, order, first, by_fcl, points.start, points.count,
+        points.feature, points.normal, points.depth, points.point, np.empty(n), *found[:-1],
     )  # fmt: skip
     return found

@@ -12,8 +12,11 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.errors import CaromError
 from carom.systems.constants import UNIT_NORMAL
 from carom.systems.detection.answered import Answered
+from carom.systems.kernels.crew import threads_of
+from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.validity import NOT_FINITE, NOT_UNIT, TOO_DEEP, TOO_FAR, refuse_points
 from carom.systems.shapes.shape import BY_NUMBER
+from carom.systems.threads import crew_for
 
 if TYPE_CHECKING:
     from carom.systems.detection.narrow import Points
@@ -35,12 +38,15 @@ def keep_sound(world: World, pairs: Integers, reaches: Floats, points: Points) -
     collider, pose = world[Collider], world[ColliderPose]
     n = len(pairs)
     fault, value, limit = np.empty(n, np.int64), np.empty(n), np.empty(n)
-    kept, dropped = refuse_points(
-        pairs, reaches, collider.shape, collider.size,
+    crew = crew_for(world, n // WIDTH)
+    numbers = np.zeros((threads_of(crew), 2), np.int64)
+    refuse_points(
+        crew, pairs, reaches, collider.shape, collider.size,
         collider.position, collider.bound_center, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, points.start, points.count,
-        points.feature, points.normal, points.depth, points.point, fault, value, limit,
+        points.feature, points.normal, points.depth, points.point, fault, value, limit, numbers,
     )  # fmt: skip
+    kept, dropped = map(sum, zip(*numbers.tolist(), strict=True))
     if dropped:
         world[Answered].refused += dropped
         if GUARDED.get():
@@ -51,7 +57,7 @@ def keep_sound(world: World, pairs: Integers, reaches: Floats, points: Points) -
                 f"a contact of {one} and {other} cannot be: {what}; please report it with the world file, "
                 "unchecked runs leave it out"
             )
-    return int(kept)
+    return kept
 
 
 def described(world: World, row: int) -> str:

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-# mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.balls import HALF_SPACE, gap_of_ball
-from carom.systems.kernels.kernel import kernel
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.narrow import kind_and_extent
 from carom.systems.kernels.writing import write_point
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@shared("start", "count", "feature", "normal", "depth", "point")
 def measure_balls(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
-    """Measure pairs whose first collider is a ball or point; return how many points are taken now.
+    """Measure pairs whose first collider is a ball or point.
 
     Every function of the narrow phase has this form: pair ``which[k]`` has the collider rows ``first[k]`` and
-    ``second[k]``; its points are written from ``taken`` on where they are nearer than ``reaches[which[k]]``. ``hulls``
-    and ``meshes`` are those of `PackedHulls` and `PackedMeshes`.
+    ``second[k]``; its points are written where they are nearer than ``reaches[which[k]]``, behind those ``taken`` so
+    far, with ``room`` for so many of each pair. ``hulls`` and ``meshes`` are those of `PackedHulls` and `PackedMeshes`.
     """
-    for k in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
         p, i, o = which[k], first[k], second[k]
         kind, ex, ey, ez = kind_and_extent(
             shape[o], size[o, 0], size[o, 1], size[o, 2],
@@ -45,4 +48,3 @@ def measure_balls(
             feature, normal, depth, point,
         )  # fmt: skip
         taken += 1
-    return taken

@@ -8,7 +8,7 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import LEAST_PART, SAME_PLACE
-from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.mesh_points import (
     MOST_MESH_POINTS,
     WIDTH,
@@ -21,9 +21,9 @@ from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles, grown
 from carom.systems.kernels.spatial import turn
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
+@shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_balls_on_meshes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a ball or point and a mesh, in the form of `measure_balls`.
@@ -40,7 +40,9 @@ def measure_balls_on_meshes(
     found = np.empty(FEW, np.uint32)
     points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
     place, gaps, alike = np.empty(3 * FEW), np.empty(FEW), np.empty(FEW, np.int64)
-    for k in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
         p, i, m = which[k], first[k], second[k]
         start[p] = taken
         qx, qy, qz, qw = rotation[m, 0], rotation[m, 1], rotation[m, 2], rotation[m, 3]
@@ -95,4 +97,3 @@ def measure_balls_on_meshes(
         taken = write_chosen(
             points, names, kept, chosen, px, py, pz, qx, qy, qz, qw, taken, feature, normal, depth, point
         )
-    return taken

@@ -6,10 +6,11 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, FACE_CONE, FLAT_COSINE, LEAST_PART
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.edges import EDGE_FEATURES, along_other, crossing_edges, edge_normal, nearest_corner
 from carom.systems.kernels.faces import FEATURES, MOST_OVER, points_over
 from carom.systems.kernels.frames import placed, turned
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.parting import EDGES, FACES, LANES, OWN, PLACE, ROWS, TURN, VIEW, part, put_in
 from carom.systems.kernels.reduction import reduce_area
 from carom.systems.kernels.writing import write_point
@@ -18,12 +19,12 @@ EDGES_FROM = 12 * FEATURES  # features: of 6 faces of either box, then of pairs 
 CORNERS_FROM = EDGES_FROM + EDGE_FEATURES
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
+@shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_boxes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
-    """Measure pairs of boxes; return how many points are taken now (`measure_balls` says what the arguments are).
+    """Measure pairs of boxes, in the form of `measure_balls`.
 
     The depth is that of the least way out, however deep or concentric the pose: the 15 axes are all there are
     (Gottschalk, Collision Queries using Oriented Bounding Boxes, 2000, section 3.3). A gap is that of the nearest
@@ -34,10 +35,12 @@ def measure_boxes(
     """
     view, way, place = np.zeros((ROWS, LANES)), np.empty(3), np.empty(3)
     over, height, over_feature = np.empty(3 * MOST_OVER), np.empty(MOST_OVER), np.empty(MOST_OVER, np.int64)
-    for k in range(len(which)):
-        lane = k % LANES
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
+        lane = (k - begin) % LANES
         if lane == 0:
-            for n in range(k, min(k + LANES, len(which))):
+            for n in range(k, min(k + LANES, end)):
                 i, o, _ = longer_first(size, first[n], second[n])
                 put_in(view, n - k, position, rotation, size, i, o)
             part(view)
@@ -112,7 +115,6 @@ def measure_boxes(
             found = 1
         count[p] = found
         taken += found
-    return taken
 
 
 @inlined

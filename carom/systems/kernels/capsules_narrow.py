@@ -6,8 +6,9 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import ALONG, BIAS, LEAST_PART
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.frames import turned, turned_back
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.segments import beside, direction_between, nearest_of_segments
 from carom.systems.kernels.spatial import cross
 from carom.systems.kernels.writing import write_point
@@ -15,16 +16,18 @@ from carom.systems.kernels.writing import write_point
 ALONE = 2  # feature; points of capsules side by side are 0 and 1 along the first
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@shared("start", "count", "feature", "normal", "depth", "point")
 def measure_balls_on_capsules(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
-    """Measure pairs of a ball or point and a capsule; return how many points are taken now.
+    """Measure pairs of a ball or point and a capsule.
 
     A ball whose centre is on the capsule's axis is as far from all sides: the way out is along the capsule's x.
     """
-    for k in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
         p, i, o = which[k], first[k], second[k]
         start[p] = taken
         dx, dy, dz = position[i, 0] - position[o, 0], position[i, 1] - position[o, 1], position[i, 2] - position[o, 2]
@@ -48,21 +51,22 @@ def measure_balls_on_capsules(
             feature, normal, depth, point,
         )  # fmt: skip
         taken += 1
-    return taken
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@shared("start", "count", "feature", "normal", "depth", "point")
 def measure_capsules(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
-    """Measure pairs of capsules; return how many points are taken now.
+    """Measure pairs of capsules.
 
     Capsules along each other (ALONG) have two points, at the ends of what lies side by side; others one. Where the
     axes meet the way out is their common normal. The longer capsule goes first in the arithmetic, so that swapping
     capsules of different length turns normals and changes no other bit.
     """
-    for k in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
         p, i, o, sense = which[k], first[k], second[k], 1.0
         start[p], reach = taken, reaches[p]
         if size[o, 1] > size[i, 1]:
@@ -102,7 +106,6 @@ def measure_capsules(
             )  # fmt: skip
             taken += 1
         count[p] = taken - start[p]
-    return taken
 
 
 @inlined

@@ -7,8 +7,9 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import ALONG as LYING_ALONG
 from carom.systems.constants import BIAS, FACE_CONE, LEAST_PART
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.frames import placed, turned, turned_back
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.parting import after
 from carom.systems.kernels.segment_and_box import (
     ALONG,
@@ -31,19 +32,21 @@ from carom.systems.kernels.writing import write_point
 ALONE, EDGES = 12, 13
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
+@shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_capsules_on_boxes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
-    """Measure pairs of a capsule and a box; return how many points are taken now.
+    """Measure pairs of a capsule and a box.
 
     Over a face within FACE_CONE of the way out there are two points, at the ends of what of the segment lies over it;
     beside an edge that it lies along, at the ends of what is beside it; else there is one. A segment inside the box
     leaves it by the least of six ways: three out of faces, three across itself and an edge.
     """
     own = np.empty(12)
-    for k in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
         p, i, o = which[k], first[k], second[k]
         start[p], reach = taken, reaches[p]
         radius, half = size[i, 0], 0.5 * size[i, 1]
@@ -94,7 +97,6 @@ def measure_capsules_on_boxes(
             )  # fmt: skip
             taken += 1
         count[p] = taken - start[p]
-    return taken
 
 
 @inlined

@@ -7,8 +7,9 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import OVER_EDGE
 from carom.systems.kernels.areas import points_of_area
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.distance import APART, FAR, distance_apart
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.polyhedra import place_faces, place_vertices, polyhedron_of
 from carom.systems.kernels.reduction import reduce_area
 from carom.systems.kernels.separation import most_apart
@@ -45,9 +46,9 @@ def comes_first(p, i, q, j, position, rotation):
     return True
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
+@shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_hulls(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs whose second collider is a hull, in the form of `measure_balls`.
@@ -63,7 +64,9 @@ def measure_hulls(
     corner, name, weight = np.empty(12), np.empty(8, np.int64), np.empty(4)
     polygon, tag = np.empty(6 * room), np.empty(2 * room, np.int64)
     place, gaps, names = np.empty(3 * room), np.empty(room), np.empty(room, np.int64)
-    for k in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
         pair, a, b = which[k], first[k], second[k]
         start[pair] = taken
         p, ax, ay, az, radius = polyhedron_of(
@@ -118,18 +121,19 @@ def measure_hulls(
         taken = write_points(
             place, gaps, names, found, x, y, z, nx, ny, nz, side, radius, 0.0, taken, feature, normal, depth, point
         )
-    return taken
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
+@shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_hulls_on_planes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a hull and a half space, in the form of `measure_balls`; points are the hull's vertices."""
     corners = most_of(hulls.vertex_start)
     v, place, gaps, names = np.empty(3 * corners), np.empty(3 * corners), np.empty(corners), np.empty(corners, np.int64)
-    for k in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
         pair, a, b = which[k], first[k], second[k]
         start[pair] = taken
         x, y, z = position[a, 0], position[a, 1], position[a, 2]
@@ -153,4 +157,3 @@ def measure_hulls_on_planes(
         taken = write_points(
             place, gaps, names, found, x, y, z, -nx, -ny, -nz, 1.0, 0.0, 0.0, taken, feature, normal, depth, point
         )
-    return taken

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.balls import BALL, BOX, HALF_SPACE
+from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.spatial import turn
 from carom.systems.shapes.box import Box
@@ -56,20 +55,23 @@ def sort_by_function(pairs, shape, function_of, swaps, order, first, second, sta
     starts[len(starts) - 1] = len(pairs)
 
 
-@kernel("row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl", makes_arrays=True)
+@shared("sign", "row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl")
 def collect_points(
-    pairs, order, first, fcl_pairs, start, count, feature, normal, depth, point,
-    row_a, row_b, found_feature, found_normal, found_depth, found_point, by_fcl,
+    crew, pairs, order, first, fcl_pairs, start, count, feature, normal, depth, point,
+    sign, row_a, row_b, found_feature, found_normal, found_depth, found_point, by_fcl,
 ):  # fmt: skip
     """Put the points of all pairs in order of pair and feature, with normals from the lower row to the other."""
-    n = len(pairs)
-    sign, fcl = np.empty(n), np.zeros(n, np.bool_)
-    for k in range(n):
+    first_pair, end_pair = part_of(crew, len(pairs))
+    for k in range(first_pair, end_pair):
         sign[order[k]] = 1.0 if first[k] == pairs[order[k], 0] else -1.0
-        fcl[order[k]] = k < fcl_pairs
+        if k < fcl_pairs:
+            sign[order[k]] = 2.0  # FCL takes them as they are
+    wait_for_all(crew, 1)
     at = 0
-    for p in range(n):
-        begin = at
+    for p in range(first_pair):
+        at += count[p]
+    for p in range(first_pair, end_pair):
+        begin, sense, fcl = at, -1.0 if sign[p] < 0.0 else 1.0, sign[p] == 2.0
         for source in range(start[p], start[p] + count[p]):
             c = at
             while c > begin and found_feature[c - 1] > feature[source]:  # few: sorted as they come
@@ -79,8 +81,8 @@ def collect_points(
                 c -= 1
             found_feature[c], found_depth[c] = feature[source], depth[source]
             for d in range(3):
-                found_normal[c, d], found_point[c, d] = sign[p] * normal[source, d], point[source, d]
-            row_a[at], row_b[at], by_fcl[at] = pairs[p, 0], pairs[p, 1], fcl[p]
+                found_normal[c, d], found_point[c, d] = sense * normal[source, d], point[source, d]
+            row_a[at], row_b[at], by_fcl[at] = pairs[p, 0], pairs[p, 1], fcl
             at += 1
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.frames import placed, turned, turned_back
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.writing import write_point
 
 FLAT = 1e-9  # part of a half edge: axes leaning less towards the plane than another one by this count as equal
@@ -18,17 +19,19 @@ def plane_of(size, position, rotation, row):
     return nx, ny, nz, offset
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@shared("start", "count", "feature", "normal", "depth", "point")
 def measure_boxes_on_planes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
-    """Measure pairs of a box and a half space; return how many points are taken now.
+    """Measure pairs of a box and a half space.
 
     The points are corners of the face that faces the half space most, numbered by their signs: x + 2 y + 4 z. The
     depth is that under the surface, however deep the box lies.
     """
-    for k in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
         p, i, o = which[k], first[k], second[k]
         start[p], reach = taken, reaches[p]
         nx, ny, nz, offset = plane_of(size, position, rotation, o)
@@ -59,19 +62,20 @@ def measure_boxes_on_planes(
             found += 1
         count[p] = found
         taken += found
-    return taken
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point")
+@shared("start", "count", "feature", "normal", "depth", "point")
 def measure_capsules_on_planes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
-    """Measure pairs of a capsule and a half space; return how many points are taken now.
+    """Measure pairs of a capsule and a half space.
 
     The points are under the ball at either end, the lower along the capsule's axis being feature 0.
     """
-    for k in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for k in range(begin, end):
         p, i, o = which[k], first[k], second[k]
         start[p] = taken
         nx, ny, nz, offset = plane_of(size, position, rotation, o)
@@ -88,4 +92,3 @@ def measure_capsules_on_planes(
             )  # fmt: skip
             taken += 1
         count[p] = taken - start[p]
-    return taken

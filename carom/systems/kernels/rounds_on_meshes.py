@@ -22,7 +22,7 @@ from carom.systems.kernels.cores import (
     write_core,
     write_place,
 )
-from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.mesh_areas import MOST_CORNERS, points_over_triangle
 from carom.systems.kernels.mesh_points import MOST_MESH_POINTS, WIDTH, add_point, choose_points, write_chosen
 from carom.systems.kernels.mesh_surface import behind_of
@@ -33,9 +33,9 @@ from carom.systems.kernels.rounds_on_edges import points_on_edge
 from carom.systems.shapes.rim import RIM_NUMBERS, RIM_POINTS
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
+@shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_rounds_on_meshes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a cylinder, cone or ellipsoid and a mesh, in the form of `measure_balls`.
@@ -53,7 +53,9 @@ def measure_rounds_on_meshes(
     found = np.empty(FEW, np.uint32)
     points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
     place, gaps, alike = np.empty(3 * FEW), np.empty(FEW), np.empty(FEW, np.int64)
-    for index in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for index in range(begin, end):
         pair, b, m = which[index], first[index], second[index]
         start[pair] = taken
         write_core(shape, size, geometry, b, hulls, core, SECOND)
@@ -135,4 +137,3 @@ def measure_rounds_on_meshes(
             points, names, kept, chosen, position[m, 0], position[m, 1], position[m, 2],
             rotation[m, 0], rotation[m, 1], rotation[m, 2], rotation[m, 3], taken, feature, normal, depth, point,
         )  # fmt: skip
-    return taken

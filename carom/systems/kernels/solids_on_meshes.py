@@ -8,8 +8,8 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import SAME_PLACE
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.hulls_narrow import most_of
-from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.mesh_areas import MOST_CORNERS, points_over_face, points_over_triangle
 from carom.systems.kernels.mesh_axes import ASIDE, FAR, ON_FACE, ON_POINT, ON_TRIANGLE, most_apart_from_triangle
 from carom.systems.kernels.mesh_boxes import BOX_ROOM, most_apart_from_box, place_box
@@ -26,9 +26,9 @@ from carom.systems.kernels.polyhedra import BOX, SEGMENT, face_towards, place_fa
 from carom.systems.kernels.spatial import product, turn
 
 
-@kernel("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
+@shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_solids_on_meshes(
-    which, first, second, reaches, taken, shape, size, position, rotation, geometry, hulls, meshes,
+    crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
     start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a capsule, box or hull and a mesh, in the form of `measure_balls`.
@@ -51,7 +51,9 @@ def measure_solids_on_meshes(
     found = np.empty(FEW, np.uint32)
     points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
     place, gaps, alike = np.empty(3 * FEW), np.empty(FEW), np.empty(FEW, np.int64)
-    for index in range(len(which)):
+    begin, end = part_of(crew, len(which))
+    taken += room * begin
+    for index in range(begin, end):
         pair, b, m = which[index], first[index], second[index]
         start[pair] = taken
         qx, qy, qz, qw = rotation[m, 0], rotation[m, 1], rotation[m, 2], rotation[m, 3]
@@ -161,4 +163,3 @@ def measure_solids_on_meshes(
         taken = write_chosen(
             points, names, kept, chosen, ox, oy, oz, qx, qy, qz, qw, taken, feature, normal, depth, point
         )
-    return taken

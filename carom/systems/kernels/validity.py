@@ -8,24 +8,27 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import MEASURED, UNIT_NORMAL
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.crew import part_of, shared
+from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.narrow import PLANE_SHAPE
 from carom.systems.kernels.spatial import turn
 
 SOUND, NOT_FINITE, NOT_UNIT, TOO_DEEP, TOO_FAR = range(5)
 
 
-@kernel("count", "feature", "normal", "depth", "point", "fault", "value", "limit")
+@shared("count", "feature", "normal", "depth", "point", "fault", "value", "limit", "numbers")
 def refuse_points(
-    pairs, reaches, shape, size, local, bound_center, bound_half, bound_radius, position, rotation,
-    start, count, feature, normal, depth, point, fault, value, limit,
+    crew, pairs, reaches, shape, size, local, bound_center, bound_half, bound_radius, position, rotation,
+    start, count, feature, normal, depth, point, fault, value, limit, numbers,
 ):  # fmt: skip
-    """Drop points that are no contacts and return (kept, dropped); the first fault of each pair is written.
+    """Drop points that are no contacts, and write the first fault of each pair.
 
     ``fault[p]`` says what is wrong, ``value[p]`` is what was received and ``limit[p]`` the end of what is accepted.
+    Each thread has a row of ``numbers``: how many points are kept and how many dropped.
     """
     kept, dropped = 0, 0
-    for p in range(len(pairs)):
+    begin, end = part_of(crew, len(pairs))
+    for p in range(begin, end):
         fault[p] = SOUND
         a, b = pairs[p, 0], pairs[p, 1]
         deepest, farthest = inf, (1.0 + MEASURED) * reaches[p] + MEASURED
@@ -63,7 +66,7 @@ def refuse_points(
             dropped += 1
         count[p] = to - start[p]
         kept += count[p]
-    return kept, dropped
+    numbers[crew[1], 0], numbers[crew[1], 1] = kept, dropped
 
 
 @inlined
