@@ -21,12 +21,13 @@ from carom.systems.detection.sensors import Sensing
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
+from carom.systems.threads import Threads
 
 Pair = tuple[int, int]  # sensor, entity
 
 
 @system(
-    reads=(RigidBody, Motion, Transform, Flight, Collider, Impact, Settings, Geometries, Progress),
+    reads=(RigidBody, Motion, Transform, Flight, Collider, Impact, Settings, Geometries, Threads, Progress),
     writes=(
         Enter, Exit, Inside, Sensing, ColliderPose, Answered, FclObjects, PackedHulls, PackedMeshes, Commands,
     ),

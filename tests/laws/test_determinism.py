@@ -116,8 +116,11 @@ def test_kernels_do_the_same_without_the_jit(here: list[str]) -> None:
 FEWEST = 8  # groups of eight that are shared here, fewer than pays
 
 
-def crowd(threads: int) -> list[str]:
-    """Return the hashes of 8 steps of 343 cubes and balls that fall on each other, shared by so many threads."""
+def crowd(threads: int, *, come: bool = True) -> list[str]:
+    """Return the hashes of 8 steps of 343 cubes and balls that fall on each other, shared by so many threads.
+
+    ``come`` says whether others than the first ever do.
+    """
     simulation = Simulation(threads=threads)
     simulation.add(collider={"plane": {}})
     for k in range(343):
@@ -132,14 +135,17 @@ def crowd(threads: int) -> list[str]:
             simulation.settings = replace(simulation.settings, threads=5)
             simulation.world.add(simulation.settings)
     assert simulation.world[Resting].groups >= FEWEST
-    assert (sum(parts_taken(simulation.world[Threads].crew)) > 0) == (threads > 1)
+    if threads > 1:
+        assert (sum(parts_taken(simulation.world[Threads].crew)) > 0) == come
     return found
 
 
 def test_threads_share_the_work_and_not_a_bit_changes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One and two threads, four, and five from the fourth step on, lead a crowd the same way, whatever is here."""
+    """One and two threads, four, and five from the fourth step on, lead a crowd the same way, whatever is here and whoever comes."""
     monkeypatch.setattr("carom.systems.threads.processors", lambda: 8)
     monkeypatch.setattr("carom.systems.threads.FEWEST", FEWEST)
     alone = crowd(1)
     assert crowd(2) == alone
     assert crowd(4) == alone
+    monkeypatch.setattr("carom.systems.threads.ring", lambda bells: None)
+    assert crowd(3, come=False) == alone

@@ -9,7 +9,10 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.relations.contact import Contact
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.narrow import Found, measure_pairs
+from carom.systems.kernels.crew import threads_of
+from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
+from carom.systems.threads import crew_for
 
 
 def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
@@ -18,14 +21,17 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     moved, moved_reaches = np.empty_like(pairs), np.empty_like(reaches)
     recycled = Found.room(contact.count)
     recycled.recycled[:] = True
-    count, moving = recycle_contacts(
-        pairs, reaches, contact.count, world.handles(), world.slots.row_shift,
+    crew = crew_for(world, len(pairs) // WIDTH)
+    ends = np.zeros((threads_of(crew), 2), np.int64)
+    recycle_contacts(
+        crew, pairs, reaches, contact.count, world.handles(), world.slots.row_shift,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation,
         contact.a, contact.b, contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b,
         contact.seat_depth, contact.form, contact.feature, contact.by_fcl,
-        moved, moved_reaches, *recycled[:-1],
+        moved, moved_reaches, *recycled[:-1], ends,
     )  # fmt: skip
+    count, moving = map(max, zip(*ends.tolist(), strict=True))  # not all may have come
     world[Answered].recycled += len(pairs) - moving
     if not moving:
         return recycled.take(slice(count))

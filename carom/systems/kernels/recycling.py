@@ -11,6 +11,7 @@ from math import pi
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import RECYCLED_SLIP, RECYCLED_TURN
+from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE
 from carom.systems.kernels.spatial import turn
@@ -27,21 +28,26 @@ def form_of_pair(a, b, shape, size, geometry):
     return form
 
 
-@kernel("moved", "moved_reaches", "row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl")
+@shared("moved", "moved_reaches", "row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "ends")
 def recycle_contacts(
-    pairs, reaches, old_count, handles, row_shift,
+    crew, pairs, reaches, old_count, handles, row_shift,
     shape, size, geometry, bound_half, bound_radius, position, rotation,
     a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, form, old_feature, old_by_fcl,
-    moved, moved_reaches, row_a, row_b, feature, normal, depth, point, by_fcl,
+    moved, moved_reaches, row_a, row_b, feature, normal, depth, point, by_fcl, ends,
 ):  # fmt: skip
     """Write the contacts, where their shapes are now, of all pairs that have hardly moved, and which pairs have moved.
 
     Moved has a pair of which one is a ball, which rolls, one of whose points has slipped or sunk by RECYCLED_SLIP of
     the smaller shape, or of which one shape has turned against the other. ``seat``, ``lean`` and ``seat_depth`` say
-    where the points and the normal were found on the two shapes. Return how many contacts and how many pairs they are.
+    where the points and the normal were found on the two shapes. Each thread has a row of ``ends``, where its contacts
+    and its pairs end: behind them are those of the next.
     """
-    count, moving, o = 0, 0, 0
-    for p in range(len(pairs)):
+    begin_pair, end_pair = part_of(crew, len(pairs))
+    o = 0
+    if 0 < begin_pair < end_pair:
+        o = first_of_pair(0, old_count, pairs[begin_pair, 0], pairs[begin_pair, 1], a, b, handles, row_shift)
+    begin_contact, count, moving = o, o, begin_pair  # they are no more than there were: no two threads write one place
+    for p in range(begin_pair, end_pair):
         x, y = pairs[p, 0], pairs[p, 1]
         moved[moving, 0], moved[moving, 1], moved_reaches[moving] = x, y, reaches[p]
         moving += 1
@@ -88,7 +94,28 @@ def recycle_contacts(
             moving -= 1
         else:
             count = begin
-    return count, moving
+    _, part, parts = crew
+    for turn_of in range(parts):
+        if turn_of == part:
+            to, to_pair = (ends[part - 1, 0], ends[part - 1, 1]) if part else (0, 0)
+            if to < begin_contact:
+                move_up(begin_contact, count, to, row_a, row_b, feature, normal, depth, point, by_fcl)
+            for p in range(begin_pair, moving if to_pair < begin_pair else begin_pair):
+                q = to_pair + p - begin_pair
+                moved[q, 0], moved[q, 1], moved_reaches[q] = moved[p, 0], moved[p, 1], moved_reaches[p]
+            ends[part, 0], ends[part, 1] = to + count - begin_contact, to_pair + moving - begin_pair
+        wait_for_all(crew, 1 + turn_of)
+
+
+@woven
+def move_up(begin, end, to, row_a, row_b, feature, normal, depth, point, by_fcl):
+    """Write contacts ``begin`` to ``end`` to an earlier place."""
+    for c in range(begin, end):
+        o = to + c - begin
+        row_a[o], row_b[o], feature[o], by_fcl[o] = row_a[c], row_b[c], feature[c], by_fcl[c]
+        depth[o] = depth[c]
+        for k in range(3):
+            normal[o, k], point[o, k] = normal[c, k], point[c, k]
 
 
 @woven

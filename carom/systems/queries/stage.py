@@ -19,6 +19,7 @@ from carom.systems.queries.scene import PLACED_BY, Scene
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.shapes.shape import Shape
+from carom.systems.threads import Threads
 
 ROOM = 16  # colliders that a query has room for at first
 
@@ -107,7 +108,7 @@ def _staged(world: World, scene: Scene, rows: Integers, placed: Placed) -> World
     rotation = np.concatenate([scene.rotation[rows], placed.rotation])
     stage = World(capacity=max(len(rows) + n, 1))
     packed = world[PackedHulls].forked(), world[PackedMeshes].forked()
-    for resource in (world[Settings], geometries, Answered(), FclObjects(), *packed):
+    for resource in (world[Settings], geometries, Threads(), Answered(), FclObjects(), *packed):
         stage.add(resource)
     stage.spawn_many(len(rows) + n, Collider(**columns), ColliderPose(position=position, rotation=rotation))
     return stage
