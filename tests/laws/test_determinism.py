@@ -141,7 +141,7 @@ def crowd(threads: int, *, come: bool = True) -> list[str]:
 
 
 def test_threads_share_the_work_and_not_a_bit_changes(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One and two threads, four, and five from the fourth step on, lead a crowd the same way, whatever is here and whoever comes."""
+    """One and two threads, four, and five from the fourth step on, lead a crowd the same way, whoever comes."""
     monkeypatch.setattr("carom.systems.threads.processors", lambda: 8)
     monkeypatch.setattr("carom.systems.threads.FEWEST", FEWEST)
     alone = crowd(1)

@@ -13,6 +13,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import pack
 from carom.systems.detection.meshes import joined
 from carom.systems.detection.narrow import STAND_INS
+from carom.systems.kernels.crew import ALONE
 from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes import Shape
 from carom.systems.shapes.orientation import Z_TO_Y
@@ -70,11 +71,12 @@ def measure_batch(
         np.zeros((MOST_POINTS * n, 3)),
     )
     rows = np.arange(n), np.arange(n, 2 * n)
-    taken = STAND_INS[type(a), type(b)](
-        np.arange(n), rows[swapped], rows[not swapped], np.full(n, reach), 0,
+    STAND_INS[type(a), type(b)](
+        ALONE, np.arange(n), rows[swapped], rows[not swapped], np.full(n, reach), 0, MOST_POINTS,
         np.repeat([a.number, b.number], n), size, position, rotation, np.full(2 * n, -1), pack({}), joined({}),
         start, count, feature, normal, depth, point,
     )  # fmt: skip
+    taken = count.sum()
     return Answer(start, count, feature[:taken], normal[:taken], depth[:taken], point[:taken])
 
 

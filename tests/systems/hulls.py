@@ -12,6 +12,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import pack
 from carom.systems.detection.meshes import joined
 from carom.systems.detection.narrow import STAND_INS
+from carom.systems.kernels.crew import ALONE
 from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes import Shape
 from carom.systems.shapes.box import Box
@@ -94,7 +95,7 @@ def measure(a: str, b: str, placed: Placed, reach: float = 0.0) -> Measured:
         np.zeros((room, 3)), np.zeros(room), np.zeros((room, 3)),
     )  # fmt: skip
     STAND_INS[type(SHAPES[a]), type(SHAPES[b])](
-        np.arange(n), np.arange(n), np.arange(n, 2 * n), np.full(n, reach), 0,
+        ALONE, np.arange(n), np.arange(n), np.arange(n, 2 * n), np.full(n, reach), 0, MOST_POINTS,
         np.repeat([SHAPES[a].number, SHAPES[b].number], n),
         np.repeat([SHAPES[a].packed(), SHAPES[b].packed()], n, axis=0),
         np.concatenate([placed.position_a, placed.position_b]),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from carom.ecs.relations.contact import Contact
 from carom.systems.detection import fcl_pairs, narrow
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.validity import ContactError
+from carom.systems.kernels.crew import ALONE
 from carom.systems.simulation import Simulation
 
 WRONG: list[tuple[dict[str, Any], str]] = [
@@ -40,14 +42,14 @@ def answer(monkeypatch: pytest.MonkeyPatch, **changed: Any) -> None:
     """Let kernels and FCL answer a point that lies on the ball, with something changed."""
     normal, depth, place = (SOUND | changed).values()
 
-    def by_kernel(which: Any, first: Any, second: Any, reaches: Any, taken: int, *arrays: Any) -> int:
+    def by_kernel(crew: Any, which: Any, *arrays: Any) -> int:
         start, count, feature, normals, depths, points = arrays[-6:]
         start[which[0]], count[which[0]], feature[0] = 0, 1, 0
         normals[0], depths[0], points[0] = normal, depth, place
         return 1
 
     monkeypatch.setattr(narrow, "FUNCTIONS", [by_kernel] * len(narrow.FUNCTIONS))
-    monkeypatch.setattr(fcl_pairs, "refine_answers", by_kernel)
+    monkeypatch.setattr(fcl_pairs, "refine_answers", partial(by_kernel, ALONE))
 
 
 @pytest.mark.parametrize("collision", ["auto", "fcl"])

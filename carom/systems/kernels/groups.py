@@ -10,7 +10,7 @@ from carom.systems.constants import MANIFOLD_POINTS
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.lane_vectors import dot, keep, plus, three
-from carom.systems.kernels.lanes import WIDTH, address, choose, lane_of, load, pick, spread, store
+from carom.systems.kernels.lanes import WIDTH, address, choose, lane_of, larger, load, pick, spread, store
 
 # Rows of eight numbers that a group has, a lane each manifold. First what is filled in when contacts are found: the
 # frame, which is two tangents and the normal, each the cross product of the other two; friction, restitution,
@@ -180,7 +180,7 @@ def fill_groups(
         keep(rows, r + RUBBED, zero, zero, zero)
         store(rows, r + RESTS, zero)
         store(rows, r + TOGETHER, zero)
-        store(rows, r + SHARE, choose(sizes, one / sizes, zero))
+        store(rows, r + SHARE, choose(sizes, one / larger(sizes, one), zero))
         store(rows, r + BALL, choose(sizes, choose(lane_of(numbers_at(kind, at)) + 0.5, one, zero), zero))
         store(rows, r + FRICTION, read_one(friction, at, sizes))
         store(rows, r + RESTITUTION, read_one(restitution, at, sizes))
