@@ -32,12 +32,12 @@ def wrong(monkeypatch: pytest.MonkeyPatch, deeper: float, tilt: float) -> None:
     """Let the kernel of balls answer too deep and with a tilted normal."""
     right = narrow.FUNCTIONS[0]
 
-    def measure(*arguments: Any) -> int:
-        before, taken = arguments[4], right(*arguments)
-        normal, depth = arguments[-3], arguments[-2]
-        depth[before:taken] += deeper
-        normal[before:taken] = np.cos(tilt) * normal[before:taken] + np.sin(tilt) * np.array([0.0, 0.0, 1.0])
-        return int(taken)
+    def measure(*arguments: Any) -> None:
+        right(*arguments)
+        start, count, _, normal, depth, _ = arguments[-6:]
+        for first in start[count > 0]:  # a pair of which one is a ball has one point
+            depth[first] += deeper
+            normal[first] = np.cos(tilt) * normal[first] + np.sin(tilt) * np.array([0.0, 0.0, 1.0])
 
     monkeypatch.setattr(narrow, "FUNCTIONS", [measure, *narrow.FUNCTIONS[1:]])
 
@@ -100,7 +100,7 @@ def test_a_contact_only_one_way_sees_is_a_disagreement(
     world: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Here the kernel sees none in the audit of a run by FCL."""
-    monkeypatch.setattr(narrow, "FUNCTIONS", [lambda *arguments: arguments[4], *narrow.FUNCTIONS[1:]])
+    monkeypatch.setattr(narrow, "FUNCTIONS", [lambda *arguments: None, *narrow.FUNCTIONS[1:]])
     status, lines = audited(world, capsys, "--collision", "fcl")
     assert status == 1
     assert (
