@@ -11,7 +11,6 @@ from carom.systems.forces.standing import Standing
 from carom.systems.kernels.flight import accelerate, predict_middle
 from carom.systems.kernels.forces import clear_sums
 from carom.systems.kernels.kicking import EULER, SEMI_IMPLICIT, VERLET, kick_bodies
-from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.threads import Threads, crew_for
@@ -31,7 +30,7 @@ def predict(world: World, dt: float) -> None:
     half = 0.5 * dt if in_the_middle(world) else 0.0
     rows = world[Awake].now(world)
     predict_middle(
-        crew_for(world, len(rows) // WIDTH), rows, half, body.center_of_mass, body.freedom, flight.held,
+        crew_for(world, len(rows)), rows, half, body.center_of_mass, body.freedom, flight.held,
         motion.linear_acceleration, motion.angular_acceleration,
         transform.position, transform.rotation, motion.linear, motion.angular,
         flight.center, flight.start_center, flight.start_position, flight.start_rotation,
@@ -82,7 +81,7 @@ def kick(world: World, dt: float) -> None:
     motion, flight, force, body = world[Motion], world[Flight], world[Force], world[RigidBody]
     rows = world[Awake].now(world)
     kick_bodies(
-        crew_for(world, len(rows) // WIDTH), rows, dt, SCHEMES[world[Settings].integrator],
+        crew_for(world, len(rows)), rows, dt, SCHEMES[world[Settings].integrator],
         body.inverse_mass, body.freedom, force.drag, force.drag_flow, force.angular_drag, flight.felt, flight.touching,
         motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
         flight.decay, flight.angular_decay, flight.flow, motion.linear_acceleration, motion.angular_acceleration,

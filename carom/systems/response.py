@@ -25,7 +25,6 @@ from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impact_log import write_impacts
 from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, fly
-from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.settling import finish_drift
 from carom.systems.landings import Landings
 from carom.systems.ledger import Ledger
@@ -159,7 +158,7 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
         now, reason, events = _meet(world, at, h, bend, events, until)
     rows = world[Awake].now(world)
     advance_bodies(
-        crew_for(world, len(rows) // WIDTH), rows, now, bend, flight.center, transform.rotation, flight.turned,
+        crew_for(world, len(rows)), rows, now, bend, flight.center, transform.rotation, flight.turned,
         motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
         body.inverse_mass, body.inertia, body.principal_axes, body.freedom, ledger.pull, ledger.arc,
     )  # fmt: skip
@@ -207,7 +206,7 @@ def _finish(world: World, dt: float, *, ended: bool) -> None:
     flight, motion, transform, body = world[Flight], world[Motion], world[Transform], world[RigidBody]
     rows = world[Awake].now(world)
     finish_drift(
-        crew_for(world, len(rows) // WIDTH), rows, ended, dt, body.inverse_mass, body.center_of_mass, body.freedom,
+        crew_for(world, len(rows)), rows, ended, dt, body.inverse_mass, body.center_of_mass, body.freedom,
         flight.start_position, flight.start_rotation, flight.decay, flight.angular_decay, flight.flow,
         transform.rotation, flight.center, motion.linear, motion.angular, transform.position,
     )  # fmt: skip

@@ -17,7 +17,8 @@ from carom.systems.awake import Awake
 from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, MANIFOLD_POINTS, RELAX_SWEEPS, RIGID_RATE
 from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.crew import threads_of
-from carom.systems.kernels.groups import fill_groups, group_manifolds, hand_over
+from carom.systems.kernels.filling import fill_groups, hand_over
+from carom.systems.kernels.groups import group_manifolds
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
@@ -108,7 +109,7 @@ class Resting(Resource):
         if len(self.lanes) < rows:
             self.lanes = aligned(2 * rows, WIDTH)
         fill_groups(
-            crew_for(world, self.groups), self.order[: self.groups], self.first, self.size, self.row, self.points,
+            crew_for(world, self.count), self.order[: self.groups], self.first, self.size, self.row, self.points,
             contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.kind,
             contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
@@ -152,7 +153,7 @@ class Resting(Resource):
     def _pack_anew(self, world: World) -> None:
         flight, motion, body, rows = world[Flight], world[Motion], world[RigidBody], self.rows(world)
         weigh = bool(self.groups) or not self._knows(world)
-        crew = crew_for(world, len(rows) // WIDTH)
+        crew = crew_for(world, len(rows))
         apart = np.zeros(threads_of(crew), np.bool_)
         pack_bodies(
             crew, rows, weigh, body.center_of_mass, flight.center, motion.linear, motion.angular, flight.felt,
@@ -167,7 +168,7 @@ class Resting(Resource):
         contact, flight, settings = world[Contact], world[Flight], world[Settings]
         last, joined = world[Progress].left == 0.0, world[Linkage].holds
 
-        crew = crew_for(world, self.groups)
+        crew = crew_for(world, self.count)
         numbers = np.zeros((threads_of(crew), 2), np.int64)
         sort_groups(
             crew, self.order[: self.groups], h, settings.integrator == "verlet", last,
@@ -195,7 +196,7 @@ class Resting(Resource):
             motion = world[Motion]
             pack_velocities(self.rows(world), motion.linear, motion.angular, self.bodies[VELOCITY])
             find_closing(
-                crew_for(world, self.groups), self.order[: self.groups], h, self.index_a, self.index_b, self.first,
+                crew_for(world, self.count), self.order[: self.groups], h, self.index_a, self.index_b, self.first,
                 self.points, self.row, self.lanes, self.bodies, self.closes,
             )  # fmt: skip
         return self.closes
@@ -207,11 +208,9 @@ class Resting(Resource):
             return
         flight, contact, self.packed = world[Flight], world[Contact], None
         rows = self.rows(world)
-        pack_ways(
-            crew_for(world, len(rows) // WIDTH), rows, flight.start_center, flight.center, flight.turned, self.bodies
-        )
+        pack_ways(crew_for(world, len(rows)), rows, flight.start_center, flight.center, flight.turned, self.bodies)
         sink_contacts(
-            crew_for(world, self.groups), self.order[: self.groups], self.index_a, self.index_b, self.first, self.size,
+            crew_for(world, self.count), self.order[: self.groups], self.index_a, self.index_b, self.first, self.size,
             self.points, self.row, contact.kind, self.bodies, self.lanes, contact.depth,
         )  # fmt: skip
 
@@ -259,7 +258,7 @@ class Resting(Resource):
         """Press all groups, level by level."""
         if not self.groups:
             return
-        crew = crew_for(world, self.groups)
+        crew = crew_for(world, self.count)
         if len(self.scratch) < threads_of(crew):
             self.scratch = aligned(threads_of(crew), SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH)
         press_groups(
@@ -278,7 +277,7 @@ class Resting(Resource):
             return
         contact = world[Contact]
         hand_over(
-            crew_for(world, self.groups), self.order[: self.groups], self.first, self.size, self.row, self.lanes,
+            crew_for(world, self.count), self.order[: self.groups], self.first, self.size, self.row, self.lanes,
             contact.impulse, contact.friction_impulse,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling,
         )  # fmt: skip

@@ -17,7 +17,7 @@ from carom.ecs.component import Resource
 from carom.systems.kernels.crew import ALONE, SHIFT, make_crew, serve
 from carom.systems.settings import Settings
 
-FEWEST = 128  # groups of eight contacts or bodies below which sharing takes about as long as it saves
+FEWEST = 1024  # bodies, pairs or contacts below which sharing takes about as long as it saves
 
 
 class Threads(Resource):
@@ -25,36 +25,41 @@ class Threads(Resource):
 
     def __init__(self) -> None:
         self.crew = ALONE
-        self.stepping = self.called = self._awaited = False
+        self.stepping = self._called = self._wanted = False
         self._parts, self._bells = 1, list[Lock]()
         self._dismissal: finalize[..., Threads] | None = None
 
     @contextmanager
     def step(self) -> Iterator[None]:
-        """Let work be shared until this is left; who was called in the step before is called at once."""
+        """Let work be shared until this is left; who had some in the step before is called at once."""
         self.stepping = True
-        if self._awaited:
-            self.call(self._parts)
+        if self._wanted:
+            self._call()
+        self._wanted = False
         try:
             yield
         finally:
-            self.stepping, self._awaited = False, self.called
+            self.stepping = False
             self._send_away()
 
     def call(self, parts: int) -> Integers:
         """Return a crew of so many threads, called if they have not been in this step."""
+        self._wanted = True
         if self._parts != parts:
             self._send_away()
             self._engage(parts)
-        if not self.called:
-            self.called = True
-            self.crew[SHIFT] += 1
-            ring(self._bells)
+        if not self._called:
+            self._call()
         return self.crew
 
+    def _call(self) -> None:
+        self._called = True
+        self.crew[SHIFT] += 1
+        ring(self._bells)
+
     def _send_away(self) -> None:
-        if self.called:
-            self.called = False
+        if self._called:
+            self._called = False
             self.crew[SHIFT] += 1
 
     def _engage(self, parts: int) -> None:
@@ -99,7 +104,7 @@ def processors() -> int:
 
 
 def crew_for(world: World, count: int) -> Integers:
-    """Return who shares ``count`` groups of eight contacts or bodies; what they compute does not depend on it."""
+    """Return who shares work on ``count`` bodies, pairs or contacts; what they compute does not depend on it."""
     threads = world[Threads]
     if count < FEWEST or not threads.stepping or numba.config.DISABLE_JIT:
         return ALONE

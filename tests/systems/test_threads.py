@@ -101,6 +101,35 @@ def test_threads_go_with_their_world(monkeypatch: pytest.MonkeyPatch) -> None:
         time.sleep(1e-3)
 
 
+@shared("sizes", makes_arrays=True)
+def make_arrays(crew, sizes):  # type: ignore[no-untyped-def]
+    """Make an array of a size that is given to each thread."""
+    sizes[crew[1]] = len(np.empty(sizes[crew[1]]))
+
+
+@pytest.mark.parametrize("failing", [0, 1, 2])
+def test_who_finds_no_memory_says_so(failing: int) -> None:
+    """Whoever of three threads fails, the caller is told; the next time all is well."""
+    with gathered(3) as crew:
+        sizes = np.full(3, 5)
+        sizes[failing] = 1 << 58
+        with pytest.raises(MemoryError, match=r"^a kernel has no memory for its arrays$"):
+            make_arrays(crew, sizes)
+        make_arrays(crew, np.full(3, 5))
+
+
+def test_who_had_nothing_to_do_is_not_called_again() -> None:
+    """They are called at once as long as the step before had work for them."""
+    threads = Threads()
+    called = []
+    for wanted in (True, False, False):
+        with threads.step():
+            called.append(threads.crew[SHIFT] % 2 == 0 and threads.crew is not ALONE)
+            if wanted:
+                threads.call(2)
+    assert called == [False, True, False]
+
+
 def test_a_step_that_fails_sends_them_away() -> None:
     """Whatever ends a step, nobody is left waiting for work."""
     threads = Threads()

@@ -24,7 +24,6 @@ from carom.systems.detection.recycling import measure_what_moved
 from carom.systems.detection.seams import without_seams
 from carom.systems.detection.sensors import Sensing, without_sensors
 from carom.systems.kernels.contacts import complete_contacts
-from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.kernels.renewal import renew_contacts
@@ -107,7 +106,7 @@ def store(world: World, found: Found) -> None:
 def fill(world: World, found: Found, old_count: int, count: int) -> None:
     """Write what is known of contacts, and what follows from it, into the contact table."""
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
-    crew = crew_for(world, count // WIDTH)
+    crew = crew_for(world, count)
     renew_contacts(
         crew, np.full(count, -1), np.zeros(old_count, np.bool_),
         old_count, world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,

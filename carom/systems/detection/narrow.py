@@ -21,7 +21,6 @@ from carom.systems.kernels.capsules_narrow import measure_balls_on_capsules, mea
 from carom.systems.kernels.capsules_on_boxes import measure_capsules_on_boxes
 from carom.systems.kernels.hulls_narrow import measure_hulls, measure_hulls_on_planes
 from carom.systems.kernels.kernel import Kernel
-from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.mesh_points import MOST_MESH_POINTS
 from carom.systems.kernels.narrow import collect_points, sort_by_function
 from carom.systems.kernels.planes_narrow import measure_boxes_on_planes, measure_capsules_on_planes
@@ -148,7 +147,7 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
         if bucket.stop > bucket.start:
             count, room = bucket.stop - bucket.start, ROOMS[number]
             function(
-                crew_for(world, count // WIDTH), order[bucket], first[bucket], second[bucket], reaches, taken, room,
+                crew_for(world, count), order[bucket], first[bucket], second[bucket], reaches, taken, room,
                 collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls, meshes,
                 points.start, points.count, points.feature, points.normal, points.depth, points.point,
             )  # fmt: skip
@@ -156,7 +155,7 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     kept = keep_sound(world, pairs, reaches, points)
     found = Found.room(kept)
     collect_points(
-        crew_for(world, n // WIDTH), pairs, order, first, by_fcl, points.start, points.count,
+        crew_for(world, n), pairs, order, first, by_fcl, points.start, points.count,
         points.feature, points.normal, points.depth, points.point, np.empty(n), *found[:-1],
     )  # fmt: skip
     return found

@@ -10,7 +10,6 @@ from carom.ecs.relations.contact import Contact
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.kernels.crew import threads_of
-from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
 from carom.systems.threads import crew_for
 
@@ -21,7 +20,7 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     moved, moved_reaches = np.empty_like(pairs), np.empty_like(reaches)
     recycled = Found.room(contact.count)
     recycled.recycled[:] = True
-    crew = crew_for(world, len(pairs) // WIDTH)
+    crew = crew_for(world, len(pairs))
     ends = np.zeros((threads_of(crew), 2), np.int64)
     recycle_contacts(
         crew, pairs, reaches, contact.count, world.handles(), world.slots.row_shift,

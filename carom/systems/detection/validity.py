@@ -13,7 +13,6 @@ from carom.ecs.errors import CaromError
 from carom.systems.constants import UNIT_NORMAL
 from carom.systems.detection.answered import Answered
 from carom.systems.kernels.crew import threads_of
-from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.kernels.validity import NOT_FINITE, NOT_UNIT, TOO_DEEP, TOO_FAR, refuse_points
 from carom.systems.shapes.shape import BY_NUMBER
 from carom.systems.threads import crew_for
@@ -38,7 +37,7 @@ def keep_sound(world: World, pairs: Integers, reaches: Floats, points: Points) -
     collider, pose = world[Collider], world[ColliderPose]
     n = len(pairs)
     fault, value, limit = np.empty(n, np.int64), np.empty(n), np.empty(n)
-    crew = crew_for(world, n // WIDTH)
+    crew = crew_for(world, n)
     numbers = np.zeros((threads_of(crew), 2), np.int64)
     refuse_points(
         crew, pairs, reaches, collider.shape, collider.size,

@@ -10,7 +10,6 @@ from carom.ecs.column import Floats
 from carom.systems.bodies import centers_of_mass
 from carom.systems.forces.law import Forces, Law, parameter
 from carom.systems.gravitation import attract
-from carom.systems.kernels.lane_widths import WIDTH
 from carom.systems.settings import Settings
 from carom.systems.threads import Threads, crew_for
 
@@ -48,4 +47,4 @@ def apply_mutual_gravitation(world: World, dt: float) -> None:
     for law, rows in world[Forces].acting(MutualGravitation, world):
         mass, center = world[RigidBody].mass[rows], centers_of_mass(world, rows)
         words = law.constant, law.softening, law.opening
-        world[Force].force[rows] += attract(mass, center, *words, crew_for(world, len(rows) // WIDTH))[0]
+        world[Force].force[rows] += attract(mass, center, *words, crew_for(world, len(rows)))[0]

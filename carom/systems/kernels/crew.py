@@ -14,11 +14,11 @@ from carom.systems.kernels.lane_widths import WIDTH
 
 # Words of the crew: which shift it is, none where odd; the kernel and its arguments; how many take part. On the next
 # line of the cache the gate, where they wait for each other. Then for each thread but the first what it was asked for,
-# so often, and on a line of its own which shift it has come to and how often it has done what it was asked for: who
-# waits on a line that nobody writes disturbs nobody.
+# so often, and on a line of its own which shift it has come to, how often it has done what it was asked for, and
+# whether it failed the last time: who waits on a line that nobody writes disturbs nobody.
 LINE = 8
 SHIFT, TASK, DATA, PARTS, GATE = 0, 1, 2, 3, LINE
-ASKED, HERE, DONE, ROOM = 0, LINE, LINE + 1, 2 * LINE
+ASKED, HERE, DONE, FAILED, ROOM = 0, LINE, LINE + 1, LINE + 2, 2 * LINE
 SPINS = 200  # looks at a word before a thread lets others have its processor
 
 
@@ -66,9 +66,12 @@ def perform(crew, *arguments):
         tell(crew, GATE, 0)
         for part in range(1, parts):
             count_up(crew, ROOM * part + ASKED)
-    call(task, data, 0, parts)
+    failed = call(task, data, 0, parts)
     for part in range(1, parts):
         wait_for(crew, ROOM * part + DONE, look(crew, ROOM * part + ASKED))
+        failed += look(crew, ROOM * part + FAILED)
+    if failed > 0:
+        raise MemoryError("a kernel has no memory for its arrays")  # nothing else makes one fail
 
 
 @kernel("crew")
@@ -82,7 +85,7 @@ def serve(crew, part, shift):
         if look(crew, own + ASKED) == done:
             looks = rest(looks)
             continue
-        call(look(crew, TASK), look(crew, DATA), part, look(crew, PARTS))
+        tell(crew, own + FAILED, call(look(crew, TASK), look(crew, DATA), part, look(crew, PARTS)))
         done += 1
         tell(crew, own + DONE, done)
 

@@ -29,9 +29,10 @@ if numba.config.DISABLE_JIT:  # kernels are not shared then
         return function, (crew, arguments)
 
     def call(task, data, part, parts):
-        """Call a task that `describe` has found."""
+        """Call a task that `describe` has found; return 1 where it fails, else 0."""
         crew, arguments = data
         task((crew, part, parts), *arguments)
+        return 0
 
 else:
     from llvmlite import ir
@@ -39,7 +40,7 @@ else:
     from numba.extending import intrinsic
 
     WHOLE, BYTES = ir.IntType(64), ir.IntType(8).as_pointer()
-    TASK = ir.FunctionType(ir.VoidType(), [BYTES, WHOLE, WHOLE])
+    TASK = ir.FunctionType(WHOLE, [BYTES, WHOLE, WHOLE])
 
     def _word(context, builder, sig, values):
         return builder.gep(context.make_array(sig.args[0])(context, builder, values[0]).data, [values[1]])
@@ -107,19 +108,19 @@ else:
             words, others = cgutils.unpack_tuple(inner, there, 2)
             passed = (context.make_tuple(inner, share, [words, part, parts]), *cgutils.unpack_tuple(inner, others))
             target = context.declare_function(builder.module, compiled.fndesc)
-            context.call_conv.call_function(inner, target, called.return_type, called.args, passed)
-            inner.ret_void()
+            status, _ = context.call_conv.call_function(inner, target, called.return_type, called.args, passed)
+            inner.ret(inner.zext(status.is_error, WHOLE))
             return context.make_tuple(builder, sig.return_type, [builder.ptrtoint(it, WHOLE) for it in (task, data)])
 
         return types.UniTuple(types.int64, 2)(function, crew, arguments), lower
 
     @intrinsic
     def call(typing, task, data, part, parts):
-        """Call a task that `describe` has found."""
+        """Call a task that `describe` has found; return 1 where it fails, else 0."""
 
         def lower(context, builder, sig, values):
             task, data, part, parts = values
-            builder.call(builder.inttoptr(task, TASK.as_pointer()), [builder.inttoptr(data, BYTES), part, parts])
-            return context.get_dummy_value()
+            place = builder.inttoptr(data, BYTES)
+            return builder.call(builder.inttoptr(task, TASK.as_pointer()), [place, part, parts])
 
-        return types.void(types.int64, types.int64, types.int64, types.int64), lower
+        return types.int64(types.int64, types.int64, types.int64, types.int64), lower

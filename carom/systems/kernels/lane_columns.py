@@ -7,7 +7,7 @@ import numba
 import numpy as np
 
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lanes import WIDTH, address, larger, spread, which
+from carom.systems.kernels.lanes import WIDTH, address, choose, larger, spread, which
 
 ALL = (1 << WIDTH) - 1
 SMALLEST = 5e-324  # the smallest number above 0: nothing lies between
@@ -25,6 +25,14 @@ if numba.config.DISABLE_JIT:
             np.reshape(column, (-1, width))[first : first + WIDTH] = np.array(lanes).T
 
         return store_rows
+
+    def lane_of(numbers):
+        """Return eight whole numbers in lanes."""
+        return np.array(numbers, np.float64)
+
+    def pick(column, width, k, places):
+        """Return the k-th of the ``width`` numbers of a column's rows at eight places."""
+        return np.reshape(column, (-1, width))[np.array(places), k]
 
 else:
     from llvmlite import ir
@@ -72,6 +80,38 @@ else:
 
         return store_rows
 
+    WHOLES = types.UniTuple(types.int64, WIDTH)
+
+    def _collected(builder, numbers):
+        vector = ir.Constant(VECTOR, ir.Undefined)
+        for lane, number in enumerate(numbers):
+            vector = builder.insert_element(vector, number, INTEGER(lane))
+        return vector
+
+    @intrinsic
+    def lane_of(typing, numbers):
+        """Return eight whole numbers in lanes."""
+
+        def lower(context, builder, sig, values):
+            numbers = cgutils.unpack_tuple(builder, values[0], WIDTH)
+            return _collected(builder, [builder.sitofp(number, ir.DoubleType()) for number in numbers])
+
+        return LANE(WHOLES), lower
+
+    @intrinsic
+    def pick(typing, column, width, k, places):
+        """Return the k-th of the ``width`` numbers of a column's rows at eight places."""
+
+        def lower(context, builder, sig, values):
+            column, width, k, places = values
+            found = []
+            for place in cgutils.unpack_tuple(builder, places, WIDTH):
+                at = builder.add(builder.mul(place, width), k)
+                found.append(builder.load(_place(builder, column, at, ir.DoubleType())))
+            return _collected(builder, found)
+
+        return LANE(types.int64, types.int64, types.int64, WHOLES), lower
+
 
 load_one, load_three, load_four, load_six = _loading(1), _loading(3), _loading(4), _loading(6)
 store_one, store_three, store_four = _storing(1), _storing(3), _storing(4)
@@ -117,6 +157,32 @@ def set_all(value, column, width, i):
     for at in range(width * i, width * (i + WIDTH), WIDTH):
         if not is_all(value, load_flat(column, at)):
             store_flat(column, at, spread(value))
+
+
+@woven
+def numbers_at(column, at):
+    """Return eight whole numbers of a column."""
+    return (
+        column[at[0]], column[at[1]], column[at[2]], column[at[3]],
+        column[at[4]], column[at[5]], column[at[6]], column[at[7]],
+    )  # fmt: skip
+
+
+@woven
+def pick_one(column, at, there):
+    """Return the numbers of a column at eight places, 0 where there is none."""
+    return choose(there, pick(address(column), 1, 0, at), spread(0.0))
+
+
+@woven
+def pick_three(column, at, there):
+    """Return the vectors of a column as `pick_one` does numbers."""
+    rows, zero = address(column), spread(0.0)
+    return (
+        choose(there, pick(rows, 3, 0, at), zero),
+        choose(there, pick(rows, 3, 1, at), zero),
+        choose(there, pick(rows, 3, 2, at), zero),
+    )
 
 
 @woven

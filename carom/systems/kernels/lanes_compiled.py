@@ -240,42 +240,6 @@ def which(typing, test):
     return types.int64(LANE), lower
 
 
-WHOLES = types.UniTuple(types.int64, WIDTH)
-
-
-def _collected(builder, numbers):
-    vector = ir.Constant(VECTOR, ir.Undefined)
-    for lane, number in enumerate(numbers):
-        vector = builder.insert_element(vector, number, INTEGER(lane))
-    return vector
-
-
-@intrinsic
-def lane_of(typing, numbers):
-    """Return eight whole numbers in lanes."""
-
-    def lower(context, builder, sig, values):
-        numbers = cgutils.unpack_tuple(builder, values[0], WIDTH)
-        return _collected(builder, [builder.sitofp(number, ir.DoubleType()) for number in numbers])
-
-    return LANE(WHOLES), lower
-
-
-@intrinsic
-def pick(typing, column, width, k, places):
-    """Return the k-th of the ``width`` numbers of a column's rows at eight places."""
-
-    def lower(context, builder, sig, values):
-        column, width, k, places = values
-        found = []
-        for place in cgutils.unpack_tuple(builder, places, WIDTH):
-            at = builder.add(builder.mul(place, width), k)
-            found.append(builder.load(_place(builder, column, at, ir.DoubleType())))
-        return _collected(builder, found)
-
-    return LANE(types.int64, types.int64, types.int64, WHOLES), lower
-
-
 @intrinsic
 def gather(typing, plane, index, group):
     """Return the eight numbers of each body of a group in a plane, each number a lane."""

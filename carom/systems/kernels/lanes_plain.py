@@ -63,16 +63,6 @@ def which(test):
     return int(((test > 0.0) << np.arange(WIDTH)).sum())
 
 
-def lane_of(numbers):
-    """Return eight whole numbers in lanes."""
-    return np.array(numbers, np.float64)
-
-
-def pick(column, width, k, places):
-    """Return the k-th of the ``width`` numbers of a column's rows at eight places."""
-    return np.reshape(column, (-1, width))[np.array(places), k]
-
-
 def planes(bodies):
     """Return where each plane (n, 8) of an array (4, n, 8) is, as `gather` takes it."""
     return tuple(bodies)

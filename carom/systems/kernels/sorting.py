@@ -14,7 +14,8 @@ from carom.systems.kernels.balls_in_lanes import (
     write_touches,
 )
 from carom.systems.kernels.crew import part_of, shared
-from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, place_points, tangents_of
+from carom.systems.kernels.filling import place_points, tangents_of
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.kinematic import follow_turning
 from carom.systems.kernels.lane_vectors import dot, keep, three

@@ -1,0 +1,158 @@
+"""Filling: what contacts hold goes into the lanes of their groups, and what the resting stage has found back."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.kernels.crew import part_of, shared
+from carom.systems.kernels.groups import (
+    ABSENT,
+    AT,
+    BALL,
+    DEPTH,
+    FRICTION,
+    MANIFOLD_ROWS,
+    MIDDLE_A,
+    MIDDLE_B,
+    NORMAL,
+    POINT_ROWS,
+    RESTITUTION,
+    RESTS,
+    ROLLED,
+    ROLLING,
+    RUB,
+    RUBBED,
+    SHARE,
+    SPINNING,
+    SPUN,
+    SUM,
+    SURFACE,
+    TANGENT,
+    TOGETHER,
+    WARM,
+)
+from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lane_columns import lane_of, numbers_at, pick, pick_one, pick_three
+from carom.systems.kernels.lane_vectors import dot, keep, plus, three
+from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, spread, store
+
+LANES = tuple(range(WIDTH))
+
+
+@shared("lanes")
+def fill_groups(
+    crew, order, first, size, row, points, normal, depth, offset_a, offset_b, kind,
+    friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
+):  # fmt: skip
+    """Write what contacts hold into the lanes of their groups.
+
+    Of friction and rolling only their sums are of use: all points share them alike.
+    """
+    rows, zero, one = address(lanes), spread(0.0), spread(1.0)
+    begin, end = part_of(crew, len(order))
+    for g in order[begin:end]:
+        r, at, sizes = row[g], places_of(g, 0, first, size), lane_of(numbers_at(size[g], LANES))
+        keep(rows, r + RUBBED, zero, zero, zero)
+        store(rows, r + RESTS, zero)
+        store(rows, r + TOGETHER, zero)
+        store(rows, r + SHARE, choose(sizes, one / larger(sizes, one), zero))
+        store(rows, r + BALL, choose(sizes, choose(lane_of(numbers_at(kind, at)) + 0.5, one, zero), zero))
+        store(rows, r + FRICTION, pick_one(friction, at, sizes))
+        store(rows, r + RESTITUTION, pick_one(restitution, at, sizes))
+        store(rows, r + ROLLING, pick_one(rolling, at, sizes))
+        store(rows, r + SPINNING, pick_one(spinning, at, sizes))
+        x, y, z = pick_three(surface, at, sizes)
+        keep(rows, r + SURFACE, x, y, z)
+        n, pushed, rolled = pick_three(normal, at, sizes), (zero, zero, zero), (zero, zero, zero)
+        for p in range(points[g]):
+            q, at, there = r + MANIFOLD_ROWS + POINT_ROWS * p, places_of(g, p, first, size), sizes - float(p)
+            store(rows, q + WARM, pick_one(warm_normal, at, there))
+            store(rows, q + SUM, zero)
+            pushed = plus(pushed, pick_three(warm_friction, at, there))
+            rolled = plus(rolled, pick_three(warm_rolling, at, there))
+        t, u = tangents_of(n)
+        keep(rows, r + NORMAL, n[0], n[1], n[2])
+        keep(rows, r + TANGENT, t[0], t[1], t[2])
+        keep(rows, r + TANGENT + 3, u[0], u[1], u[2])
+        store(rows, r + RUB, dot(pushed, t))
+        store(rows, r + RUB + 1, dot(pushed, u))
+        along = dot(n, rolled)
+        store(rows, r + SPUN, along)
+        keep(rows, r + ROLLED, rolled[0] - along * n[0], rolled[1] - along * n[1], rolled[2] - along * n[2])
+        place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
+
+
+@woven
+def places_of(g, p, first, size):
+    """Return where the p-th contacts of a group's manifolds are, the last ones of those that have fewer."""
+    return (
+        place_of(g, 0, p, first, size), place_of(g, 1, p, first, size), place_of(g, 2, p, first, size),
+        place_of(g, 3, p, first, size), place_of(g, 4, p, first, size), place_of(g, 5, p, first, size),
+        place_of(g, 6, p, first, size), place_of(g, 7, p, first, size),
+    )  # fmt: skip
+
+
+@woven
+def place_of(g, lane, p, first, size):
+    """Return where the p-th contact of a manifold is; anywhere, where there is no manifold."""
+    return max(0, first[g, lane] + min(p, size[g, lane] - 1))
+
+
+@woven
+def tangents_of(n):
+    """Return two tangents to the normals of a group.
+
+    Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6 (1), 2017, as `plane_axes`.
+    """
+    x, y, z = n
+    sign = choose(-z, spread(-1.0), spread(1.0))
+    p = -1.0 / (sign + z)
+    q = x * y * p
+    return (1.0 + sign * x * x * p, sign * q, -sign * x), (q, sign + y * y * p, -y)
+
+
+@woven
+def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
+    """Write where the points of a group are in its frame, and how deep."""
+    rows, zero, sizes = address(lanes), spread(0.0), lane_of(numbers_at(size[g], LANES))
+    t, u, n = three(rows, r + TANGENT), three(rows, r + TANGENT + 3), three(rows, r + NORMAL)
+    of_a, of_b = (zero, zero, zero), (zero, zero, zero)
+    for p in range(points):
+        q, at, there = r + MANIFOLD_ROWS + POINT_ROWS * p, places_of(g, p, first, size), sizes - float(p)
+        a, b = pick_three(offset_a, at, there), pick_three(offset_b, at, there)
+        along, across = dot(t, b), dot(u, b)
+        of_a, of_b = plus(of_a, (dot(t, a), dot(u, a), dot(n, a))), plus(of_b, (along, across, dot(n, b)))
+        store(rows, q + AT, along)
+        store(rows, q + AT + 1, across)
+        store(rows, q + DEPTH, choose(there, pick(address(depth), 1, 0, at), spread(ABSENT)))
+    share = load(rows, r + SHARE)
+    keep(rows, r + MIDDLE_A, share * of_a[0], share * of_a[1], share * of_a[2])
+    keep(rows, r + MIDDLE_B, share * of_b[0], share * of_b[1], share * of_b[2])
+    for p in range(points):
+        q, there = r + MANIFOLD_ROWS + POINT_ROWS * p, sizes - float(p)
+        store(rows, q + AT, choose(there, load(rows, q + AT) - share * of_b[0], zero))
+        store(rows, q + AT + 1, choose(there, load(rows, q + AT + 1) - share * of_b[1], zero))
+
+
+@shared("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
+def hand_over(
+    crew, order, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling
+):
+    """Write the impulses that the resting stage has found back into the contact table."""
+    begin, end = part_of(crew, len(order))
+    for g in order[begin:end]:
+        r = row[g]
+        for lane in range(WIDTH):
+            share, spun = lanes[r + SHARE, lane], lanes[r + SPUN, lane]
+            rub, rub_across = share * lanes[r + RUB, lane], share * lanes[r + RUB + 1, lane]
+            for p in range(size[g, lane]):
+                c, q = first[g, lane] + p, r + MANIFOLD_ROWS + POINT_ROWS * p
+                warm_normal[c] = lanes[q + WARM, lane]
+                impulse[c] += lanes[q + SUM, lane]
+                lanes[q + SUM, lane] = 0.0
+                for k in range(3):
+                    t = r + TANGENT + k
+                    warm_friction[c, k] = rub * lanes[t, lane] + rub_across * lanes[t + 3, lane]
+                    friction_impulse[c, k] += share * lanes[r + RUBBED + k, lane]
+                    warm_rolling[c, k] = share * (spun * lanes[r + NORMAL + k, lane] + lanes[r + ROLLED + k, lane])
+            for k in range(3):
+                lanes[r + RUBBED + k, lane] = 0.0
