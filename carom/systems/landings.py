@@ -13,7 +13,7 @@ from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
-from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, RUB, TANGENT, WARM
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, RUB, WARM
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 
@@ -56,13 +56,11 @@ class Landings(Resource):
         manifolds, self._manifolds = self._manifolds, self._manifolds[:0]
         group, lane = resting.group_of[manifolds], resting.lane_of[manifolds]
         row, points = resting.row[group], np.diff(resting.start)[manifolds]
-        impulse, rubbed = np.zeros(len(row)), np.zeros((len(row), 3))
+        impulse = np.zeros(len(row))
         for p in range(int(points.max())):
             there = points > p
             impulse[there] += resting.lanes[(row + MANIFOLD_ROWS + POINT_ROWS * p + WARM)[there], lane[there]]
-        for k in range(2):
-            axis = np.stack([resting.lanes[row + TANGENT + 3 * k + i, lane] for i in range(3)], axis=1)
-            rubbed += resting.lanes[row + RUB + k, lane][:, None] * axis
+        rubbed = np.stack([resting.lanes[row + RUB + k, lane] for k in range(3)], axis=1)
         pressed = impulse > 0.0
         rows, speed = self._contacts[pressed], self._speed[pressed]
         first = world.count(Impact)

@@ -24,7 +24,6 @@ class Progress(Resource):
     left: float = 0.0
     substep: int = 0
     resting: int = 0
-    balls_resting: int = 0
     crowded: bool = False
 
     @property

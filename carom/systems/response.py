@@ -22,7 +22,6 @@ from carom.systems.detection.leaving import detection_holds
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
 from carom.systems.kernels.advancing import advance_bodies
-from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.impact_log import write_impacts
 from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, fly
 from carom.systems.kernels.settling import finish_drift
@@ -64,14 +63,14 @@ def look_ahead(world: World, dt: float) -> None:
 def sort_out_contacts(world: World, dt: float) -> None:
     """Say which contacts rest in this substep; their bodies count as touching."""
     progress, resting = world[Progress], world[Resting]
-    progress.resting = progress.balls_resting = 0
+    progress.resting = 0
     if resting.groups or world[Linkage].groups:
         resting.pack(world)
     if resting.groups:
         landings = world[Landings] if world[Linkage].groups else None
         if landings:
             landings.expect(world)
-        progress.resting, progress.balls_resting = resting.sort(world, dt)
+        progress.resting = resting.sort(world, dt)
         if landings:
             landings.find(world)
 
@@ -81,17 +80,12 @@ def sort_out_contacts(world: World, dt: float) -> None:
 )
 def hold(world: World, dt: float) -> None:
     """Solve the resting contacts: they do not close, stick or slide within the cone, and resist rolling."""
-    progress, motion = world[Progress], world[Motion]
+    progress = world[Progress]
     if not (progress.resting or world[Linkage].groups):
         return
     world[Resting].press(world, dt)
-    if progress.balls_resting and world[Settings].integrator == "verlet":
-        contact, flight = world[Contact], world[Flight]
-        bend_arcs(
-            contact.count, dt, contact.body_a, contact.body_b, contact.normal, contact.kind, contact.resting,
-            world[RigidBody].freedom, flight.touching, flight.start_linear, flight.start_angular,
-            motion.linear, motion.angular, flight.acceleration, flight.angular_acceleration,
-        )  # fmt: skip
+    if progress.resting and world[Settings].integrator == "verlet":
+        world[Resting].bend(world, dt)
 
 
 @system(

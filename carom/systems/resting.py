@@ -15,6 +15,9 @@ from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.awake import Awake
 from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, MANIFOLD_POINTS, RELAX_SWEEPS, RIGID_RATE
+from carom.systems.kernels.arcs import bend_arcs
+from carom.systems.kernels.ball_touches import write_touches
+from carom.systems.kernels.balls import BALL
 from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.filling import fill_groups, hand_over
@@ -62,7 +65,7 @@ class Resting(Resource):
     def __init__(self) -> None:
         self.hearers: list[Callable[[Stage, int], None]] = []
         self.count = self.groups = self.levels = 0
-        self.solids = False  # whether some contacts are not of balls on exact arcs
+        self.solids = self.balls = False  # whether some contacts are not of balls on exact arcs, and some of two balls
         self.structure = -1  # that of the world when contacts were detected
         self.bound = np.zeros(0, np.int64)  # the rows of bodies that contacts or joints are of
         self.bound_of: tuple[Integers, Integers] | None = None  # who was awake and joined when they were found
@@ -71,6 +74,7 @@ class Resting(Resource):
         self.placed = False  # whether they have not moved since
         self.start, self.closes = np.zeros(1, np.int64), np.ones(1, np.bool_)
         self.bodies, self.lanes, self.scratch = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH), aligned(0, 0, WIDTH)
+        self.leans = np.zeros((2, 1), np.bool_)  # who rests on something, as balls on exact arcs do in the second row
         self._reserve(0)
 
     def _reserve(self, count: int) -> None:
@@ -79,7 +83,6 @@ class Resting(Resource):
         self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.points, self.row = np.empty(count, np.int64), np.empty(count, np.int64)
         self.asks, self.run_ends = np.zeros(count, np.int64), np.empty(2 * MANIFOLD_POINTS * count, np.int64)
-        self.order = np.empty(count, np.int64)
         self.fresh, self.stale, self.looks = (np.ones(count, np.bool_) for _ in range(3))
         self.ends = np.zeros(2, np.int64)
 
@@ -89,9 +92,11 @@ class Resting(Resource):
         points, nobody = contact.count, len(inverse_mass)
         if len(self.start) <= points:
             self.start, self.closes = np.empty(2 * points + 1, np.int64), np.empty(2 * points + 1, np.bool_)
-        self.solids = bool((contact.kind[:points] < 0).any())
+        kinds = contact.kind[:points]
+        self.solids, self.balls = bool((kinds < 0).any()), bool((kinds == BALL).any())
         if self.bodies.shape[1] != nobody + 1:
             self.bodies, self.packed = aligned(PLANES, nobody + 1, BLOCK), None
+            self.leans = np.zeros((2, nobody + 1), np.bool_)
         if not points:
             if self.count:
                 self.bound_of = None
@@ -103,15 +108,16 @@ class Resting(Resource):
         self.groups, rows, self.levels = group_manifolds(
             self.count, self.start, contact.a, contact.b, contact.body_a, contact.body_b, inverse_mass, nobody,
             self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
-            self.points, self.row, self.ends, self.run_ends, self.order,
+            self.points, self.row, self.ends, self.run_ends,
         )  # fmt: skip
-        self.asks[:], self.fresh[:], self.stale[:], self.bound_of = 0, True, True, None
+        self.asks[:], self.fresh[:], self.stale[:], self.bound_of = 0, True, False, None
         if len(self.lanes) < rows:
             self.lanes = aligned(2 * rows, WIDTH)
         fill_groups(
-            crew_for(world, self.count), self.order[: self.groups], self.first, self.size, self.row, self.points,
-            contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.kind,
-            contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
+            crew_for(world, self.count), self.groups, self.first, self.size, self.row, self.points,
+            contact.normal, contact.depth, contact.offset_a, contact.offset_b,
+            contact.kind, contact.sign, contact.radius, contact.extent,
+            contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface, contact.resting,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
         )  # fmt: skip
 
@@ -163,25 +169,42 @@ class Resting(Resource):
         self.centred = not any(apart.tolist())
         self.packed, world[Linkage].measured = (rows, world[Awake].now(world)), False
 
-    def sort(self, world: World, h: float) -> tuple[int, int]:
-        """Find which manifolds rest; return how many do, and how many of those are of balls on exact arcs."""
+    def sort(self, world: World, h: float) -> int:
+        """Find which manifolds rest, and mark their bodies as touching; return how many do."""
         contact, flight, settings = world[Contact], world[Flight], world[Settings]
-        last, joined = world[Progress].left == 0.0, world[Linkage].holds
-
+        joined = world[Linkage].holds
         crew = crew_for(world, self.count)
-        numbers = np.zeros((threads_of(crew), 2), np.int64)
+        numbers = np.zeros(threads_of(crew), np.int64)
+        self.leans.fill(False)
         sort_groups(
-            crew, self.order[: self.groups], h, settings.integrator == "verlet", last,
+            crew, self.groups, h, settings.integrator == "verlet",
             float(settings.response == "full"), joined, self.ends, self.index_a, self.index_b, self.first, self.size,
             self.points, self.row, self.fresh, self.stale, self.looks, self.asks, self.lanes, self.bodies,
             flight.center, world[Transform].rotation,
             contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
             contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
             contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.held,
-            flight.touching, numbers,
+            flight.touching, self.leans, numbers,
         )  # fmt: skip
-        resting, balls = zip(*numbers.tolist(), strict=True)
-        return sum(resting), sum(balls)
+        if self.balls and (joined or world[Progress].left == 0.0):  # at last; where there are joints, at once
+            write_touches(
+                crew, contact.count, contact.kind, contact.sign, contact.radius, contact.extent,
+                contact.body_a, contact.body_b, world[RigidBody].inverse_mass, flight.center,
+                contact.normal, contact.depth, contact.point, contact.offset_a, contact.offset_b,
+            )  # fmt: skip
+        return sum(numbers.tolist())
+
+    def bend(self, world: World, h: float) -> None:
+        """Spread what velocities of balls have changed by over the arcs they fly."""
+        if not self.leans[1].any():
+            return
+        motion, flight = world[Motion], world[Flight]
+        bend_arcs(
+            crew_for(world, self.count), h, self.rows(world), self.leans, self.levels, self.run_ends,
+            self.index_a, self.index_b, self.row, self.asks, self.lanes, self.bodies,
+            flight.start_linear, flight.start_angular, motion.linear, motion.angular,
+            flight.acceleration, flight.angular_acceleration,
+        )  # fmt: skip
 
     def press(self, world: World, h: float) -> None:
         """Apply the impulses of the substep before, then solve every group once with its overlap pushed out."""
@@ -196,7 +219,7 @@ class Resting(Resource):
             motion = world[Motion]
             pack_velocities(self.rows(world), motion.linear, motion.angular, self.bodies[VELOCITY])
             find_closing(
-                crew_for(world, self.count), self.order[: self.groups], h, self.index_a, self.index_b, self.first,
+                crew_for(world, self.count), self.groups, h, self.index_a, self.index_b, self.first,
                 self.points, self.row, self.lanes, self.bodies, self.closes,
             )  # fmt: skip
         return self.closes
@@ -210,7 +233,7 @@ class Resting(Resource):
         rows = self.rows(world)
         pack_ways(crew_for(world, len(rows)), rows, flight.start_center, flight.center, flight.turned, self.bodies)
         sink_contacts(
-            crew_for(world, self.count), self.order[: self.groups], self.index_a, self.index_b, self.first, self.size,
+            crew_for(world, self.count), self.groups, self.index_a, self.index_b, self.first, self.size,
             self.points, self.row, contact.kind, self.bodies, self.lanes, contact.depth,
         )  # fmt: skip
 
@@ -277,7 +300,7 @@ class Resting(Resource):
             return
         contact = world[Contact]
         hand_over(
-            crew_for(world, self.count), self.order[: self.groups], self.first, self.size, self.row, self.lanes,
+            crew_for(world, self.count), self.groups, self.first, self.size, self.row, self.lanes,
             contact.impulse, contact.friction_impulse,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling,
         )  # fmt: skip

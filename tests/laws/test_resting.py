@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carom.ecs import Motion, RigidBody, Transform
+from carom.ecs import Material, Motion, RigidBody, Transform
 from carom.ecs.relations.contact import Contact
 from carom.systems.shapes.geometry import hull_of
 from carom.systems.shapes.mesh import Mesh
@@ -153,6 +153,24 @@ def test_a_cube_slides_down_a_steeper_slope_at_theorys_acceleration(yaw: float) 
     expected = G * (math.sin(slope) - 0.5 * math.cos(slope))
     assert simulation[cube].motion.linear[0] / 5.0 == pytest.approx(expected, rel=1e-3)
     assert np.abs(simulation[cube].motion.angular).max() <= 1e-9
+
+
+@pytest.mark.parametrize("shape", ["box", "sphere"])
+def test_what_comes_to_slide_on_ice_keeps_its_speed(shape: str) -> None:
+    """Friction that is gone is gone at once: what it pushed with before does not go on pushing."""
+    simulation = on_ground()
+    size = {"size": (1.0, 1.0, 1.0)} if shape == "box" else {"radius": 0.5}
+    slider = simulation.add(
+        collider={shape: size}, body={"mass": 1.0}, material=ROUGH, transform={"position": (0.0, 0.5, 0.0)},
+        motion={"linear": (2.0, 0.0, 0.0)},
+    )  # fmt: skip
+    simulation.step(10)
+    with simulation.world.edit(Material) as material:
+        material.friction[simulation.world.row(slider)] = 0.0
+    before = simulation[slider].motion.linear[0]
+    simulation.step(60)
+    assert 0.5 < before < 2.0
+    assert simulation[slider].motion.linear[0] == pytest.approx(before, rel=1e-12)
 
 
 def test_a_ball_rolls_down_a_slope_at_five_sevenths() -> None:

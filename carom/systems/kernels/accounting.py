@@ -13,7 +13,10 @@ from carom.systems.kernels.impulses import pressed, rolled, rubbed, spun
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_vectors import dot
 from carom.systems.kernels.lanes import address, gather, load, planes, spread, store
-from carom.systems.kernels.rubbing import ROLLING, TWISTING
+from carom.systems.kernels.levers import frame_of
+from carom.systems.kernels.packing import VELOCITY
+from carom.systems.kernels.resting_balls import struck_balls
+from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, TWISTING
 from carom.systems.kernels.spatial import product, turn
 
 #: Where a body was and how it moved when a part of its arc began: position, velocity, angular velocity, rotation.
@@ -102,6 +105,10 @@ def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, ea
     rest = (zero, zero, zero, zero, zero, zero, zero, zero)
     for g in range(begin, end):
         r = row[g]
+        if asks[g] == IDLE:
+            store(work, 2 * g, zero)
+            store(work, 2 * g + 1, zero)
+            continue
         p_a, p_b = gather(momenta, index_a, g), gather(momenta, index_b, g)
         total, by_t, by_u = zero, zero, zero
         for p in range(points[g]):
@@ -109,15 +116,23 @@ def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, ea
             j = gained(q + of.WARM, lanes, earlier)
             total = total + j
             by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
-        a, b = pressed(r, lanes, rest, rest, total, by_t, by_u)
+        v_a, v_b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+        if asks[g] == BALLS:
+            a, b = struck_balls(r, lanes, rest, rest, v_a, v_b, total, (zero, zero, zero))
+        else:
+            a, b = pressed(r, lanes, rest, rest, total, by_t, by_u)
         store(work, 2 * g, given(p_a, a) + given(p_b, b))
-        along, across = gained(r + of.RUB, lanes, earlier), gained(r + of.RUB + 1, lanes, earlier)
-        a, b = rubbed(r, lanes, rest, rest, along, across)
+        f = gained_three(r + of.RUB, lanes, earlier)
+        if asks[g] == BALLS:
+            a, b = struck_balls(r, lanes, rest, rest, v_a, v_b, zero, f)
+        else:
+            t, u, _ = frame_of(r, lanes)
+            a, b = rubbed(r, lanes, rest, rest, dot(t, f), dot(u, f))
         if asks[g] >= TWISTING:
             a, b = spun(r, lanes, a, b, gained(r + of.SPUN, lanes, earlier))
         if asks[g] == ROLLING:
-            x, y = gained(r + of.ROLLED, lanes, earlier), gained(r + of.ROLLED + 1, lanes, earlier)
-            a, b = rolled(g, index_a, index_b, bodies, a, b, x, y, gained(r + of.ROLLED + 2, lanes, earlier))
+            x, y, z = gained_three(r + of.ROLLED, lanes, earlier)
+            a, b = rolled(g, index_a, index_b, bodies, a, b, x, y, z)
         store(work, 2 * g + 1, given(p_a, a) + given(p_b, b))
 
 
@@ -125,6 +140,12 @@ def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, ea
 def gained(row, lanes, earlier):
     """Return by how much a row has grown."""
     return load(lanes, row) - load(earlier, row)
+
+
+@woven
+def gained_three(row, lanes, earlier):
+    """Return by how much three rows have grown."""
+    return gained(row, lanes, earlier), gained(row + 1, lanes, earlier), gained(row + 2, lanes, earlier)
 
 
 @woven

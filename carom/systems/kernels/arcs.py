@@ -2,47 +2,70 @@
 
 from __future__ import annotations
 
-# mypy: disable-error-code="no-untyped-def"
-import numpy as np
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.constants import MANIFOLD_POINTS
+from carom.systems.kernels import groups as of
+from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
+from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lane_vectors import dot, minus, three, times
+from carom.systems.kernels.lanes import address, choose, gather, load, planes, scatter, spread
+from carom.systems.kernels.packing import CHANGE, MASS_AND_FELT
+from carom.systems.kernels.resting_balls import are_even
+from carom.systems.kernels.rubbing import IDLE
 
-from carom.systems.kernels.kernel import kernel
 
-
-@kernel("touching", "linear", "angular", "acceleration", "angular_acceleration", makes_arrays=True)
+@shared("bodies", "linear", "angular", "acceleration", "angular_acceleration")
 def bend_arcs(
-    count, h, body_a, body_b, normal, kind, resting, freedom, touching, start_linear, start_angular,
-    linear, angular, acceleration, angular_acceleration,
+    crew, h, rows, leans, levels, run_ends, index_a, index_b, row, asks, lanes, bodies,
+    start_linear, start_angular, linear, angular, acceleration, angular_acceleration,
 ):  # fmt: skip
     """Let balls that only rest on others fly the substep at constant acceleration instead of at their last velocity.
 
     What friction and rolling resistance took is spread over the substep, which makes sliding and rolling exact between
     changes of state, and speeds right at impacts in between. Along the contact normals the velocity stays the last one.
     """
-    bent = np.zeros(len(touching), np.bool_)
-    for c in range(count):
-        if resting[c]:
-            for body in (body_a[c], body_b[c]):
-                if body >= 0:
-                    bent[body] = True
-                    touching[body] &= kind[c] >= 0
-    for i in range(len(bent)):
-        bent[i] &= touching[i]
-        if bent[i]:
+    change, packed, of_a, of_b = bodies[CHANGE], planes(bodies), address(index_a), address(index_b)
+    begin, end = part_of(crew, len(rows))
+    mine, passed = rows[begin:end], 1
+    for i in mine:
+        for k in range(3):
+            change[i, k] = linear[i, k] - start_linear[i, k] if is_bent(leans, i) else 0.0
+    wait_for_all(crew, passed)
+    for level in range(levels):
+        for run in range(MANIFOLD_POINTS * level, MANIFOLD_POINTS * (level + 1)):
+            begin, end = part_of_run(crew, run, run_ends)
+            for g in range(begin, end):
+                if asks[g] != IDLE:
+                    keep_across(g, row[g], of_a, of_b, lanes, packed)
+        passed += 1
+        wait_for_all(crew, passed)
+    for i in mine:
+        if is_bent(leans, i):
             for k in range(3):
-                acceleration[i, k] = (linear[i, k] - start_linear[i, k]) / h
+                acceleration[i, k] = change[i, k] / h
                 angular_acceleration[i, k] = (angular[i, k] - start_angular[i, k]) / h
-    for c in range(count):
-        if resting[c]:
-            for body in (body_a[c], body_b[c]):
-                if body >= 0 and bent[body]:
-                    along = 0.0
-                    for k in range(3):
-                        along += normal[c, k] * acceleration[body, k]
-                    for k in range(3):
-                        acceleration[body, k] -= along * normal[c, k] * freedom[body, k]
-    for i in range(len(bent)):
-        if bent[i]:
-            touching[i] = False
-            for k in range(3):
                 linear[i, k] -= h * acceleration[i, k]
                 angular[i, k] -= h * angular_acceleration[i, k]
+
+
+@woven
+def is_bent(leans, i):
+    """Tell whether a body leans on others as balls on exact arcs do, and not otherwise."""
+    return leans[1, i] and not leans[0, i]
+
+
+@woven
+def keep_across(g, r, index_a, index_b, lanes, bodies):
+    """Keep what is across the normals of the manifolds that rest, of what velocities have changed by."""
+    rows = address(lanes)
+    n, rests = three(rows, r + of.NORMAL), load(rows, r + of.RESTS)
+    for index in (index_a, index_b):
+        v = gather(bodies[CHANGE], index, g)
+        along = times(rests * dot(n, v), n)
+        if not are_even(r, lanes):
+            masses, zero = gather(bodies[MASS_AND_FELT], index, g), spread(0.0)
+            along = (
+                choose(masses[0], along[0], zero), choose(masses[1], along[1], zero), choose(masses[2], along[2], zero)
+            )  # fmt: skip
+        x, y, z = minus(v, along)
+        scatter(bodies[CHANGE], index, g, (x, y, z, v[3], v[4], v[5], v[6], v[7]))

@@ -6,11 +6,21 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import ROOT_GAP, ROOT_STEPS
-from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.spatial import cross, spun, turn
 
 BALL, BOX, HALF_SPACE = 0, 1, 2
 NEVER = 1e300
+
+
+@woven
+def gap_of_balls(dx, dy, dz, reach):
+    """Return (gap, normal) between two balls, the first at d from the other, whose radii make up ``reach``."""
+    distance = sqrt(dx * dx + dy * dy + dz * dz)
+    if distance == 0.0:
+        return -reach, 0.0, 1.0, 0.0  # concentric: any direction parts them equally fast
+    inverse = 1.0 / distance
+    return distance - reach, dx * inverse, dy * inverse, dz * inverse
 
 
 @inlined
@@ -23,11 +33,7 @@ def gap_of_ball(kind, x, y, z, radius, ox, oy, oz, qx, qy, qz, qw, ex, ey, ez):
     if kind == HALF_SPACE:
         return ex * dx + ey * dy + ez * dz - radius, ex, ey, ez
     if kind == BALL:
-        distance = sqrt(dx * dx + dy * dy + dz * dz)
-        if distance == 0.0:
-            return -radius - ex, 0.0, 1.0, 0.0  # concentric: any direction parts them equally fast
-        inverse = 1.0 / distance
-        return distance - radius - ex, dx * inverse, dy * inverse, dz * inverse
+        return gap_of_balls(dx, dy, dz, radius + ex)
     lx, ly, lz = turn(-qx, -qy, -qz, qw, dx, dy, dz)
     cx, cy, cz = min(max(lx, -ex), ex), min(max(ly, -ey), ey), min(max(lz, -ez), ez)
     nx, ny, nz = lx - cx, ly - cy, lz - cz

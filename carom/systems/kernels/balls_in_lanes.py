@@ -7,27 +7,30 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import BALL
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS
 from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lane_columns import lane_of, numbers_at, pick, pick_one
 from carom.systems.kernels.lane_vectors import TINY, dot, keep
-from carom.systems.kernels.lanes import WIDTH, choose, gather, larger, load, root, spread, store
+from carom.systems.kernels.lanes import address, choose, gather, larger, load, root, some, spread, store
 from carom.systems.kernels.packing import CENTER
 
 
 @woven
-def find_balls(g, r, first, kind, sign, radius, extent, lanes):
-    """Mark a group whose manifolds are all of two balls: they meet on the line between their centres."""
-    for lane in range(WIDTH):
-        c = first[g, lane]
-        if c >= 0 and kind[c] != BALL:
-            return
-    for lane in range(WIDTH):
-        c = first[g, lane]
-        if c < 0:
-            continue
-        of_a, of_b = (radius[c], extent[c, 0]) if sign[c] > 0.0 else (extent[c, 0], radius[c])
-        lanes[r + of.BALL, lane] = 2.0
-        lanes[r + of.MIDDLE_A + 2, lane], lanes[r + of.MIDDLE_B + 2, lane] = of_a, -of_b
-        for k in range(2):
-            lanes[r + of.MIDDLE_A + k, lane] = lanes[r + of.MIDDLE_B + k, lane] = 0.0
+def find_balls(r, at, there, kind, sign, radius, extent, lanes):
+    """Tell whether all manifolds of a group, at places in the table, are of two balls, and mark it.
+
+    They meet on the line between their centres.
+    """
+    kinds, zero = lane_of(numbers_at(kind, at)), spread(0.0)
+    if some(choose(there, larger(kinds - BALL, BALL - kinds), zero)):
+        return False
+    ball, other = pick_one(radius, at, there), choose(there, pick(address(extent), 3, 0, at), zero)
+    is_a = pick_one(sign, at, there)
+    of_a, of_b = choose(is_a, ball, other), choose(is_a, other, ball)
+    store(lanes, r + of.BALL, spread(2.0))
+    keep(lanes, r + of.MIDDLE_A, zero, zero, of_a)
+    keep(lanes, r + of.MIDDLE_B, zero, zero, -of_b)
+    store(lanes, r + MANIFOLD_ROWS + of.AT, zero)
+    store(lanes, r + MANIFOLD_ROWS + of.AT + 1, zero)
+    return True
 
 
 @woven
@@ -49,28 +52,3 @@ def measure_balls_in_lanes(g, r, index_a, index_b, lanes, bodies):
     y = choose(distance, way[1] * inverse, choose(there, spread(-1.0), zero))  # concentric: any direction parts them
     keep(lanes, r + of.NORMAL, x, y, z)
     store(lanes, r + MANIFOLD_ROWS + of.DEPTH, choose(there, reach - distance, spread(ABSENT)))
-
-
-@woven
-def write_normals(g, r, first, lanes, normal):
-    """Write the normals of a group into the contact table."""
-    for lane in range(WIDTH):
-        c = first[g, lane]
-        if c >= 0:
-            for k in range(3):
-                normal[c, k] = lanes[r + of.NORMAL + k, lane]
-
-
-@woven
-def write_touches(g, r, first, index_a, center, lanes, depth, point, offset_a, offset_b):
-    """Write where the balls of a group touch into the contact table."""
-    for lane in range(WIDTH):
-        c = first[g, lane]
-        if c < 0:
-            continue
-        i, depth[c] = index_a[g, lane], lanes[r + MANIFOLD_ROWS + of.DEPTH, lane]
-        for k in range(3):
-            n = lanes[r + of.NORMAL + k, lane]
-            offset_a[c, k] = lanes[r + of.MIDDLE_A + 2, lane] * n
-            offset_b[c, k] = lanes[r + of.MIDDLE_B + 2, lane] * n
-            point[c, k] = center[i, k] + (offset_a[c, k] - 0.5 * depth[c] * n)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from carom.systems.kernels.balls import HALF_SPACE, gap_of_ball
+from carom.systems.kernels.balls import HALF_SPACE, gap_of_ball, gap_of_balls
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.crew import part_of, shared
-from carom.systems.kernels.narrow import kind_and_extent
+from carom.systems.kernels.narrow import is_ball, kind_and_extent
 from carom.systems.kernels.writing import write_point
 
 
@@ -25,18 +25,21 @@ def measure_balls(
     taken += room * begin
     for k in range(begin, end):
         p, i, o = which[k], first[k], second[k]
-        kind, ex, ey, ez = kind_and_extent(
-            shape[o], size[o, 0], size[o, 1], size[o, 2],
-            rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3],
-        )  # fmt: skip
+        radius, x, y, z = size[i, 0], position[i, 0], position[i, 1], position[i, 2]
         ox, oy, oz = position[o, 0], position[o, 1], position[o, 2]
-        if kind == HALF_SPACE:
-            ox, oy, oz = ox + size[o, 3] * ex, oy + size[o, 3] * ey, oz + size[o, 3] * ez
-        radius = size[i, 0]
-        gap, nx, ny, nz = gap_of_ball(
-            kind, position[i, 0], position[i, 1], position[i, 2], radius, ox, oy, oz,
-            rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3], ex, ey, ez,
-        )  # fmt: skip
+        if is_ball(o, shape):  # most often: how it is turned need not be read
+            gap, nx, ny, nz = gap_of_balls(x - ox, y - oy, z - oz, radius + size[o, 0])
+        else:
+            kind, ex, ey, ez = kind_and_extent(
+                shape[o], size[o, 0], size[o, 1], size[o, 2],
+                rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3],
+            )  # fmt: skip
+            if kind == HALF_SPACE:
+                ox, oy, oz = ox + size[o, 3] * ex, oy + size[o, 3] * ey, oz + size[o, 3] * ez
+            gap, nx, ny, nz = gap_of_ball(
+                kind, x, y, z, radius, ox, oy, oz,
+                rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3], ex, ey, ez,
+            )  # fmt: skip
         start[p] = taken
         if gap > reaches[p]:
             continue
@@ -44,7 +47,7 @@ def measure_balls(
         count[p] = 1
         write_point(
             taken, 0, gap, -nx, -ny, -nz,
-            position[i, 0] - lever * nx, position[i, 1] - lever * ny, position[i, 2] - lever * nz,
+            x - lever * nx, y - lever * ny, z - lever * nz,
             feature, normal, depth, point,
         )  # fmt: skip
         taken += 1

@@ -15,15 +15,15 @@ from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
 
 
 @shared("lanes", "closing")
-def find_closing(crew, order, h, index_a, index_b, first, points, row, lanes, bodies, closing):
+def find_closing(crew, groups, h, index_a, index_b, first, points, row, lanes, bodies, closing):
     """Tell for the first contact of each manifold that does not rest whether a point may close within ``h`` seconds.
 
     What `foresee_blow` finds is among them: forces count in full where they press. Groups of balls alone are left out.
     """
     rows, packed, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     one, none = spread(1.0), spread(0.0)
-    begin, end = part_of(crew, len(order))
-    for g in order[begin:end]:
+    begin, end = part_of(crew, groups)
+    for g in range(begin, end):
         r = row[g]
         free = choose(load(rows, r + of.SHARE), one - load(rows, r + of.RESTS), none)
         if are_balls(r, lanes) or not some(free):

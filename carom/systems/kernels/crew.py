@@ -98,6 +98,14 @@ def part_of(crew, count):
 
 
 @woven
+def part_of_run(crew, run, run_ends):
+    """Return where a thread's part of a run of groups begins and ends: bodies stay in its cache."""
+    first = run_ends[run - 1] if run else 0
+    begin, end = part_of(crew, run_ends[run] - first)
+    return first + begin, first + end
+
+
+@woven
 def eights_of(crew, count):
     """Return where the part of a thread begins and ends among ``count`` rows, of which eight are not parted."""
     begin, end = part_of(crew, (count + WIDTH - 1) // WIDTH)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.kernels.balls_in_lanes import find_balls
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.groups import (
     ABSENT,
@@ -27,7 +28,6 @@ from carom.systems.kernels.groups import (
     SUM,
     SURFACE,
     TANGENT,
-    TOGETHER,
     WARM,
 )
 from carom.systems.kernels.kernel import woven
@@ -40,23 +40,23 @@ LANES = tuple(range(WIDTH))
 
 @shared("lanes")
 def fill_groups(
-    crew, order, first, size, row, points, normal, depth, offset_a, offset_b, kind,
-    friction, restitution, rolling, spinning, surface, warm_normal, warm_friction, warm_rolling, lanes,
+    crew, groups, first, size, row, points, normal, depth, offset_a, offset_b, kind, sign, radius, extent,
+    friction, restitution, rolling, spinning, surface, resting, warm_normal, warm_friction, warm_rolling, lanes,
 ):  # fmt: skip
     """Write what contacts hold into the lanes of their groups.
 
     Of friction and rolling only their sums are of use: all points share them alike.
     """
     rows, zero, one = address(lanes), spread(0.0), spread(1.0)
-    begin, end = part_of(crew, len(order))
-    for g in order[begin:end]:
+    begin, end = part_of(crew, groups)
+    for g in range(begin, end):
         r, at, sizes = row[g], places_of(g, 0, first, size), lane_of(numbers_at(size[g], LANES))
         keep(rows, r + RUBBED, zero, zero, zero)
-        store(rows, r + RESTS, zero)
-        store(rows, r + TOGETHER, zero)
+        store(rows, r + RESTS, choose(sizes, lane_of(numbers_at(resting, at)), zero))
         store(rows, r + SHARE, choose(sizes, one / larger(sizes, one), zero))
         store(rows, r + BALL, choose(sizes, choose(lane_of(numbers_at(kind, at)) + 0.5, one, zero), zero))
-        store(rows, r + FRICTION, pick_one(friction, at, sizes))
+        rough = pick_one(friction, at, sizes)
+        store(rows, r + FRICTION, rough)
         store(rows, r + RESTITUTION, pick_one(restitution, at, sizes))
         store(rows, r + ROLLING, pick_one(rolling, at, sizes))
         store(rows, r + SPINNING, pick_one(spinning, at, sizes))
@@ -69,16 +69,15 @@ def fill_groups(
             store(rows, q + SUM, zero)
             pushed = plus(pushed, pick_three(warm_friction, at, there))
             rolled = plus(rolled, pick_three(warm_rolling, at, there))
-        t, u = tangents_of(n)
         keep(rows, r + NORMAL, n[0], n[1], n[2])
-        keep(rows, r + TANGENT, t[0], t[1], t[2])
-        keep(rows, r + TANGENT + 3, u[0], u[1], u[2])
-        store(rows, r + RUB, dot(pushed, t))
-        store(rows, r + RUB + 1, dot(pushed, u))
+        x, y, z = pushed  # where there is none any more, nothing would take it out again
+        keep(rows, r + RUB, choose(rough, x, zero), choose(rough, y, zero), choose(rough, z, zero))
         along = dot(n, rolled)
         store(rows, r + SPUN, along)
         keep(rows, r + ROLLED, rolled[0] - along * n[0], rolled[1] - along * n[1], rolled[2] - along * n[2])
-        place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
+        if not find_balls(r, places_of(g, 0, first, size), sizes, kind, sign, radius, extent, rows):
+            find_tangents(r, rows)
+            place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
 
 
 @woven
@@ -98,16 +97,17 @@ def place_of(g, lane, p, first, size):
 
 
 @woven
-def tangents_of(n):
-    """Return two tangents to the normals of a group.
+def find_tangents(r, lanes):
+    """Find two tangents to the normals of a group.
 
     Duff et al., Building an Orthonormal Basis, Revisited, JCGT 6 (1), 2017, as `plane_axes`.
     """
-    x, y, z = n
+    x, y, z = three(lanes, r + NORMAL)
     sign = choose(-z, spread(-1.0), spread(1.0))
     p = -1.0 / (sign + z)
     q = x * y * p
-    return (1.0 + sign * x * x * p, sign * q, -sign * x), (q, sign + y * y * p, -y)
+    keep(lanes, r + TANGENT, 1.0 + sign * x * x * p, sign * q, -sign * x)
+    keep(lanes, r + TANGENT + 3, q, sign + y * y * p, -y)
 
 
 @woven
@@ -135,23 +135,21 @@ def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
 
 @shared("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
 def hand_over(
-    crew, order, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling
+    crew, groups, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling
 ):
     """Write the impulses that the resting stage has found back into the contact table."""
-    begin, end = part_of(crew, len(order))
-    for g in order[begin:end]:
+    begin, end = part_of(crew, groups)
+    for g in range(begin, end):
         r = row[g]
         for lane in range(WIDTH):
             share, spun = lanes[r + SHARE, lane], lanes[r + SPUN, lane]
-            rub, rub_across = share * lanes[r + RUB, lane], share * lanes[r + RUB + 1, lane]
             for p in range(size[g, lane]):
                 c, q = first[g, lane] + p, r + MANIFOLD_ROWS + POINT_ROWS * p
                 warm_normal[c] = lanes[q + WARM, lane]
                 impulse[c] += lanes[q + SUM, lane]
                 lanes[q + SUM, lane] = 0.0
                 for k in range(3):
-                    t = r + TANGENT + k
-                    warm_friction[c, k] = rub * lanes[t, lane] + rub_across * lanes[t + 3, lane]
+                    warm_friction[c, k] = share * lanes[r + RUB + k, lane]
                     friction_impulse[c, k] += share * lanes[r + RUBBED + k, lane]
                     warm_rolling[c, k] = share * (spun * lanes[r + NORMAL + k, lane] + lanes[r + ROLLED + k, lane])
             for k in range(3):

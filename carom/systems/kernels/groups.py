@@ -10,24 +10,22 @@ from carom.systems.constants import MANIFOLD_POINTS
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.lanes import WIDTH
 
-# Rows of eight numbers that a group has, a lane each manifold. First what is filled in when contacts are found: the
-# frame, which is two tangents and the normal, each the cross product of the other two; friction, restitution,
-# resistance to rolling and spinning (m), 1 where it is of a ball on an exact arc (2 where the group is of two balls
-# each), one by its points, and the impulses: friction along the tangents, spinning, rolling, and friction summed over
-# the step; then the velocity of b's surface against a's; 1 where it rests, and where it did before (2 on a joint);
-# the middle of the points from both bodies, in the frame.
-TANGENT, NORMAL, FRICTION, RESTITUTION, ROLLING, SPINNING, BALL, SHARE = 0, 6, 9, 10, 11, 12, 13, 14
-RUB, SPUN, ROLLED, RUBBED, SURFACE, RESTS, TOGETHER, MIDDLE_A, MIDDLE_B = 15, 17, 18, 21, 24, 27, 28, 29, 32
-# Then what follows from where the bodies are: inverse masses along the axes; how unit twists about the axes of the
-# frame turn either body; the inverse of the inverse mass along the tangents (a symmetric 2 x 2), the inertia about the
-# normal, and about any axis across it; at last 1 where a point may close within the substep.
-MASS_A, MASS_B, TURN_A, TURN_B, GIVE, SPIN, ROLL, CLOSES, MANIFOLD_ROWS = 35, 38, 41, 50, 59, 62, 63, 64, 65
+# Rows of eight numbers that a group has, a lane each manifold: what is read most often stands together, at the end.
+# Resistance to rolling (m), the inertia about any axis across the normal, the impulse of rolling; 1 where a point may
+# close within the substep; friction summed over the step; one by its points; restitution; 1 where it is of a ball on an
+# exact arc (2 where the group is of two balls each, 3 where `are_even`); 1 where it rests, and where it did before (2
+# on a joint).
+ROLLING, ROLL, ROLLED, CLOSES, RUBBED, SHARE, RESTITUTION, BALL, RESTS, TOGETHER = 0, 1, 2, 5, 6, 9, 10, 11, 12, 13
+# Resistance to spinning (m), the inertia about the normal, the impulse of spinning; the velocity of b's surface against
+# a's; inverse masses along the axes; how unit twists about the axes of the frame turn either body; tangents.
+SPINNING, SPIN, SPUN, SURFACE, MASS_A, MASS_B, TURN_A, TURN_B, TANGENT = 14, 15, 16, 17, 20, 23, 26, 35, 44
+# The impulse of friction; the normal, which is the cross product of the tangents; the middle of the points from both
+# bodies, in the frame; the inverse of the inverse mass along the tangents (a symmetric 2 x 2); friction.
+RUB, NORMAL, MIDDLE_A, MIDDLE_B, GIVE, FRICTION, MANIFOLD_ROWS = 50, 53, 56, 59, 62, 65, 66
 
-# Rows of each point, after those of the manifold: where it is from the middle along the tangents (along the normal it
-# has no lever), depth, normal impulse and its sum over the step; then the mass along the normal, and how far it is from
-# the middle.
-AT, DEPTH, WARM, SUM = 0, 2, 3, 4
-MASS, AWAY, POINT_ROWS = 5, 6, 7
+# Rows of each point, after those of the manifold: depth, normal impulse, the mass along the normal; where it is from
+# the middle along the tangents (along the normal it has no lever), how far; and the sum of its impulse over the step.
+DEPTH, WARM, MASS, AT, AWAY, SUM, POINT_ROWS = 0, 1, 2, 3, 5, 6, 7
 # After those of all points a row for each two of them: how fast a unit impulse at either parts the bodies at the other.
 
 ABSENT = -1e300  # m, the depth of a point that a lane does not have
@@ -45,12 +43,11 @@ BUCKETS = 256  # of manifolds that are shuffled
     "row",
     "ends",
     "run_ends",
-    "order",
     makes_arrays=True,
 )
 def group_manifolds(
     count, start, a, b, body_a, body_b, inverse_mass, nobody,
-    group_of, lane_of, index_a, index_b, first, size, points, row, ends, run_ends, order,
+    group_of, lane_of, index_a, index_b, first, size, points, row, ends, run_ends,
 ):  # fmt: skip
     """Put manifolds into groups that, one after the other, do what the manifolds would in a shuffled order.
 
@@ -61,9 +58,7 @@ def group_manifolds(
 
     Return (groups, rows of all, levels). ``row`` is where the rows of a group begin, ``ends`` (2,) where the groups of
     either kind end, ``run_ends`` where each run of groups does that have as many points: a level has `MANIFOLD_POINTS`
-    of them, the most points first. ``nobody`` is the index of what has no body. Where levels do not matter, groups are
-    gone through in ``order``: by where in the contact table they begin, so that bodies of one are still in the cache
-    when they are met in the next.
+    of them, the most points first. ``nobody`` is the index of what has no body.
     """
     shuffled = shuffle(count, start, a, b)
     reached = np.zeros((2, len(inverse_mass)), np.int64)
@@ -115,11 +110,6 @@ def group_manifolds(
     ends[1] = group + 1
     for k in range(1, begun * MANIFOLD_POINTS):
         run_ends[k] = max(run_ends[k], run_ends[k - 1])
-    gone = 0
-    for m in range(count):
-        if lane_of[m] == 0:
-            order[gone] = group_of[m]
-            gone += 1
     return group + 1, rows, begun
 
 

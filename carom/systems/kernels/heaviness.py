@@ -38,11 +38,28 @@ def least_gap(p, end, start, kind, ball, other, center, other_position, radius, 
 
 
 @woven
-def is_heavy(p, gap, body_a, body_b, span, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass):
+def is_heavy(
+    p, gap, body_a, body_b, span, kind, ball, other, center, normal, offset_a, offset_b, linear, angular, inertia,
+    inverse_mass,
+):  # fmt: skip
     """Tell whether the bodies of a pair meet so fast within ``span`` seconds that they may drive others together."""
-    speed = 0.0
-    for i, offset, sense in ((body_a[p], offset_a, 1.0), (body_b[p], offset_b, -1.0)):
-        if i >= 0:
-            x, y, z = surface_velocity(i, offset[p, 0], offset[p, 1], offset[p, 2], linear, angular)
-            speed += sense * (normal[p, 0] * x + normal[p, 1] * y + normal[p, 2] * z)
+    if kind[p] == BALL and other[p] >= 0:
+        speed = closing_of_balls(ball[p], other[p], center, linear)
+    else:
+        speed = 0.0
+        for i, offset, sense in ((body_a[p], offset_a, 1.0), (body_b[p], offset_b, -1.0)):
+            if i >= 0:
+                x, y, z = surface_velocity(i, offset[p, 0], offset[p, 1], offset[p, 2], linear, angular)
+                speed += sense * (normal[p, 0] * x + normal[p, 1] * y + normal[p, 2] * z)
     return speed * span - gap > sink_allowed(p, body_a, body_b, inertia, inverse_mass)
+
+
+@woven
+def closing_of_balls(i, o, center, linear):
+    """Return how fast (m/s) two balls close, whose contact in the table is as it was measured at last."""
+    way, speed = 0.0, 0.0
+    for k in range(3):
+        apart = center[o, k] - center[i, k]
+        way += apart * apart
+        speed += apart * (linear[i, k] - linear[o, k])
+    return speed / sqrt(way) if way > 0.0 else 0.0

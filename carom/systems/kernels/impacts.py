@@ -98,11 +98,12 @@ def fly(
                 p, beginning[number[m] + 1], start, kind, ball, other, center, other_position, radius, extent, depth
             )
             heavy |= is_heavy(
-                p, gap, body_a, body_b, h - now, normal, offset_a, offset_b, linear, angular, inertia, inverse_mass
-            )
+                p, gap, body_a, body_b, h - now, kind, ball, other, center, normal, offset_a, offset_b,
+                linear, angular, inertia, inverse_mass,
+            )  # fmt: skip
     for k in range(holds if start > 0.0 else 0):  # blows of before
         heavy |= is_heavy(
-            beginning[held[k]], 0.0, body_a, body_b, h - now, normal, offset_a, offset_b,
+            beginning[held[k]], 0.0, body_a, body_b, h - now, kind, ball, other, center, normal, offset_a, offset_b,
             linear, angular, inertia, inverse_mass,
         )  # fmt: skip
     # Only then may those who rest be driven into each other: else they are not asked.

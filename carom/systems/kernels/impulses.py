@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import about, three
+from carom.systems.kernels.lane_vectors import about, plus, spanned, three, times
 from carom.systems.kernels.lanes import gather
 from carom.systems.kernels.levers import frame_of
 from carom.systems.kernels.packing import INVERSE
@@ -63,7 +63,7 @@ def turned_across(v, lanes, turn, t, u):
 def rubbed(r, lanes, a, b, along, across):
     """Return velocities of both bodies after an impulse along the tangents at the middle."""
     t, u, _ = frame_of(r, lanes)
-    x, y, z = along * t[0] + across * u[0], along * t[1] + across * u[1], along * t[2] + across * u[2]
+    x, y, z = spanned(along, t, across, u)
     a, b = pushed(a, three(lanes, r + of.MASS_A), -x, -y, -z), pushed(b, three(lanes, r + of.MASS_B), x, y, z)
     (s_a, q_a, z_a), (s_b, q_b, z_b) = three(lanes, r + of.MIDDLE_A), three(lanes, r + of.MIDDLE_B)
     a = twisted(a, lanes, r + of.TURN_A, z_a * across, -(z_a * along), q_a * along - s_a * across)
@@ -74,9 +74,7 @@ def rubbed(r, lanes, a, b, along, across):
 def struck(r, lanes, a, b, along, across, j, by_t, by_u, by_n):
     """Return velocities of both bodies after impulses along the axes of the frame at the middle, and twists."""
     t, u, n = frame_of(r, lanes)
-    x = along * t[0] + across * u[0] + j * n[0]
-    y = along * t[1] + across * u[1] + j * n[1]
-    z = along * t[2] + across * u[2] + j * n[2]
+    x, y, z = plus(spanned(along, t, across, u), times(j, n))
     a, b = pushed(a, three(lanes, r + of.MASS_A), -x, -y, -z), pushed(b, three(lanes, r + of.MASS_B), x, y, z)
     (s_a, q_a, z_a), (s_b, q_b, z_b) = three(lanes, r + of.MIDDLE_A), three(lanes, r + of.MIDDLE_B)
     a = twisted(

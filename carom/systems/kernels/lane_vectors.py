@@ -36,6 +36,30 @@ def plus(a, b):
 
 
 @woven
+def cross(a, b):
+    """Return a x b."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+@woven
+def spanned(along, t, across, u):
+    """Return the vector that has these parts along two others."""
+    return along * t[0] + across * u[0], along * t[1] + across * u[1], along * t[2] + across * u[2]
+
+
+@woven
+def minus(a, b):
+    """Return a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@woven
+def times(s, v):
+    """Return s v."""
+    return s * v[0], s * v[1], s * v[2]
+
+
+@woven
 def about(inertia, x, y, z):
     """Return I^-1 v; ``inertia`` begins with the upper half of I^-1."""
     return (

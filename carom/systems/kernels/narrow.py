@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.balls import BALL, BOX, HALF_SPACE
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.spatial import turn
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.plane import Plane
@@ -84,6 +84,12 @@ def collect_points(
                 found_normal[c, d], found_point[c, d] = sense * normal[source, d], point[source, d]
             row_a[at], row_b[at], by_fcl[at] = pairs[p, 0], pairs[p, 1], fcl
             at += 1
+
+
+@woven
+def is_ball(i, shape):
+    """Tell whether a collider is a ball or a point."""
+    return shape[i] == SPHERE_SHAPE or shape[i] == POINT_SHAPE
 
 
 @inlined

@@ -14,13 +14,14 @@ from carom.systems.kernels.lanes import WIDTH, address, choose, larger, planes, 
 from carom.systems.kernels.spatial import inverse_inertia_in_world, product
 
 # The planes, each of eight numbers a body: what one sweep reads of neighbours lies side by side.
-# Velocity, and the way since contacts were measured: linear (3), a gap, angular (3), a gap.
+# Velocity: linear (3), inverse mass, angular (3), inverse inertia of what is alike about all axes and has no locks, -1
+# of others. The way since contacts were measured: linear (3), a gap, angular (3), a gap.
 # Inverse inertia in the world frame: upper half (6), the largest moment. Inverse mass along the axes (3), acceleration
 # by forces (3), inverse mass without locks. Until it sets out, the way gives place to the pose: centre (3), a gap,
-# rotation (4).
+# rotation (4); and while arcs are bent, to what velocities have changed by (3).
 VELOCITY, WAY, INVERSE, MASS_AND_FELT = range(PLANES)
-CENTER = POSE = WAY
-ANGULAR = 4  # where what is angular begins
+CENTER = POSE = CHANGE = WAY
+INVERSE_MASS, ANGULAR, EVEN_INERTIA = 3, 4, 7  # where what is angular begins, and what velocities lie beside
 
 
 @kernel("found", makes_arrays=True)
@@ -61,15 +62,15 @@ def pack_bodies(
         for lane in range(WIDTH):  # the last again where there are fewer, as `take_one` reads them
             index[0, lane] = rows[min(n + lane, len(rows) - 1)]
         v, w = take_three(linear, rows, n, near, three), take_three(angular, rows, n, near, three)
-        scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], zero, w[0], w[1], w[2], zero))
         if centred and not (near and are_all(0.0, center_of_mass, 3, rows[n])):
             x, y, z = take_three(center_of_mass, rows, n, near, three)
             centred = not some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z)))
         c, q = take_three(center, rows, n, near, three), take_four(rotation, rows, n, near, four)
         scatter(packed[POSE], address(index), 0, (c[0], c[1], c[2], zero, q[0], q[1], q[2], q[3]))
         free = take_freedom(freedom, rows, n, near, six)
+        m = take_one(inverse_mass, rows, n, near, one)
         if weigh:
-            m, f = take_one(inverse_mass, rows, n, near, one), take_three(felt, rows, n, near, three)
+            f = take_three(felt, rows, n, near, three)
             masses = (m * free[0], m * free[1], m * free[2], f[0], f[1], f[2], m, zero)
             scatter(packed[MASS_AND_FELT], address(index), 0, masses)
         ix, iy, iz = take_three(inverse_inertia, rows, n, near, three)
@@ -80,7 +81,10 @@ def pack_bodies(
             inverse = inverse_of(q, a, ix, iy, iz, uneven, inverse)
         xx, xy, xz, yy, yz, zz = inverse
         scatter(packed[INVERSE], address(index), 0, (xx, xy, xz, yy, yz, zz, larger(larger(ix, iy), iz), zero))
-        if some(choose(uneven, 3.0 - (free[3] + free[4] + free[5]), zero)):
+        locked = 3.0 - (free[3] + free[4] + free[5])
+        even = choose(larger(larger(uneven, locked), 3.0 - (free[0] + free[1] + free[2])), spread(-1.0), ix)
+        scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], m, w[0], w[1], w[2], even))
+        if some(choose(uneven, locked, zero)):
             for i in index[0]:
                 pack_held(i, inverse_inertia, principal, freedom, rotation, bodies)
     apart[crew[1]] = not centred

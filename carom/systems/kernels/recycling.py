@@ -13,7 +13,7 @@ from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import RECYCLED_SLIP, RECYCLED_TURN
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE
+from carom.systems.kernels.narrow import is_ball
 from carom.systems.kernels.spatial import turn
 
 
@@ -149,12 +149,6 @@ def smaller_reach(a, b, bound_half, bound_radius):
     of_a = bound_radius[a] + max(bound_half[a, 0], bound_half[a, 1], bound_half[a, 2])
     of_b = bound_radius[b] + max(bound_half[b, 0], bound_half[b, 1], bound_half[b, 2])
     return min(of_a, of_b)
-
-
-@woven
-def is_ball(i, shape):
-    """Tell whether a collider is a ball or a point."""
-    return shape[i] == SPHERE_SHAPE or shape[i] == POINT_SHAPE
 
 
 @woven

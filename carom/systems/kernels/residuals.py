@@ -7,11 +7,13 @@ from carom.systems.constants import PUSH_SPEED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.lane_vectors import TINY, dot, three
-from carom.systems.kernels.lanes import address, choose, gather, larger, load, planes, root, smaller, spread, store
-from carom.systems.kernels.levers import parting_at, parting_of
+from carom.systems.kernels.lane_vectors import TINY, dot, minus, three, times
+from carom.systems.kernels.lanes import address, choose, gather, larger, load, planes, root, spread, store
+from carom.systems.kernels.levers import frame_of, parting_at, parting_of
 from carom.systems.kernels.packing import VELOCITY
-from carom.systems.kernels.rubbing import IDLE, ROLLING, RUBBING, TWISTING, slip
+from carom.systems.kernels.resting_balls import parting_of_balls
+from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, slip
+from carom.systems.kernels.softness import aimed_at
 
 #: Rows of a group: the largest residual of a point of each manifold and the sum of those of all its points (m/s); how
 #: many of its points bear nothing, since they do not pull, and how many overlaps leave at the highest speed; 1 where
@@ -28,7 +30,7 @@ def find_residuals(begin, end, h, ends, soft, rigid, index_a, index_b, points, r
     normal: 0 where it bears and parts as wanted, or bears nothing and parts faster. This is the natural residual of the
     complementarity problem j >= 0, w >= 0, j w = 0 (Cottle, Pang and Stone, The Linear Complementarity Problem, 1992,
     section 5.10; Erleben, Numerical Methods for Linear Complementarity Problems in Physics-Based Animation, 2013),
-    in m/s. Where contacts yield w holds that part of it too (`press_points`).
+    in m/s. Where contacts yield w holds that part of it too (`aimed_at`).
     """
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     found = address(found)
@@ -38,27 +40,40 @@ def find_residuals(begin, end, h, ends, soft, rigid, index_a, index_b, points, r
         if asks[g] != IDLE:
             rate, hardness = soft if g < ends[0] else rigid
             a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+            parting, slips = parting_of_any(row[g], asks[g], lanes, a, b)
             total, twisting = look_at_points(
-                row[g], points[g], 1.0 / h, rate, hardness, a, b, lanes, FOUND * g, found
+                row[g], points[g], 1.0 / h, rate, hardness, parting, lanes, FOUND * g, found
             )  # fmt: skip
-            if asks[g] >= RUBBING:
+            if asks[g] == BALLS:
+                look_at_balls(row[g], total, slips, lanes, FOUND * g, found)
+            elif asks[g] >= RUBBING:
                 look_at_friction(row[g], asks[g], total, twisting, a, b, lanes, FOUND * g, found)
 
 
 @woven
-def look_at_points(r, points, per_second, rate, hardness, a, b, lanes, to, found):
+def parting_of_any(r, asks, lanes, a, b):
+    """Return how bodies part, as `parting_of` does, and how fast balls slip."""
+    zero = spread(0.0)
+    if asks == BALLS:
+        parts, slips = parting_of_balls(r, lanes, a, b)
+        return (parts, zero, zero), slips
+    return parting_of(r, lanes, a, b), (zero, zero, zero)
+
+
+@woven
+def look_at_points(r, points, per_second, rate, hardness, parting, lanes, to, found):
     """Write what the points of a group have left open; return the sum of their impulses, and times their distances."""
-    parting, one, zero = parting_of(r, lanes, a, b), spread(1.0), spread(0.0)
+    one, zero = spread(1.0), spread(0.0)
     total, twisting, largest, summed, opened, pushed = zero, zero, zero, zero, zero, zero
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
         there = choose(mass, choose(depth - spread(0.5 * ABSENT), one, zero), zero)
-        wanted = choose(-depth, depth * per_second, smaller(depth * rate, spread(PUSH_SPEED)))
-        hard = choose(-depth, one, spread(hardness))
-        after = larger(zero, hard * (before - mass * (parting_at(q, lanes, parting) - wanted)))
+        parts = parting_at(q, lanes, parting) if points > 1 else parting[0]
+        target, stiff = aimed_at(depth, before, mass, parts, per_second, rate, hardness)
+        after = larger(zero, target)
         change = larger(after - before, before - after)
-        left = choose(there, change / larger(hard * mass, spread(TINY)), zero)
+        left = choose(there, change / larger(stiff, spread(TINY)), zero)
         largest, summed = larger(largest, left), summed + left
         opened = opened + choose(before, zero, there)
         pushed = pushed + choose(depth * rate - PUSH_SPEED, there, zero)
@@ -71,19 +86,33 @@ def look_at_points(r, points, per_second, rate, hardness, a, b, lanes, to, found
 
 
 @woven
+def look_at_balls(r, total, slips, lanes, to, found):
+    """Write which manifolds of a group of balls, which slip so fast, rub with all that `press_balls` allows."""
+    most = load(lanes, r + of.FRICTION) * total
+    f = minus(three(lanes, r + of.RUB), times(load(lanes, r + of.GIVE), slips))
+    store(found, to + SLIDING, slides(root(dot(f, f)), most))
+
+
+@woven
+def slides(size, most):
+    """Return 1 where friction would have to be larger than it can be, else 0."""
+    return choose(most, choose(size - most * BEYOND, spread(1.0), spread(0.0)), spread(0.0))
+
+
+@woven
 def look_at_friction(r, asks, total, twisting, a, b, lanes, to, found):
     """Write which manifolds of a group rub, twist and roll with all that `rub` allows."""
     one, zero, friction = spread(1.0), spread(0.0), load(lanes, r + of.FRICTION)
     most, most_twist = friction * total, friction * twisting
     give, give_both, give_across = three(lanes, r + of.GIVE)
     t, u, spin = slip(r, lanes, a, b)
-    along = load(lanes, r + of.RUB) - (give * t + give_both * u)
-    across = load(lanes, r + of.RUB + 1) - (give_both * t + give_across * u)
+    f, (first, second, _) = three(lanes, r + of.RUB), frame_of(r, lanes)
+    along, across = dot(first, f) - (give * t + give_both * u), dot(second, f) - (give_both * t + give_across * u)
     wanted = load(lanes, r + of.SPUN) - load(lanes, r + of.SPIN) * spin
     part = wanted * choose(most_twist, most / larger(most_twist, spread(TINY)), zero)
     size = root(along * along + across * across + part * part)
-    slides = choose(most, choose(size - most * BEYOND, one, zero), zero)
-    store(found, to + SLIDING, slides)
+    sliding = slides(size, most)
+    store(found, to + SLIDING, sliding)
     if asks < TWISTING:
         return
     up_to = load(lanes, r + of.SPINNING) * total + most_twist
@@ -91,7 +120,7 @@ def look_at_friction(r, asks, total, twisting, a, b, lanes, to, found):
     if asks < ROLLING:
         return
     n, (x, y, z), stiff = three(lanes, r + of.NORMAL), three(lanes, r + of.ROLLED), load(lanes, r + of.ROLL)
-    most_roll = choose(slides, zero, load(lanes, r + of.ROLLING) * total)
+    most_roll = choose(sliding, zero, load(lanes, r + of.ROLLING) * total)
     turns, up = (b[4] - a[4], b[5] - a[5], b[6] - a[6]), dot(n, (x, y, z))
     x, y, z = (
         x - up * n[0] - stiff * (turns[0] - spin * n[0]),

@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import MANIFOLD_POINTS, POINT_SWEEPS, PUSH_SPEED
+from carom.systems.constants import MANIFOLD_POINTS, POINT_SWEEPS
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.crew import part_of, shared, wait_for_all
+from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, couplings, pair
 from carom.systems.kernels.impulses import pressed, rolled, struck
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import three
+from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import (
     address,
-    choose,
     gather,
     larger,
     load,
     planes,
     scatter,
-    smaller,
     spread,
     store,
 )
-from carom.systems.kernels.levers import parting_at, parting_of
+from carom.systems.kernels.levers import frame_of, parting_at, parting_of
 from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
-from carom.systems.kernels.rubbing import IDLE, ROLLING, RUBBING, TWISTING, rub
+from carom.systems.kernels.resting_balls import press_balls, press_balls_warm
+from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, rub
+from carom.systems.kernels.softness import aimed_at
 
 # Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, and the
 # mass that counts along the normal.
@@ -32,16 +32,11 @@ IMPULSE, TARGET, STIFF, SCRATCH_ROWS = 0, 1, 2, 3
 
 
 @woven
-def part_of_run(crew, run, run_ends):
-    """Return where a thread's part of a run of groups begins and ends: bodies stay in its cache."""
-    first = run_ends[run - 1] if run else 0
-    begin, end = part_of(crew, run_ends[run] - first)
-    return first + begin, first + end
-
-
-@woven
 def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
     """Apply the impulses of a group."""
+    if asks == BALLS:
+        press_balls_warm(g, r, index_a, index_b, lanes, bodies)
+        return
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     total, by_t, by_u = spread(0.0), spread(0.0), spread(0.0)
     for p in range(points):
@@ -49,7 +44,8 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
         j = load(lanes, q + of.WARM)
         total = total + j
         by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
-    along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
+    f, (t, u, _) = three(lanes, r + of.RUB), frame_of(r, lanes)
+    along, across = dot(t, f), dot(u, f)
     by_n = load(lanes, r + of.SPUN) if asks >= TWISTING else spread(0.0)
     a, b = struck(r, lanes, a, b, along, across, total, by_t, by_u, by_n)
     if asks == ROLLING:
@@ -66,7 +62,7 @@ def press_groups(
 ):  # fmt: skip
     """Solve every group that rests ``sweeps`` times over.
 
-    ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`press_points`). Those with something
+    ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`aimed_at`). Those with something
     that cannot move come last, so that what is under a pile has the last word. Where the substep ``begins`` with them,
     the impulses of the one before are applied first; where it has ``ended``, its impulses are added to those of the
     step. Velocities of ``rows`` are packed before and unpacked behind.
@@ -113,15 +109,16 @@ def sum_impulses(r, points, lanes):
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         store(lanes, q + of.SUM, load(lanes, q + of.SUM) + load(lanes, q + of.WARM))
-    along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
     for k in range(3):
-        t, u = load(lanes, r + of.TANGENT + k), load(lanes, r + of.TANGENT + 3 + k)
-        store(lanes, r + of.RUBBED + k, load(lanes, r + of.RUBBED + k) + (along * t + across * u))
+        store(lanes, r + of.RUBBED + k, load(lanes, r + of.RUBBED + k) + load(lanes, r + of.RUB + k))
 
 
 @woven
 def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lanes, bodies, scratch):
     """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling."""
+    if asks == BALLS:
+        press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies)
+        return
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     # Loops over a known number of points are unrolled.
     if points == 1:
@@ -143,21 +140,17 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
     """Solve the points of a group.
 
     Return the velocities of both bodies, the sum of the impulses, and that of each times its distance from the middle.
-    Overlap leaves at ``rate`` (1/s) times itself. A soft contact is a spring and a damper, stepped implicitly, of which
-    ``hardness`` (part of the mass, and of the impulse that stays) remains: Catto, Soft Constraints, GDC 2011, and
-    Solver2D, 2024 (soft step). A gap may close until the end of the substep. Each point has a target, the impulse after
-    which it would part as wanted; others move it, and the bodies learn of all impulses at once.
+    Each point has a target, the impulse that is `aimed_at`; others move it, and the bodies learn of all at once.
     """
-    parting, one, zero = parting_of(r, lanes, a, b), spread(1.0), spread(0.0)
+    parting, zero = parting_of(r, lanes, a, b), spread(0.0)
     for p in range(points):
         q, x = r + MANIFOLD_ROWS + POINT_ROWS * p, SCRATCH_ROWS * p
         depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
-        wanted = choose(-depth, depth * per_second, smaller(depth * rate, spread(PUSH_SPEED)))
-        hard = choose(-depth, one, spread(hardness))
-        store(scratch, x + IMPULSE, before)
         parts = parting_at(q, lanes, parting) if points > 1 else parting[0]
-        store(scratch, x + TARGET, hard * (before - mass * (parts - wanted)))
-        store(scratch, x + STIFF, hard * mass)
+        target, stiff = aimed_at(depth, before, mass, parts, per_second, rate, hardness)
+        store(scratch, x + IMPULSE, before)
+        store(scratch, x + TARGET, target)
+        store(scratch, x + STIFF, stiff)
     for _ in range(POINT_SWEEPS if points > 1 else 1):
         for p in range(points):
             after = larger(zero, load(scratch, SCRATCH_ROWS * p + TARGET))

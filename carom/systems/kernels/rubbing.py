@@ -7,12 +7,12 @@ from carom.systems.constants import ROLL_SWEEPS, ROLLING_SOLVED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.impulses import rolled, rubbed, spun
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import TINY, dot, keep, three
+from carom.systems.kernels.lane_vectors import TINY, dot, keep, spanned, three
 from carom.systems.kernels.lanes import choose, larger, load, root, smaller, some, spread, store
 from carom.systems.kernels.levers import frame_of
 
-# What the manifolds of a group ask for, each more than before.
-IDLE, RESTING, RUBBING, TWISTING, ROLLING = 0, 1, 2, 3, 4
+# What the manifolds of a group ask for, each more than before; `BALLS` that rub have a way of their own.
+IDLE, RESTING, BALLS, RUBBING, TWISTING, ROLLING = 0, 1, 2, 3, 4, 5
 
 
 @woven
@@ -23,7 +23,7 @@ def rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies):
     Friction that slides twists the less: both share one cone (Goyal, Ruina and Papadopoulos, Wear 143, 307, 1991, as an
     ellipsoid).
     """
-    n, friction, zero = three(lanes, r + of.NORMAL), load(lanes, r + of.FRICTION), spread(0.0)
+    (first, second, n), friction, zero = frame_of(r, lanes), load(lanes, r + of.FRICTION), spread(0.0)
     most = friction * total
     most_twist, most_spin, per_twist, before, hold = zero, zero, zero, zero, zero
     if asks >= TWISTING:
@@ -31,7 +31,8 @@ def rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies):
         per_twist = choose(most_twist, most / larger(most_twist, spread(TINY)), zero)
         before, hold = load(lanes, r + of.SPUN), load(lanes, r + of.SPIN)
     give, give_both, give_across = three(lanes, r + of.GIVE)
-    along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
+    f = three(lanes, r + of.RUB)
+    along, across = dot(first, f), dot(second, f)
     for _ in range(ROLL_SWEEPS if asks == ROLLING else 1):
         t, u, spin = slip(r, lanes, a, b)
         new_along = along - (give * t + give_both * u)
@@ -73,8 +74,8 @@ def rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies):
         open_roll = x * x + y * y + z * z - ROLLING_SOLVED * most_roll * most_roll
         if not some(larger(open_rub, open_roll)):
             break
-    store(lanes, r + of.RUB, along)
-    store(lanes, r + of.RUB + 1, across)
+    f = spanned(along, first, across, second)
+    keep(lanes, r + of.RUB, f[0], f[1], f[2])
     return a, b
 
 

@@ -9,9 +9,11 @@ from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, store_flat
+from carom.systems.kernels.lane_vectors import dot, minus, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import WAY
+from carom.systems.kernels.resting_balls import are_even
 from carom.systems.kernels.spatial import turn
 
 
@@ -76,16 +78,21 @@ def finish_body(
 
 
 @shared("lanes", "depth")
-def sink_contacts(crew, order, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
+def sink_contacts(crew, groups, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
     """Write the depths that contacts have come to be; those of balls on exact arcs are measured.
 
     A point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
     """
     rows, moved, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
-    begin, end = part_of(crew, len(order))
-    for g in order[begin:end]:
+    begin, end = part_of(crew, groups)
+    for g in range(begin, end):
         r = row[g]
-        parting = parting_of(r, rows, gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g))
+        a, b = gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g)
+        if are_even(r, lanes):
+            q = r + MANIFOLD_ROWS
+            store(rows, q + of.DEPTH, load(rows, q + of.DEPTH) - dot(three(rows, r + of.NORMAL), minus(b, a)))
+            continue
+        parting = parting_of(r, rows, a, b)
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
             store(rows, q + of.DEPTH, load(rows, q + of.DEPTH) - parting_at(q, rows, parting))

@@ -8,17 +8,14 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import gap_of_ball, pose_of_other
 from carom.systems.kernels.balls_in_lanes import (
     are_balls,
-    find_balls,
     measure_balls_in_lanes,
-    write_normals,
-    write_touches,
 )
 from carom.systems.kernels.crew import part_of, shared
-from carom.systems.kernels.filling import place_points, tangents_of
+from carom.systems.kernels.filling import find_tangents, place_points
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.kinematic import follow_turning
-from carom.systems.kernels.lane_vectors import dot, keep, three
+from carom.systems.kernels.lane_vectors import dot, minus, three
 from carom.systems.kernels.lanes import (
     WIDTH,
     address,
@@ -37,44 +34,43 @@ from carom.systems.kernels.lanes import (
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.manifolds import prepare
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
-from carom.systems.kernels.rubbing import IDLE, RESTING, ROLLING, RUBBING, TWISTING
+from carom.systems.kernels.resting_balls import are_even, find_even, follow_normals, weigh_balls
+from carom.systems.kernels.rubbing import BALLS, IDLE, RESTING, ROLLING, RUBBING, TWISTING
 
 
 @shared(
     "numbers", "fresh", "stale", "looks", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b",
-    "resting", "touching",
+    "resting", "touching", "leans",
 )  # fmt: skip
 def sort_groups(
-    crew, order, h, bends, last, resting_stage, joined, ends, index_a, index_b, first, size, points, row,
+    crew, groups, h, bends, resting_stage, joined, ends, index_a, index_b, first, size, points, row,
     fresh, stale, looks, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
-    normal, depth, point, offset_a, offset_b, resting, on_joint, touching, numbers,
+    normal, depth, point, offset_a, offset_b, resting, on_joint, touching, leans, numbers,
 ):  # fmt: skip
-    """Say which manifolds rest at the start of the substep and prepare them, mark their bodies as touching.
+    """Say which manifolds rest at the start of the substep and prepare them.
 
     A group is prepared when it is ``fresh`` from detection, when others of it rest, and where balls have moved on; it
-    ``looks`` at its manifolds one by one where they have to be measured so. The contact table learns where balls touch
-    each other in the ``last`` substep, else only what `bend_arcs` asks for. What rested before is read from it where it
-    is ``stale``: someone else has written it since; and where bodies may be ``joined``.
-    Count in ``numbers``, a row each thread, how many manifolds rest, and how many of those are of balls on exact arcs.
+    ``looks`` at its manifolds one by one where they have to be measured so. Of two balls the contact table learns later
+    (`write_touches`). What rested before is read from it where it is ``stale``: someone else has written it since; and
+    where bodies may be ``joined``.
+    Mark the bodies of those that rest as touching, and in ``leans``: those of balls on exact arcs in the second row, of
+    others in the first. Count in ``numbers``, for each thread, how many rest.
     """
     rows, packed, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
-    begin, end = part_of(crew, len(order))
-    number, balls = 0, 0
-    for g in order[begin:end]:
+    begin, end = part_of(crew, groups)
+    number = 0
+    for g in range(begin, end):
         r = row[g]
         changed = fresh[g]
         if changed:
-            find_balls(g, r, first, kind, sign, radius, extent, lanes)
             looks[g] = g >= ends[0] or (some(load(rows, r + of.BALL)) and not are_balls(r, lanes))
+            if g < ends[0] and are_balls(r, lanes):
+                find_even(g, r, of_a, of_b, rows, packed)
         measured = g < ends[0] and are_balls(r, lanes)
         moved_on = measured
         if measured:
             measure_balls_in_lanes(g, r, of_a, of_b, rows, packed)
-            if bends or last:
-                write_normals(g, r, first, lanes, normal)
-            if last:
-                write_touches(g, r, first, index_a, center, lanes, depth, point, offset_a, offset_b)
         elif looks[g]:
             for lane in range(WIDTH):
                 c = first[g, lane]
@@ -93,7 +89,9 @@ def sort_groups(
                     for k in range(c, c + size[g, lane]):
                         moves |= follow_turning(k, a, b, time, bodies, normal, center, offset_a, offset_b)
                 moved_on |= moves
-        if moved_on:
+        if are_even(r, lanes):
+            follow_normals(r, rows)
+        elif moved_on:
             find_tangents(r, rows)
             if not measured:
                 place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
@@ -103,31 +101,34 @@ def sort_groups(
         else:
             store(rows, r + of.TOGETHER, before)
         masses_a, masses_b = gather(packed[MASS_AND_FELT], of_a, g), gather(packed[MASS_AND_FELT], of_b, g)
-        rests = find_resting(g, r, points[g], h, of_a, of_b, masses_a, masses_b, rows, packed) * resting_stage
+        rests = find_resting(g, r, points[g], measured, h, of_a, of_b, masses_a, masses_b, rows, packed) * resting_stage
         store(rows, r + of.RESTS, rests)
-        changed |= some(rests - before) or some(before - rests)
+        others = some(rests - before) or some(before - rests)
+        changed |= others
         held = which(rests)
         for lane in range(WIDTH):
             if held >> lane & 1:
                 number += 1
-                balls += lanes[r + of.BALL, lane] > 0.0
-                a, b = index_a[g, lane], index_b[g, lane]
-                if a < len(touching):
-                    touching[a] = True
-                if b < len(touching):
-                    touching[b] = True
-        if changed or stale[g] or joined:
+                as_ball = 1 if lanes[r + of.BALL, lane] > 0.0 else 0
+                for i in (index_a[g, lane], index_b[g, lane]):
+                    leans[as_ball, i] = True
+                    if i < len(touching):
+                        touching[i] = True
+        if others or stale[g] or joined or (fresh[g] and points[g] > 1):
             for lane in range(WIDTH):
                 c = first[g, lane]
                 for k in range(c, c + size[g, lane]):
                     resting[k] = (held >> lane & 1) == 1
         if changed:
-            asks[g] = asked(r, points[g], rests, rows)
+            asks[g] = BALLS if some(rests) and are_even(r, lanes) else asked(r, points[g], rests, rows)
             forget(r, points[g], rests, rows)
         fresh[g] = stale[g] = False
-        if asks[g] != IDLE and (changed or moved_on):
+        if asks[g] == BALLS:
+            if changed:
+                weigh_balls(g, r, rests, of_a, of_b, rows, packed)
+        elif asks[g] != IDLE and (changed or moved_on):
             prepare(g, r, points[g], asks[g], rests, of_a, of_b, masses_a, masses_b, rows, packed)
-    numbers[crew[1], 0], numbers[crew[1], 1] = number, balls
+    numbers[crew[1]] = number
 
 
 @woven
@@ -161,29 +162,14 @@ def forget(r, points, rests, lanes):
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         store(lanes, q + of.WARM, load(lanes, q + of.WARM) * rests)
-    for k in range(of.RUB, of.RUBBED):
-        store(lanes, r + k, load(lanes, r + k) * rests)
+    store(lanes, r + of.SPUN, load(lanes, r + of.SPUN) * rests)
+    for k in range(3):
+        for row in (of.RUB, of.ROLLED):
+            store(lanes, r + row + k, load(lanes, r + row + k) * rests)
 
 
 @woven
-def find_tangents(r, lanes):
-    """Find tangents to normals that have changed, and what was rubbed along them."""
-    t, u = tangents_of(three(lanes, r + of.NORMAL))
-    along, across = load(lanes, r + of.RUB), load(lanes, r + of.RUB + 1)
-    old_t, old_u = three(lanes, r + of.TANGENT), three(lanes, r + of.TANGENT + 3)
-    rub = (
-        along * old_t[0] + across * old_u[0],
-        along * old_t[1] + across * old_u[1],
-        along * old_t[2] + across * old_u[2],
-    )
-    store(lanes, r + of.RUB, dot(t, rub))
-    store(lanes, r + of.RUB + 1, dot(u, rub))
-    keep(lanes, r + of.TANGENT, t[0], t[1], t[2])
-    keep(lanes, r + of.TANGENT + 3, u[0], u[1], u[2])
-
-
-@woven
-def find_resting(g, r, points, h, index_a, index_b, masses_a, masses_b, lanes, bodies):
+def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, lanes, bodies):
     """Return 1 for each manifold that rests, else 0.
 
     One rests when one of its points touches or would by the end of the substep (a ball only once it touches), unless
@@ -202,10 +188,10 @@ def find_resting(g, r, points, h, index_a, index_b, masses_a, masses_b, lanes, b
     slow = choose(restitution, pressing, all_forces)
     limit = slow * (REST_SPEED_FACTOR * h) + APPROACH
     near, striking, held = spread(-1.0), spread(-1.0), zero
-    parting = parting_of(r, lanes, a, b)
+    parting = (dot(n, minus(b, a)), zero, zero) if balls else parting_of(r, lanes, a, b)
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
-        closing = -parting_at(q, lanes, parting)
+        closing = -(parting_at(q, lanes, parting) if points > 1 else parting[0])
         gap = -load(lanes, q + of.DEPTH)
         after = gap - closing * h - pressing * (0.5 * h * h)
         # What forces kept together before, is on a joint or inside one another, and does not bounce, rests however

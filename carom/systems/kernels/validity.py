@@ -30,6 +30,8 @@ def refuse_points(
     begin, end = part_of(crew, len(pairs))
     for p in range(begin, end):
         fault[p] = SOUND
+        if not count[p]:
+            continue
         a, b = pairs[p, 0], pairs[p, 1]
         deepest, farthest = inf, (1.0 + MEASURED) * reaches[p] + MEASURED
         greatest = 0.0

@@ -1,0 +1,114 @@
+"""Resting contacts of two balls each, a group at a time: what most numbers of a group are for, balls do without.
+
+Where balls touch is on the line between their centres, so that only friction turns them, and all directions across the
+line are alike.
+"""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.kernels import groups as of
+from carom.systems.kernels.groups import MANIFOLD_ROWS
+from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, three, times
+from carom.systems.kernels.lanes import choose, gather, larger, load, root, scatter, some, spread, store
+from carom.systems.kernels.manifolds import inverse_or_none
+from carom.systems.kernels.packing import EVEN_INERTIA, INVERSE_MASS, VELOCITY
+from carom.systems.kernels.softness import aimed_at
+
+
+@woven
+def find_even(g, r, index_a, index_b, lanes, bodies):
+    """Mark a group of balls that are alike about all axes and do no more than rub."""
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    sx, sy, sz = three(lanes, r + of.SURFACE)
+    more = larger(larger(larger(sx, -sx), larger(sy, -sy)), larger(sz, -sz))
+    more = larger(more, larger(load(lanes, r + of.ROLLING), load(lanes, r + of.SPINNING)))
+    if not some(larger(more, larger(-a[EVEN_INERTIA], -b[EVEN_INERTIA]))):
+        store(lanes, r + of.BALL, spread(3.0))
+
+
+@woven
+def are_even(r, lanes):
+    """Tell whether a group is what `find_even` finds."""
+    return lanes[r + of.BALL, 0] > 2.0
+
+
+@woven
+def weigh_balls(g, r, rests, index_a, index_b, lanes, bodies):
+    """Write the masses that count along the normal and across it; 0 where a manifold does not rest."""
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    z_a, z_b = load(lanes, r + of.MIDDLE_A + 2), load(lanes, r + of.MIDDLE_B + 2)
+    yields = a[INVERSE_MASS] + b[INVERSE_MASS]
+    gives = yields + (a[EVEN_INERTIA] * z_a * z_a + b[EVEN_INERTIA] * z_b * z_b)
+    store(lanes, r + MANIFOLD_ROWS + of.MASS, inverse_or_none(rests, yields))
+    store(lanes, r + of.GIVE, inverse_or_none(rests, gives))
+
+
+@woven
+def follow_normals(r, lanes):
+    """Take what is no longer across the normals out of friction."""
+    n, f = three(lanes, r + of.NORMAL), three(lanes, r + of.RUB)
+    f = minus(f, times(dot(n, f), n))
+    keep(lanes, r + of.RUB, f[0], f[1], f[2])
+
+
+@woven
+def parting_of_balls(r, lanes, a, b):
+    """Return how fast balls part, and the velocity of b's surface against a's across the normal."""
+    n, way = three(lanes, r + of.NORMAL), minus(b, a)
+    z_a, z_b = load(lanes, r + of.MIDDLE_A + 2), load(lanes, r + of.MIDDLE_B + 2)
+    parts = dot(n, way)
+    rolls = cross(minus(times(z_b, b[4:7]), times(z_a, a[4:7])), n)
+    return parts, (way[0] - parts * n[0] + rolls[0], way[1] - parts * n[1] + rolls[1], way[2] - parts * n[2] + rolls[2])
+
+
+@woven
+def struck_balls(r, lanes, a, b, weights_a, weights_b, j, f):
+    """Return velocities of both balls after an impulse along the normal and one across it.
+
+    ``weights_a`` and ``weights_b`` are as packed with velocities.
+    """
+    n, z_a, z_b = three(lanes, r + of.NORMAL), load(lanes, r + of.MIDDLE_A + 2), load(lanes, r + of.MIDDLE_B + 2)
+    push, turn = (j * n[0] + f[0], j * n[1] + f[1], j * n[2] + f[2]), cross(n, f)
+    return (
+        moved(a, -weights_a[INVERSE_MASS], -weights_a[EVEN_INERTIA] * z_a, push, turn),
+        moved(b, weights_b[INVERSE_MASS], weights_b[EVEN_INERTIA] * z_b, push, turn),
+    )
+
+
+@woven
+def moved(v, mass, lever, push, turn):
+    """Return velocities after a push, and a turn by a lever."""
+    return (
+        v[0] + mass * push[0], v[1] + mass * push[1], v[2] + mass * push[2], v[3],
+        v[4] + lever * turn[0], v[5] + lever * turn[1], v[6] + lever * turn[2], v[7],
+    )  # fmt: skip
+
+
+@woven
+def press_balls_warm(g, r, index_a, index_b, lanes, bodies):
+    """Apply the impulses of a group."""
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    a, b = struck_balls(r, lanes, a, b, a, b, load(lanes, r + MANIFOLD_ROWS + of.WARM), three(lanes, r + of.RUB))
+    scatter(bodies[VELOCITY], index_a, g, a)
+    scatter(bodies[VELOCITY], index_b, g, b)
+
+
+@woven
+def press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies):
+    """Solve a group once, as `press_points` and `rub` do: what parts balls does not rub them, so that both are one."""
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    q, zero = r + MANIFOLD_ROWS, spread(0.0)
+    depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
+    parts, slips = parting_of_balls(r, lanes, a, b)
+    after = larger(zero, aimed_at(depth, before, mass, parts, per_second, rate, hardness)[0])
+    store(lanes, q + of.WARM, after)
+    f = three(lanes, r + of.RUB)
+    new = minus(f, times(load(lanes, r + of.GIVE), slips))
+    most, size = load(lanes, r + of.FRICTION) * after, root(dot(new, new))
+    new = times(choose(size - most, most / larger(size, spread(TINY)), spread(1.0)), new)
+    keep(lanes, r + of.RUB, new[0], new[1], new[2])
+    a, b = struck_balls(r, lanes, a, b, a, b, after - before, minus(new, f))
+    scatter(bodies[VELOCITY], index_a, g, a)
+    scatter(bodies[VELOCITY], index_b, g, b)
