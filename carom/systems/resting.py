@@ -300,7 +300,7 @@ class Resting(Resource):
             return
         contact = world[Contact]
         hand_over(
-            crew_for(world, self.count), self.groups, self.first, self.size, self.row, self.lanes,
+            crew_for(world, self.count), self.groups, self.first, self.size, self.row, self.asks, self.lanes,
             contact.impulse, contact.friction_impulse,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling,
         )  # fmt: skip

@@ -34,6 +34,7 @@ from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import lane_of, numbers_at, pick, pick_one, pick_three
 from carom.systems.kernels.lane_vectors import dot, keep, plus, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, spread, store
+from carom.systems.kernels.rubbing import BALLS
 
 LANES = tuple(range(WIDTH))
 
@@ -135,7 +136,7 @@ def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
 
 @shared("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
 def hand_over(
-    crew, groups, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling
+    crew, groups, first, size, row, asks, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling
 ):
     """Write the impulses that the resting stage has found back into the contact table."""
     begin, end = part_of(crew, groups)
@@ -151,6 +152,7 @@ def hand_over(
                 for k in range(3):
                     warm_friction[c, k] = share * lanes[r + RUB + k, lane]
                     friction_impulse[c, k] += share * lanes[r + RUBBED + k, lane]
-                    warm_rolling[c, k] = share * (spun * lanes[r + NORMAL + k, lane] + lanes[r + ROLLED + k, lane])
+                    if asks[g] != BALLS:  # they neither twist nor roll
+                        warm_rolling[c, k] = share * (spun * lanes[r + NORMAL + k, lane] + lanes[r + ROLLED + k, lane])
             for k in range(3):
                 lanes[r + RUBBED + k, lane] = 0.0

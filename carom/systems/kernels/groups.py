@@ -64,20 +64,25 @@ def group_manifolds(
     reached = np.zeros((2, len(inverse_mass)), np.int64)
     level, stands = np.empty(count, np.int64), np.empty(count, np.int64)
     levels = 0
-    for m in shuffled:
+    movers = np.empty((count, 2), np.int64)  # side by side, since they are gone through without order
+    for m in range(count):
         i, o = body_a[start[m]], body_b[start[m]]
-        moving_a, moving_b = is_moving(i, inverse_mass), is_moving(o, inverse_mass)
-        stands[m] = 0 if moving_a and moving_b else 1
-        level[m] = 0
-        if moving_a:
-            level[m] = reached[stands[m], i]
-        if moving_b:
-            level[m] = max(level[m], reached[stands[m], o])
-        if moving_a:
-            reached[stands[m], i] = level[m] + 1
-        if moving_b:
-            reached[stands[m], o] = level[m] + 1
-        levels = max(levels, level[m] + 1)
+        movers[m, 0] = i if is_moving(i, inverse_mass) else -1
+        movers[m, 1] = o if is_moving(o, inverse_mass) else -1
+        stands[m] = 0 if movers[m, 0] >= 0 and movers[m, 1] >= 0 else 1
+    for m in shuffled:
+        i, o, heights = movers[m, 0], movers[m, 1], reached[stands[m]]
+        lowest = 0
+        if i >= 0:
+            lowest = heights[i]
+        if o >= 0:
+            lowest = max(lowest, heights[o])
+        if i >= 0:
+            heights[i] = lowest + 1
+        if o >= 0:
+            heights[o] = lowest + 1
+        level[m] = lowest
+        levels = max(levels, lowest + 1)
     begin = np.zeros(2 * levels * MANIFOLD_POINTS + 1, np.int64)
     for m in range(count):
         begin[(stands[m] * levels + level[m] + 1) * MANIFOLD_POINTS - (start[m + 1] - start[m]) + 1] += 1

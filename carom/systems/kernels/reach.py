@@ -26,12 +26,13 @@ def way_within(i, span, linear, acceleration):
 @woven
 def are_apart(p, i, o, span, center, linear, acceleration, other_position, radius, extent):
     """Tell whether the ball i of pair p and the ball o, or what stands there, are too far apart to meet in time."""
-    away = 0.0
+    away, quick, push = 0.0, 0.0, 0.0
     for k in range(3):
         away += (center[i, k] - (center[o, k] if o >= 0 else other_position[p, k])) ** 2
-    way = way_within(i, span, linear, acceleration)
-    if o >= 0:
-        way += way_within(o, span, linear, acceleration)
+        quick += linear[i, k] ** 2 + (linear[o, k] ** 2 if o >= 0 else 0.0)
+        push += acceleration[i, k] ** 2 + (acceleration[o, k] ** 2 if o >= 0 else 0.0)
+    # Four lengths are no longer than twice the root of their squares: the ways at both speeds and accelerations.
+    way = 2.0 * span * sqrt(quick + 0.25 * span * span * push)
     return away > (radius[p] + extent[p, 0] + way + ROOT_GAP) ** 2
 
 
