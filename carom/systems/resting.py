@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import pi
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +13,7 @@ from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.awake import Awake
-from carom.systems.constants import CONTACT_DAMPING, CONTACT_FREQUENCY, MANIFOLD_POINTS, RELAX_SWEEPS, RIGID_RATE
+from carom.systems.constants import MANIFOLD_POINTS, RELAX_SWEEPS
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
 from carom.systems.kernels.balls import BALL
@@ -42,8 +41,7 @@ from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.threads import crew_for
-
-Yielding = tuple[float, float]
+from carom.systems.yielding import Yielding, yielding
 
 
 class Stage(NamedTuple):
@@ -304,15 +302,3 @@ class Resting(Resource):
             contact.impulse, contact.friction_impulse,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling,
         )  # fmt: skip
-
-
-def yielding(h: float) -> tuple[Yielding, Yielding]:
-    """Return how contacts of two moving bodies, and of one, yield in a substep of h seconds.
-
-    Each is (rate at which overlap leaves, in 1/s, part of the mass and of the impulse that stays): Catto, Soft
-    Constraints, GDC 2011. The frequency is limited by the substep's own.
-    """
-    circle = 2.0 * pi * min(CONTACT_FREQUENCY, 0.25 / h)
-    one = 2.0 * CONTACT_DAMPING + h * circle
-    two = h * circle * one
-    return (circle / one, two / (1.0 + two)), (RIGID_RATE / h, 1.0)

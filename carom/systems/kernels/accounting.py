@@ -102,7 +102,6 @@ def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, ea
     lanes, bodies, earlier = address(lanes), planes(bodies), address(earlier)
     momenta, work, index_a, index_b = address(momenta), address(work), address(index_a), address(index_b)
     zero = spread(0.0)
-    rest = (zero, zero, zero, zero, zero, zero, zero, zero)
     for g in range(begin, end):
         r = row[g]
         if asks[g] == IDLE:
@@ -116,24 +115,31 @@ def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, ea
             j = gained(q + of.WARM, lanes, earlier)
             total = total + j
             by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
-        v_a, v_b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+        rest_a, rest_b = at_rest(gather(bodies[VELOCITY], index_a, g)), at_rest(gather(bodies[VELOCITY], index_b, g))
         if asks[g] == BALLS:
-            a, b = struck_balls(r, lanes, rest, rest, v_a, v_b, total, (zero, zero, zero))
+            a, b = struck_balls(r, lanes, rest_a, rest_b, total, (zero, zero, zero))
         else:
-            a, b = pressed(r, lanes, rest, rest, total, by_t, by_u)
+            a, b = pressed(r, lanes, rest_a, rest_b, total, by_t, by_u)
         store(work, 2 * g, given(p_a, a) + given(p_b, b))
         f = gained_three(r + of.RUB, lanes, earlier)
         if asks[g] == BALLS:
-            a, b = struck_balls(r, lanes, rest, rest, v_a, v_b, zero, f)
+            a, b = struck_balls(r, lanes, rest_a, rest_b, zero, f)
         else:
             t, u, _ = frame_of(r, lanes)
-            a, b = rubbed(r, lanes, rest, rest, dot(t, f), dot(u, f))
+            a, b = rubbed(r, lanes, rest_a, rest_b, dot(t, f), dot(u, f))
         if asks[g] >= TWISTING:
             a, b = spun(r, lanes, a, b, gained(r + of.SPUN, lanes, earlier))
         if asks[g] == ROLLING:
             x, y, z = gained_three(r + of.ROLLED, lanes, earlier)
             a, b = rolled(g, index_a, index_b, bodies, a, b, x, y, z)
         store(work, 2 * g + 1, given(p_a, a) + given(p_b, b))
+
+
+@woven
+def at_rest(v):
+    """Return what is packed with velocities, which are none."""
+    zero = spread(0.0)
+    return zero, zero, zero, v[3], zero, zero, zero, v[7]
 
 
 @woven

@@ -10,7 +10,7 @@ from __future__ import annotations
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, three, times
+from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, plus, three, times
 from carom.systems.kernels.lanes import choose, gather, larger, load, root, scatter, some, spread, store
 from carom.systems.kernels.manifolds import inverse_or_none
 from carom.systems.kernels.packing import EVEN_INERTIA, INVERSE_MASS, VELOCITY
@@ -60,20 +60,17 @@ def parting_of_balls(r, lanes, a, b):
     z_a, z_b = load(lanes, r + of.MIDDLE_A + 2), load(lanes, r + of.MIDDLE_B + 2)
     parts = dot(n, way)
     rolls = cross(minus(times(z_b, b[4:7]), times(z_a, a[4:7])), n)
-    return parts, (way[0] - parts * n[0] + rolls[0], way[1] - parts * n[1] + rolls[1], way[2] - parts * n[2] + rolls[2])
+    return parts, plus(minus(way, times(parts, n)), rolls)
 
 
 @woven
-def struck_balls(r, lanes, a, b, weights_a, weights_b, j, f):
-    """Return velocities of both balls after an impulse along the normal and one across it.
-
-    ``weights_a`` and ``weights_b`` are as packed with velocities.
-    """
+def struck_balls(r, lanes, a, b, j, f):
+    """Return velocities of both balls after an impulse along the normal and one across it."""
     n, z_a, z_b = three(lanes, r + of.NORMAL), load(lanes, r + of.MIDDLE_A + 2), load(lanes, r + of.MIDDLE_B + 2)
-    push, turn = (j * n[0] + f[0], j * n[1] + f[1], j * n[2] + f[2]), cross(n, f)
+    push, turn = plus(times(j, n), f), cross(n, f)
     return (
-        moved(a, -weights_a[INVERSE_MASS], -weights_a[EVEN_INERTIA] * z_a, push, turn),
-        moved(b, weights_b[INVERSE_MASS], weights_b[EVEN_INERTIA] * z_b, push, turn),
+        moved(a, -a[INVERSE_MASS], -a[EVEN_INERTIA] * z_a, push, turn),
+        moved(b, b[INVERSE_MASS], b[EVEN_INERTIA] * z_b, push, turn),
     )
 
 
@@ -90,7 +87,7 @@ def moved(v, mass, lever, push, turn):
 def press_balls_warm(g, r, index_a, index_b, lanes, bodies):
     """Apply the impulses of a group."""
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-    a, b = struck_balls(r, lanes, a, b, a, b, load(lanes, r + MANIFOLD_ROWS + of.WARM), three(lanes, r + of.RUB))
+    a, b = struck_balls(r, lanes, a, b, load(lanes, r + MANIFOLD_ROWS + of.WARM), three(lanes, r + of.RUB))
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
 
@@ -109,6 +106,6 @@ def press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodie
     most, size = load(lanes, r + of.FRICTION) * after, root(dot(new, new))
     new = times(choose(size - most, most / larger(size, spread(TINY)), spread(1.0)), new)
     keep(lanes, r + of.RUB, new[0], new[1], new[2])
-    a, b = struck_balls(r, lanes, a, b, a, b, after - before, minus(new, f))
+    a, b = struck_balls(r, lanes, a, b, after - before, minus(new, f))
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)

@@ -6,10 +6,7 @@ from __future__ import annotations
 from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import gap_of_ball, pose_of_other
-from carom.systems.kernels.balls_in_lanes import (
-    are_balls,
-    measure_balls_in_lanes,
-)
+from carom.systems.kernels.balls_in_lanes import are_balls, measure_balls_in_lanes
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.filling import find_tangents, place_points
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
