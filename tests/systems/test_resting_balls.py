@@ -7,7 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carom.ecs import Motion, RigidBody, Transform
+from carom.ecs import Collider, Motion, RigidBody, Transform
+from carom.ecs.components.flight import Flight
+from carom.ecs.relations.contact import Contact
 from carom.systems.kernels.rubbing import BALLS
 from carom.systems.resting import Resting
 from carom.systems.simulation import Simulation
@@ -53,3 +55,21 @@ def test_balls_go_where_the_way_of_all_others_leads_them(way: str) -> None:
     for kind, column in ((Transform, "position"), (Motion, "linear"), (Motion, "angular")):
         one, two = (getattr(world[kind], column)[world.rows(RigidBody)] for world in (own.world, other.world))
         np.testing.assert_allclose(one, two, rtol=0.0, atol=1e-7)
+
+
+def test_the_table_tells_where_balls_touched_when_the_last_substep_began() -> None:
+    """Normals, depths and offsets are those of the centres then, not those that detection found."""
+    simulation = heap({}, 0.0)
+    simulation.step(70)
+    contact, flight, collider = (simulation.world[kind] for kind in (Contact, Flight, Collider))
+    rows = np.nonzero((contact.body_a[: contact.count] >= 0) & (contact.body_b[: contact.count] >= 0))[0]
+    center, radius = flight.start_center, collider.size[:, 0]
+    of_a, of_b = radius[contact.row_a[rows]], radius[contact.row_b[rows]]
+    way = center[contact.body_b[rows]] - center[contact.body_a[rows]]
+    distance = np.linalg.norm(way, axis=1)
+    normal = way / distance[:, None]
+    assert len(rows) > 20
+    np.testing.assert_allclose(contact.depth[rows], of_a + of_b - distance, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(contact.normal[rows], normal, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(contact.offset_a[rows], of_a[:, None] * normal, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(contact.offset_b[rows], -of_b[:, None] * normal, rtol=0.0, atol=1e-14)
