@@ -12,8 +12,10 @@ from carom.systems.constants import FEW_ASTRAY, MOST_ASTRAY
 from carom.systems.detection.broad_index import Index
 from carom.systems.kernels.broad_cache import REBUILD, find_leavers, find_met, keep_overlapping
 from carom.systems.kernels.broad_pairs import renew_pairs
+from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.islands import find_lively
 from carom.systems.settings import Settings
+from carom.systems.threads import crew_for
 
 NOBODY: Integers = np.array([-1])
 
@@ -32,17 +34,20 @@ def still_overlapping(world: World, pairs: Integers) -> Integers:
     if not len(pairs):
         return pairs
     collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
-    found: Integers = np.empty_like(pairs)
+    found, meeting = np.empty_like(pairs), np.empty(len(pairs), np.bool_)
     lively: Booleans = np.ones(len(collider.shape), np.bool_)
     if len(world[Awake].sleepers):
         find_lively(
             world.row_numbers(Collider), pose.body_row, collider.sensor, pose.moved, motion.asleep,
             world[RigidBody].inverse_mass, motion.linear, motion.angular, lively,
         )  # fmt: skip
-    count = keep_overlapping(
-        pairs, lively, collider.shape, collider.size, pose.position, pose.rotation, pose.lower, pose.upper, found
-    )
-    return found[:count]
+    crew = crew_for(world, len(pairs))
+    counts = np.zeros(threads_of(crew), np.int64)
+    keep_overlapping(
+        crew, pairs, lively, collider.shape, collider.size, pose.position, pose.rotation, pose.lower, pose.upper,
+        meeting, counts, found,
+    )  # fmt: skip
+    return found[: sum(counts.tolist())]
 
 
 class BroadPhase(Resource):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ from carom.systems.kernels.balls_on_meshes import measure_balls_on_meshes
 from carom.systems.kernels.boxes_narrow import measure_boxes
 from carom.systems.kernels.capsules_narrow import measure_balls_on_capsules, measure_capsules
 from carom.systems.kernels.capsules_on_boxes import measure_capsules_on_boxes
+from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.hulls_narrow import measure_hulls, measure_hulls_on_planes
 from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.mesh_points import MOST_MESH_POINTS
@@ -131,10 +132,11 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     collider, pose, answered = world[Collider], world[ColliderPose], world[Answered]
     n = len(pairs)
     order, first, second = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n, np.int64)
-    starts = np.zeros(len(FUNCTIONS) + 2, np.int64)
+    crew = crew_for(world, n)
+    counts = np.zeros((2, threads_of(crew), len(FUNCTIONS) + 1), np.int64)
     table = FUNCTION_OF if (collision or world[Settings].collision) == "auto" else NO_STAND_INS
-    sort_by_function(pairs, collider.shape, table, SWAPS, order, first, second, starts)
-    begins = starts.tolist()
+    sort_by_function(crew, pairs, collider.shape, table, SWAPS, order, first, second, *counts)
+    begins = [0, *accumulate(counts[0].sum(axis=0).tolist())]
     by_fcl = begins[1]
     answered.fcl += by_fcl
     answered.kernels += n - by_fcl
@@ -155,7 +157,7 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     kept = keep_sound(world, pairs, reaches, points)
     found = Found.room(kept)
     collect_points(
-        crew_for(world, n), pairs, order, first, by_fcl, points.start, points.count,
+        crew, pairs, order, first, by_fcl, points.start, points.count,
         points.feature, points.normal, points.depth, points.point, np.empty(n), *found[:-1],
     )  # fmt: skip
     return found

@@ -6,6 +6,7 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import AHEAD, FAT, MOST_AHEAD
+from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.frames import turned
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.shapes.plane import Plane
@@ -92,10 +93,16 @@ def find_leavers(
     return count
 
 
-@kernel("found")
-def keep_overlapping(pairs, lively, shape, size, pose_position, pose_rotation, lower, upper, found):
-    """Write the pairs whose bounds overlap now and of which one is lively, in their order, and return their count."""
-    count, p, n = 0, 0, len(pairs)
+@shared("meeting", "counts", "found")
+def keep_overlapping(
+    crew, pairs, lively, shape, size, pose_position, pose_rotation, lower, upper, meeting, counts, found
+):  # fmt: skip
+    """Write the pairs whose bounds overlap now and of which one is lively, in their order.
+
+    Each thread tells in ``meeting`` which of its pairs do, and in ``counts`` how many.
+    """
+    begin, n = part_of(crew, len(pairs))
+    p, count = begin, 0
     while p < n:
         i = pairs[p, 0]
         flat = shape[i] == HALF_SPACE
@@ -103,17 +110,25 @@ def keep_overlapping(pairs, lively, shape, size, pose_position, pose_rotation, l
         ux, uy, uz = upper[i, 0], upper[i, 1], upper[i, 2]
         while p < n and pairs[p, 0] == i:
             j = pairs[p, 1]
-            p += 1
-            found[count, 0], found[count, 1] = i, j
             if flat or shape[j] == HALF_SPACE:
                 plane, box = (i, j) if flat else (j, i)
                 meets = meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper)
-                count += 1 if meets and (lively[i] or lively[j]) else 0
-                continue
-            # No branch: which of these bounds overlap is past foreseeing, and a wrong guess costs more than the test.
-            meets = (
-                (lx <= upper[j, 0]) & (lower[j, 0] <= ux) & (ly <= upper[j, 1]) & (lower[j, 1] <= uy)
-                & (lz <= upper[j, 2]) & (lower[j, 2] <= uz) & (lively[i] | lively[j])
-            )  # fmt: skip
+                meets = meets and (lively[i] or lively[j])
+            else:  # no branch: which of these bounds overlap is past foreseeing, a wrong guess costs more than the test
+                meets = (
+                    (lx <= upper[j, 0]) & (lower[j, 0] <= ux) & (ly <= upper[j, 1]) & (lower[j, 1] <= uy)
+                    & (lz <= upper[j, 2]) & (lower[j, 2] <= uz) & (lively[i] | lively[j])
+                )  # fmt: skip
+            meeting[p] = meets
             count += 1 if meets else 0
-    return count
+            p += 1
+    counts[crew[1]] = count
+    wait_for_all(crew, 1)
+    to = 0
+    for part in range(crew[1]):
+        to += counts[part]
+    for p in range(begin, n):
+        if count:  # behind the last that meets there may be no more room
+            found[to, 0], found[to, 1] = pairs[p, 0], pairs[p, 1]
+        to += 1 if meeting[p] else 0
+        count -= 1 if meeting[p] else 0

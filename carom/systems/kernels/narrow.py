@@ -26,33 +26,40 @@ def reach_of_pairs(pairs, body_row, reach, reaches):
                 reaches[p] += reach[body]
 
 
-@kernel("order", "first", "second", "starts")
-def sort_by_function(pairs, shape, function_of, swaps, order, first, second, starts):
+@shared("order", "first", "second", "counts", "places")
+def sort_by_function(crew, pairs, shape, function_of, swaps, order, first, second, counts, places):
     """Sort pairs by the number of the function that measures them, keeping their order otherwise.
 
-    ``order[k]`` is a pair and ``first[k]``, ``second[k]`` its collider rows as the function takes them; those of
-    function f are at ``starts[f]`` to ``starts[f + 1]``. Shapes beyond the table have function 0.
+    ``order[k]`` is a pair and ``first[k]``, ``second[k]`` its collider rows as the function takes them. Each thread has
+    a row of ``counts``, how many of its pairs each function measures, and one of ``places``, where it goes on writing
+    those. Shapes beyond the table have function 0.
     """
-    size = len(function_of)
-    for p in range(len(pairs)):
-        one, other = shape[pairs[p, 0]], shape[pairs[p, 1]]
-        function = function_of[one, other] if one < size and other < size else 0
-        starts[function + 1] += 1
-    for function in range(1, len(starts)):
-        starts[function] += starts[function - 1]
-    for p in range(len(pairs) - 1, -1, -1):  # backwards, so that the ends counted down become the starts
+    _, part, parts = crew
+    begin, end = part_of(crew, len(pairs))
+    for p in range(begin, end):
+        counts[part, function_for(shape[pairs[p, 0]], shape[pairs[p, 1]], function_of)] += 1
+    wait_for_all(crew, 1)
+    before = 0
+    for function in range(counts.shape[1]):
+        for one in range(parts):
+            if one == part:
+                places[part, function] = before
+            before += counts[one, function]
+    for p in range(begin, end):
         a, b = pairs[p, 0], pairs[p, 1]
-        one, other = shape[a], shape[b]
-        known = one < size and other < size
-        function = function_of[one, other] if known else 0
-        starts[function + 1] -= 1
-        k = starts[function + 1]
+        function = function_for(shape[a], shape[b], function_of)
+        k = places[part, function]
+        places[part, function] += 1
         order[k] = p
-        swap = function > 0 and swaps[one, other]  # FCL takes them as they are
+        swap = function > 0 and swaps[shape[a], shape[b]]  # FCL takes them as they are
         first[k], second[k] = (b, a) if swap else (a, b)
-    for function in range(len(starts) - 1):
-        starts[function] = starts[function + 1]
-    starts[len(starts) - 1] = len(pairs)
+
+
+@woven
+def function_for(one, other, function_of):
+    """Return the number of the function that measures two shapes; 0 beyond the table."""
+    size = len(function_of)
+    return function_of[one, other] if one < size and other < size else 0
 
 
 @shared("sign", "row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl")
