@@ -163,8 +163,9 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
     """Find what stops the flight; those who meet before that are where they meet last, on their arcs from there."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     contact, manifolds, ledger = world[Contact], world[Resting], world[Ledger]
+    closing, within = manifolds.closing(world, world[BroadPhase].watched(world), h - at, began=at == 0.0)
     now, reason, events, cut, count, pair, log = fly(
-        world[BroadPhase].watched(world), at, h, bend, world[Progress].clock,
+        at, h, bend, world[Progress].clock,
         flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,
         flight.time, flight.acceleration, flight.angular_acceleration,
         flight.felt, flight.detected_center, flight.reach,
@@ -174,7 +175,7 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
         contact.share, contact.kind, contact.ball, contact.other,
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
-        contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, manifolds.closing(world, at, h),
+        contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, closing, within,
         until, world[Fast].turns, events, ledger.pull, ledger.arc,
     )  # fmt: skip
     world[Answered].impacts_cut += cut

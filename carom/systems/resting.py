@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Booleans, Integers
+from carom.ecs.column import Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -16,7 +16,6 @@ from carom.systems.awake import Awake
 from carom.systems.constants import MANIFOLD_POINTS, RELAX_SWEEPS
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
-from carom.systems.kernels.balls import BALL
 from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.filling import fill_groups, hand_over
@@ -31,10 +30,10 @@ from carom.systems.kernels.packing import (
     pack_bodies,
     pack_moving,
     pack_velocities,
-    pack_ways,
     unpack_velocities,
 )
 from carom.systems.kernels.resting import SCRATCH_ROWS, press_groups
+from carom.systems.kernels.rubbing import IDLE
 from carom.systems.kernels.settling import sink_contacts
 from carom.systems.kernels.sorting import sort_groups
 from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
@@ -70,7 +69,7 @@ class Resting(Resource):
         self.packed: tuple[Integers, Integers] | None = None  # the rows of bodies that are packed, and who was awake
         self.centred = False  # whether all of them have their centres of mass at their origins
         self.placed = False  # whether they have not moved since
-        self.start, self.closes = np.zeros(1, np.int64), np.ones(1, np.bool_)
+        self.start = np.zeros(1, np.int64)
         self.bodies, self.lanes, self.scratch = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH), aligned(0, 0, WIDTH)
         self.leans = np.zeros((2, 1), np.bool_)  # who rests on something, as balls on exact arcs do in the second row
         self._reserve(0)
@@ -79,19 +78,17 @@ class Resting(Resource):
         self.group_of, self.lane_of = np.empty(count, np.int64), np.empty(count, np.int64)
         self.index_a, self.index_b = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
-        self.points, self.row = np.empty(count, np.int64), np.empty(count, np.int64)
+        self.points, self.row, self.closes = (np.empty(count, np.int64) for _ in range(3))
         self.asks, self.run_ends = np.zeros(count, np.int64), np.empty(2 * MANIFOLD_POINTS * count, np.int64)
-        self.fresh, self.stale, self.looks = (np.ones(count, np.bool_) for _ in range(3))
+        self.even, self.fresh, self.stale, self.looks = (np.ones(count, np.bool_) for _ in range(4))
         self.ends = np.zeros(2, np.int64)
 
     def group(self, world: World) -> None:
         """Find the manifolds of the contact table, which detection has replaced, and put them into groups."""
-        contact, inverse_mass = world[Contact], world[RigidBody].inverse_mass
-        points, nobody = contact.count, len(inverse_mass)
+        contact, body = world[Contact], world[RigidBody]
+        points, nobody = contact.count, len(body.inverse_mass)
         if len(self.start) <= points:
-            self.start, self.closes = np.empty(2 * points + 1, np.int64), np.empty(2 * points + 1, np.bool_)
-        kinds = contact.kind[:points]
-        self.solids, self.balls = bool((kinds < 0).any()), bool((kinds == BALL).any())
+            self.start = np.empty(2 * points + 1, np.int64)
         if self.bodies.shape[1] != nobody + 1:
             self.bodies, self.packed = aligned(PLANES, nobody + 1, BLOCK), None
             self.leans = np.zeros((2, nobody + 1), np.bool_)
@@ -99,20 +96,26 @@ class Resting(Resource):
             if self.count:
                 self.bound_of = None
             self.count = self.groups = self.levels = 0
+            self.solids = False
             return
-        self.count = find_manifolds(points, contact.row_a, contact.row_b, contact.normal, self.start)
+        self.count, self.solids, self.balls = find_manifolds(
+            points, contact.row_a, contact.row_b, contact.kind, contact.normal, self.start
+        )
         if len(self.group_of) < self.count:
             self._reserve(2 * self.count)
         self.groups, rows, self.levels = group_manifolds(
-            self.count, self.start, contact.a, contact.b, contact.body_a, contact.body_b, inverse_mass, nobody,
+            self.count, self.start, contact.a, contact.b, contact.body_a, contact.body_b,
+            contact.kind, contact.rolling, contact.spinning, contact.surface,
+            body.inverse_mass, body.inverse_inertia, body.freedom, nobody,
             self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
-            self.points, self.row, self.ends, self.run_ends,
+            self.points, self.row, self.even, self.ends, self.run_ends,
         )  # fmt: skip
-        self.asks[:], self.fresh[:], self.stale[:], self.bound_of = 0, True, False, None
+        now, self.bound_of = slice(self.groups), None
+        self.asks[now], self.fresh[now], self.stale[now] = IDLE, True, False
         if len(self.lanes) < rows:
             self.lanes = aligned(2 * rows, WIDTH)
         fill_groups(
-            crew_for(world, self.count), self.groups, self.first, self.size, self.row, self.points,
+            crew_for(world, self.count), self.groups, self.first, self.size, self.row, self.points, self.even,
             contact.normal, contact.depth, contact.offset_a, contact.offset_b,
             contact.kind, contact.sign, contact.radius, contact.extent,
             contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface, contact.resting,
@@ -210,17 +213,22 @@ class Resting(Resource):
             world[Linkage].measure(world, self.bodies)
         self._solve(world, Stage("solve", 1, h, *yielding(h)))
 
-    def closing(self, world: World, at: float, h: float) -> Booleans:
-        """Tell which manifolds, by their first contacts, may strike; all of them in the middle of a substep."""
-        self.closes[:] = True
-        if at == 0.0 and self.solids:
-            motion = world[Motion]
-            pack_velocities(self.rows(world), motion.linear, motion.angular, self.bodies[VELOCITY])
-            find_closing(
-                crew_for(world, self.count), self.groups, h, self.index_a, self.index_b, self.first,
-                self.points, self.row, self.lanes, self.bodies, self.closes,
-            )  # fmt: skip
-        return self.closes
+    def closing(self, world: World, watched: Integers, span: float, *, began: bool) -> tuple[Integers, float]:
+        """Tell which manifolds may strike within ``span`` seconds, and when one of the ``watched`` may leave its reach.
+
+        What that is for manifolds says `find_closing`. Where the flight has not just begun, solids all may.
+        """
+        motion, flight, contact = world[Motion], world[Flight], world[Contact]
+        crew = crew_for(world, max(self.count, len(watched)))
+        within = np.full(threads_of(crew), span)
+        find_closing(
+            crew, self.count, self.groups, self.solids and began, span, self.rows(world), watched,
+            flight.center, flight.detected_center, flight.reach, motion.linear, motion.angular, flight.acceleration,
+            self.index_a, self.index_b, self.points, self.row, self.group_of, self.lane_of, self.start,
+            contact.kind, contact.ball, contact.other, contact.other_position, contact.radius, contact.extent,
+            contact.restitution, contact.resting, self.lanes, self.bodies, self.closes, within,
+        )  # fmt: skip
+        return self.closes, min(within.tolist())
 
     def sink(self, world: World) -> None:
         """Find how deep contacts have come to be."""
@@ -228,11 +236,10 @@ class Resting(Resource):
         if not self.groups:
             return
         flight, contact, self.packed = world[Flight], world[Contact], None
-        rows = self.rows(world)
-        pack_ways(crew_for(world, len(rows)), rows, flight.start_center, flight.center, flight.turned, self.bodies)
         sink_contacts(
-            crew_for(world, self.count), self.groups, self.index_a, self.index_b, self.first, self.size,
-            self.points, self.row, contact.kind, self.bodies, self.lanes, contact.depth,
+            crew_for(world, self.count), self.groups, self.rows(world), flight.start_center, flight.center,
+            flight.turned, self.index_a, self.index_b, self.first, self.size, self.points, self.row, contact.kind,
+            self.bodies, self.lanes, contact.depth,
         )  # fmt: skip
 
     def relax(self, world: World, h: float) -> None:
@@ -298,7 +305,7 @@ class Resting(Resource):
             return
         contact = world[Contact]
         hand_over(
-            crew_for(world, self.count), self.groups, self.first, self.size, self.row, self.asks, self.lanes,
+            crew_for(world, self.count), self.groups, self.first, self.size, self.row, self.lanes,
             contact.impulse, contact.friction_impulse,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling,
         )  # fmt: skip

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carom.ecs import Collider, Motion, RigidBody, Transform
+from carom.ecs import Collider, Material, Motion, RigidBody, Transform
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
-from carom.systems.kernels.rubbing import BALLS
+from carom.systems.kernels.rubbing import BALLS, ROLLING
 from carom.systems.resting import Resting
 from carom.systems.simulation import Simulation
 
@@ -19,17 +19,17 @@ from carom.systems.simulation import Simulation
 ELSEWHERE: dict[str, tuple[dict[str, Any], float]] = {"belt": ({}, 1e-290), "plane": ({"dimensions": 2}, 0.0)}
 
 
-def heap(settings: dict[str, Any], belt: float) -> Simulation:
-    """Return forty balls of all sizes and weights over a trough in the plane z = 0."""
+def heap(settings: dict[str, Any], belt: float, rolling: float = 0.0) -> Simulation:
+    """Return forty balls of all sizes and weights over a trough in the plane z = 0; every third resists ``rolling``."""
     simulation = Simulation(sleeping=False, checked=False, **settings)
     for x in (-1.0, 1.0):
         simulation.add(collider={"plane": {"normal": (x, 1.0, 0.0)}}, material={"friction": 0.6})
     random = np.random.default_rng(3)
     for i in range(40):
         simulation.add(
-            collider={"sphere": {"radius": random.uniform(0.2, 0.4)}, "surface_velocity": (belt * i, 0.0, 0.0)},
+            collider={"sphere": {"radius": random.uniform(0.2, 0.4)}, "surface_velocity": (0.0, 0.0, belt * i)},
             body={"mass": random.uniform(0.5, 3.0)},
-            material={"friction": random.uniform(0.2, 0.8)},
+            material={"friction": random.uniform(0.2, 0.8), "rolling_friction": 0.0 if i % 3 else rolling},
             transform={"position": (0.8 * (i % 8 - 3.5) + random.uniform(-0.1, 0.1), 4.0 + 0.8 * (i // 8), 0.0)},
         )
     return simulation
@@ -41,10 +41,14 @@ def asked(simulation: Simulation) -> set[int]:
     return set(resting.asks[: resting.groups].tolist())
 
 
+@pytest.mark.parametrize("rolling", [0.0, 0.05])
 @pytest.mark.parametrize("way", ELSEWHERE)
-def test_balls_go_where_the_way_of_all_others_leads_them(way: str) -> None:
-    """Forty in a heap, which rub, roll and slide: the same to rounding, grown by a second and a half of collisions."""
-    own, other = heap({}, 0.0), heap(*ELSEWHERE[way])
+def test_balls_go_where_the_way_of_all_others_leads_them(way: str, rolling: float) -> None:
+    """Forty in a heap, which rub, roll and slide: the same to rounding, grown by a second and a half of collisions.
+
+    Where some resist rolling they go the way of others beside those that do not.
+    """
+    own, other = heap({}, 0.0, rolling), heap(*ELSEWHERE[way], rolling)
     ways: list[set[int]] = [set(), set()]
     for _ in range(90):
         for simulation, seen in zip((own, other), ways, strict=True):
@@ -52,6 +56,7 @@ def test_balls_go_where_the_way_of_all_others_leads_them(way: str) -> None:
             seen |= asked(simulation)
     assert BALLS in ways[0]
     assert BALLS not in ways[1]
+    assert (ROLLING in ways[0]) == (rolling > 0.0)
     for kind, column in ((Transform, "position"), (Motion, "linear"), (Motion, "angular")):
         one, two = (getattr(world[kind], column)[world.rows(RigidBody)] for world in (own.world, other.world))
         np.testing.assert_allclose(one, two, rtol=0.0, atol=1e-7)
@@ -73,3 +78,15 @@ def test_the_table_tells_where_balls_touched_when_the_last_substep_began() -> No
     np.testing.assert_allclose(contact.normal[rows], normal, rtol=0.0, atol=1e-14)
     np.testing.assert_allclose(contact.offset_a[rows], of_a[:, None] * normal, rtol=0.0, atol=1e-14)
     np.testing.assert_allclose(contact.offset_b[rows], -of_b[:, None] * normal, rtol=0.0, atol=1e-14)
+
+
+def test_what_resisted_rolling_is_forgotten_where_nothing_does_any_more() -> None:
+    """Else it would act at once where something comes to resist rolling again, on whoever lies there by then."""
+    simulation = heap({}, 0.0, rolling=0.05)
+    simulation.step(70)
+    contact = simulation.world[Contact]
+    assert np.abs(contact.warm_rolling[: contact.count]).max() > 1e-4
+    with simulation.world.edit(Material) as material:
+        material.rolling_friction[:] = 0.0
+    simulation.step()
+    assert np.abs(contact.warm_rolling[: contact.count]).max() == 0.0

@@ -7,35 +7,34 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import BALL
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_columns import lane_of, numbers_at, pick, pick_one
+from carom.systems.kernels.lane_columns import pick, pick_one
 from carom.systems.kernels.lane_vectors import TINY, dot, keep
 from carom.systems.kernels.lanes import address, choose, gather, larger, load, root, some, spread, store
 from carom.systems.kernels.packing import CENTER
 
 
 @woven
-def find_balls(r, at, there, kind, sign, radius, extent, lanes):
-    """Tell whether all manifolds of a group, at places in the table, are of two balls, and mark it.
+def are_all_balls(kinds, there):
+    """Tell whether all manifolds of a group, of such kinds, are of two balls."""
+    return not some(choose(there, larger(kinds - BALL, BALL - kinds), spread(0.0)))
 
-    They meet on the line between their centres.
-    """
-    kinds, zero = lane_of(numbers_at(kind, at)), spread(0.0)
-    if some(choose(there, larger(kinds - BALL, BALL - kinds), zero)):
-        return False
+
+@woven
+def place_balls(r, at, there, sign, radius, extent, lanes):
+    """Write where the two balls of manifolds, at places in the table, meet: on the line between their centres."""
+    zero = spread(0.0)
     ball, other = pick_one(radius, at, there), choose(there, pick(address(extent), 3, 0, at), zero)
     is_a = pick_one(sign, at, there)
     of_a, of_b = choose(is_a, ball, other), choose(is_a, other, ball)
-    store(lanes, r + of.BALL, spread(2.0))
     keep(lanes, r + of.MIDDLE_A, zero, zero, of_a)
     keep(lanes, r + of.MIDDLE_B, zero, zero, -of_b)
     store(lanes, r + MANIFOLD_ROWS + of.AT, zero)
     store(lanes, r + MANIFOLD_ROWS + of.AT + 1, zero)
-    return True
 
 
 @woven
 def are_balls(r, lanes):
-    """Tell whether all manifolds of a group are of two balls, as `find_balls` found."""
+    """Tell whether all manifolds of a group are of two balls."""
     return lanes[r + of.BALL, 0] > 1.0
 
 

@@ -5,38 +5,74 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import ROOT_GAP
 from carom.systems.kernels import groups as of
+from carom.systems.kernels.balls import BALL
 from carom.systems.kernels.balls_in_lanes import are_balls
-from carom.systems.kernels.crew import part_of, shared
+from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
+from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import dot, three
-from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, planes, some, spread, store
+from carom.systems.kernels.lanes import address, choose, gather, larger, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
-from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
+from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY, write_velocities
+from carom.systems.kernels.reach import are_apart, time_within_all
+
+# Of manifolds: it cannot strike as its bodies move now, or may; it rests, and only a heavy blow makes an impact of it:
+# one of a ball on an exact arc, and any other.
+CANNOT, MAY, HELD_BALL, HELD = range(4)
 
 
-@shared("lanes", "closing")
-def find_closing(crew, groups, h, index_a, index_b, first, points, row, lanes, bodies, closing):
-    """Tell for the first contact of each manifold that does not rest whether a point may close within ``h`` seconds.
+@shared("lanes", "bodies", "closing", "within")
+def find_closing(
+    crew, count, groups, solids, h, rows, watched, center, detected_center, reach, linear, angular, acceleration,
+    index_a, index_b, points, row, group_of, lane_of, start, kind, ball, other, other_position, radius, extent,
+    restitution, resting, lanes, bodies, closing, within,
+):  # fmt: skip
+    """Tell of each manifold whether it may strike within ``h`` seconds, and in ``within`` when a body leaves its reach.
 
-    What `foresee_blow` finds is among them: forces count in full where they press. Groups of balls alone are left out.
+    Each thread has one number in ``within``, for those who are ``watched``. What `foresee` and `foresee_blow` find is
+    among those that may. ``solids`` says that what is not of balls on exact arcs is to be asked, for which the
+    velocities of all bodies (rows) are packed; else those may. ``start`` are the first contacts of manifolds.
     """
-    rows, packed, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
+    begin, end = part_of(crew, len(watched))
+    within[crew[1]] = time_within_all(watched[begin:end], h, center, detected_center, reach, linear, acceleration)
+    if solids:
+        begin, end = part_of(crew, len(rows))
+        write_velocities(rows[begin:end], linear, angular, bodies[VELOCITY])
+        wait_for_all(crew, 1)
+        begin, end = part_of(crew, groups)
+        for g in range(begin, end):
+            if not are_balls(row[g], lanes):
+                close_group(g, row[g], points[g], h, address(index_a), address(index_b), address(lanes), planes(bodies))
+        wait_for_all(crew, 2)
+    begin, end = part_of(crew, count)
+    for m in range(begin, end):
+        p = start[m]
+        if resting[p] and kind[p] < 0:
+            closing[m] = HELD
+        elif resting[p] and restitution[p] == 0.0:
+            closing[m] = HELD_BALL
+        elif kind[p] == BALL and are_apart(
+            p, ball[p], other[p], h, center, linear, acceleration, other_position, radius, extent
+        ):
+            closing[m] = CANNOT
+        else:
+            asked = solids and kind[p] < 0
+            closing[m] = MAY if not asked or lanes[row[group_of[m]] + of.CLOSES, lane_of[m]] > 0.0 else CANNOT
+
+
+@woven
+def close_group(g, r, points, h, index_a, index_b, lanes, bodies):
+    """Write which manifolds of a group may close, at one of their points; forces count in full where they press."""
     one, none = spread(1.0), spread(0.0)
-    begin, end = part_of(crew, groups)
-    for g in range(begin, end):
-        r = row[g]
-        free = choose(load(rows, r + of.SHARE), one - load(rows, r + of.RESTS), none)
-        if are_balls(r, lanes) or not some(free):
-            continue
-        a, b = gather(packed[VELOCITY], of_a, g), gather(packed[VELOCITY], of_b, g)
-        felt_a, felt_b = gather(packed[MASS_AND_FELT], of_a, g)[3:6], gather(packed[MASS_AND_FELT], of_b, g)[3:6]
-        n, parting, closes = three(rows, r + of.NORMAL), parting_of(r, rows, a, b), none
-        pressed = (larger(none, dot(n, felt_a)) + larger(none, -dot(n, felt_b))) * (0.5 * h * h)
-        for p in range(points[g]):
-            q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            gap = parting_at(q, rows, parting) * h - load(rows, q + of.DEPTH)
-            closes = choose(pressed - gap + ROOT_GAP, one, closes)
-        store(rows, r + of.CLOSES, closes)
-        for lane in range(WIDTH):
-            if first[g, lane] >= 0:
-                closing[first[g, lane]] = lanes[r + of.CLOSES, lane] > 0.0
+    if not some(choose(load(lanes, r + of.SHARE), one - load(lanes, r + of.RESTS), none)):
+        store(lanes, r + of.CLOSES, one)
+        return
+    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    felt_a, felt_b = gather(bodies[MASS_AND_FELT], index_a, g)[3:6], gather(bodies[MASS_AND_FELT], index_b, g)[3:6]
+    n, parting, closes = three(lanes, r + of.NORMAL), parting_of(r, lanes, a, b), none
+    pressed = (larger(none, dot(n, felt_a)) + larger(none, -dot(n, felt_b))) * (0.5 * h * h)
+    for p in range(points):
+        q = r + MANIFOLD_ROWS + POINT_ROWS * p
+        gap = parting_at(q, lanes, parting) * h - load(lanes, q + of.DEPTH)
+        closes = choose(pressed - gap + ROOT_GAP, one, closes)
+    store(lanes, r + of.CLOSES, closes)

@@ -91,6 +91,8 @@ def complete_contacts(
                 continue
             sign[c], ball[c], other[c], radius[c] = sense, body_row[i], body_row[o], size[i, 0]
             extent[c, 0], extent[c, 1], extent[c, 2] = ex, ey, ez
+            if body_row[o] >= 0:
+                continue  # the body says where it is
             for k in range(3):
                 other_position[c, k] = pose_position[o, k]
                 if what == HALF_SPACE:

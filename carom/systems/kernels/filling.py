@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.kernels.balls_in_lanes import find_balls
+from carom.systems.kernels.balls_in_lanes import are_all_balls, place_balls
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.groups import (
     ABSENT,
@@ -32,16 +32,16 @@ from carom.systems.kernels.groups import (
 )
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import lane_of, numbers_at, pick, pick_one, pick_three
-from carom.systems.kernels.lane_vectors import dot, keep, plus, three
+from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, spread, store
-from carom.systems.kernels.rubbing import BALLS
+from carom.systems.kernels.resting_balls import are_even
 
 LANES = tuple(range(WIDTH))
 
 
 @shared("lanes")
 def fill_groups(
-    crew, groups, first, size, row, points, normal, depth, offset_a, offset_b, kind, sign, radius, extent,
+    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, kind, sign, radius, extent,
     friction, restitution, rolling, spinning, surface, resting, warm_normal, warm_friction, warm_rolling, lanes,
 ):  # fmt: skip
     """Write what contacts hold into the lanes of their groups.
@@ -55,30 +55,47 @@ def fill_groups(
         keep(rows, r + RUBBED, zero, zero, zero)
         store(rows, r + RESTS, choose(sizes, lane_of(numbers_at(resting, at)), zero))
         store(rows, r + SHARE, choose(sizes, one / larger(sizes, one), zero))
-        store(rows, r + BALL, choose(sizes, choose(lane_of(numbers_at(kind, at)) + 0.5, one, zero), zero))
         rough = pick_one(friction, at, sizes)
         store(rows, r + FRICTION, rough)
         store(rows, r + RESTITUTION, pick_one(restitution, at, sizes))
-        store(rows, r + ROLLING, pick_one(rolling, at, sizes))
-        store(rows, r + SPINNING, pick_one(spinning, at, sizes))
-        x, y, z = pick_three(surface, at, sizes)
-        keep(rows, r + SURFACE, x, y, z)
         n, pushed, rolled = pick_three(normal, at, sizes), (zero, zero, zero), (zero, zero, zero)
         for p in range(points[g]):
             q, at, there = r + MANIFOLD_ROWS + POINT_ROWS * p, places_of(g, p, first, size), sizes - float(p)
             store(rows, q + WARM, pick_one(warm_normal, at, there))
             store(rows, q + SUM, zero)
             pushed = plus(pushed, pick_three(warm_friction, at, there))
-            rolled = plus(rolled, pick_three(warm_rolling, at, there))
+            if not even[g]:
+                rolled = plus(rolled, pick_three(warm_rolling, at, there))
         keep(rows, r + NORMAL, n[0], n[1], n[2])
-        x, y, z = pushed  # where there is none any more, nothing would take it out again
-        keep(rows, r + RUB, choose(rough, x, zero), choose(rough, y, zero), choose(rough, z, zero))
-        along = dot(n, rolled)
-        store(rows, r + SPUN, along)
-        keep(rows, r + ROLLED, rolled[0] - along * n[0], rolled[1] - along * n[1], rolled[2] - along * n[2])
-        if not find_balls(r, places_of(g, 0, first, size), sizes, kind, sign, radius, extent, rows):
+        keep_where(rows, r + RUB, rough, pushed)
+        at = places_of(g, 0, first, size)
+        if even[g]:
+            place_balls(r, at, sizes, sign, radius, extent, rows)
+            store(rows, r + BALL, spread(3.0))
+            continue
+        rolls, spins = pick_one(rolling, at, sizes), pick_one(spinning, at, sizes)
+        store(rows, r + ROLLING, rolls)
+        store(rows, r + SPINNING, spins)
+        x, y, z = pick_three(surface, at, sizes)
+        keep(rows, r + SURFACE, x, y, z)
+        kinds, along = lane_of(numbers_at(kind, at)), dot(n, rolled)
+        as_ball = choose(sizes, choose(kinds + 0.5, one, zero), zero)
+        store(rows, r + SPUN, choose(choose(as_ball, spins, one), along, zero))  # what is no ball twists by its points
+        keep_where(rows, r + ROLLED, choose(as_ball, rolls, one), minus(rolled, times(along, n)))
+        if are_all_balls(kinds, sizes):
+            place_balls(r, at, sizes, sign, radius, extent, rows)
+            store(rows, r + BALL, spread(2.0))
+        else:
+            store(rows, r + BALL, as_ball)
             find_tangents(r, rows)
             place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
+
+
+@woven
+def keep_where(lanes, r, there, x):
+    """Write the impulses that friction or rolling had, where there is such: nothing would take others out again."""
+    zero = spread(0.0)
+    keep(lanes, r, choose(there, x[0], zero), choose(there, x[1], zero), choose(there, x[2], zero))
 
 
 @woven
@@ -136,14 +153,15 @@ def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
 
 @shared("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")
 def hand_over(
-    crew, groups, first, size, row, asks, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling
+    crew, groups, first, size, row, lanes, impulse, friction_impulse, warm_normal, warm_friction, warm_rolling
 ):
     """Write the impulses that the resting stage has found back into the contact table."""
     begin, end = part_of(crew, groups)
     for g in range(begin, end):
-        r = row[g]
+        r, even = row[g], are_even(row[g], lanes)
         for lane in range(WIDTH):
-            share, spun = lanes[r + SHARE, lane], lanes[r + SPUN, lane]
+            share = lanes[r + SHARE, lane]
+            spun = 0.0 if even else lanes[r + SPUN, lane]
             for p in range(size[g, lane]):
                 c, q = first[g, lane] + p, r + MANIFOLD_ROWS + POINT_ROWS * p
                 warm_normal[c] = lanes[q + WARM, lane]
@@ -152,7 +170,7 @@ def hand_over(
                 for k in range(3):
                     warm_friction[c, k] = share * lanes[r + RUB + k, lane]
                     friction_impulse[c, k] += share * lanes[r + RUBBED + k, lane]
-                    if asks[g] != BALLS:  # they neither twist nor roll
-                        warm_rolling[c, k] = share * (spun * lanes[r + NORMAL + k, lane] + lanes[r + ROLLED + k, lane])
+                    rolled = 0.0 if even else lanes[r + ROLLED + k, lane]
+                    warm_rolling[c, k] = share * (spun * lanes[r + NORMAL + k, lane] + rolled)
             for k in range(3):
                 lanes[r + RUBBED + k, lane] = 0.0

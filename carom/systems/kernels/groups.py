@@ -7,18 +7,20 @@ import numpy as np
 
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import MANIFOLD_POINTS
+from carom.systems.kernels.balls import BALL as TWO_BALLS
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.lanes import WIDTH
 
 # Rows of eight numbers that a group has, a lane each manifold: what is read most often stands together, at the end.
 # Resistance to rolling (m), the inertia about any axis across the normal, the impulse of rolling; 1 where a point may
-# close within the substep; friction summed over the step; one by its points; restitution; 1 where it is of a ball on an
-# exact arc (2 where the group is of two balls each, 3 where `are_even`); 1 where it rests, and where it did before (2
-# on a joint).
-ROLLING, ROLL, ROLLED, CLOSES, RUBBED, SHARE, RESTITUTION, BALL, RESTS, TOGETHER = 0, 1, 2, 5, 6, 9, 10, 11, 12, 13
-# Resistance to spinning (m), the inertia about the normal, the impulse of spinning; the velocity of b's surface against
-# a's; inverse masses along the axes; how unit twists about the axes of the frame turn either body; tangents.
-SPINNING, SPIN, SPUN, SURFACE, MASS_A, MASS_B, TURN_A, TURN_B, TANGENT = 14, 15, 16, 17, 20, 23, 26, 35, 44
+# close within the substep; resistance to spinning (m), the inertia about the normal, the impulse of spinning; the
+# velocity of b's surface against a's; inverse masses along the axes; how unit twists about the axes of the frame turn
+# either body; tangents. Groups that `are_even` do without all of these.
+ROLLING, ROLL, ROLLED, CLOSES, SPINNING, SPIN, SPUN, SURFACE, MASS_A, MASS_B = 0, 1, 2, 5, 6, 7, 8, 9, 12, 15
+TURN_A, TURN_B, TANGENT, SPARED = 18, 27, 36, 42
+# Friction summed over the step; one by its points; restitution; 1 where it is of a ball on an exact arc (2 where the
+# group is of two balls each, 3 where `are_even`); 1 where it rests, and where it did before (2 on a joint).
+RUBBED, SHARE, RESTITUTION, BALL, RESTS, TOGETHER = 42, 45, 46, 47, 48, 49
 # The impulse of friction; the normal, which is the cross product of the tangents; the middle of the points from both
 # bodies, in the frame; the inverse of the inverse mass along the tangents (a symmetric 2 x 2); friction.
 RUB, NORMAL, MIDDLE_A, MIDDLE_B, GIVE, FRICTION, MANIFOLD_ROWS = 50, 53, 56, 59, 62, 65, 66
@@ -30,6 +32,8 @@ DEPTH, WARM, MASS, AT, AWAY, SUM, POINT_ROWS = 0, 1, 2, 3, 5, 6, 7
 
 ABSENT = -1e300  # m, the depth of a point that a lane does not have
 BUCKETS = 256  # of manifolds that are shuffled
+# Of bodies: moved by no impulse, or by those of some axes more than by others, or alike about all and without locks.
+UNKNOWN, STILL, UNEVEN, EVEN = -1, 0, 1, 2
 
 
 @kernel(
@@ -41,13 +45,15 @@ BUCKETS = 256  # of manifolds that are shuffled
     "size",
     "points",
     "row",
+    "even",
     "ends",
     "run_ends",
     makes_arrays=True,
 )
 def group_manifolds(
-    count, start, a, b, body_a, body_b, inverse_mass, nobody,
-    group_of, lane_of, index_a, index_b, first, size, points, row, ends, run_ends,
+    count, start, a, b, body_a, body_b, kind, rolling, spinning, surface,
+    inverse_mass, inverse_inertia, freedom, nobody,
+    group_of, lane_of, index_a, index_b, first, size, points, row, even, ends, run_ends,
 ):  # fmt: skip
     """Put manifolds into groups that, one after the other, do what the manifolds would in a shuffled order.
 
@@ -56,20 +62,27 @@ def group_manifolds(
     an order that runs through a pile from one end to the other have hundreds of levels. Those with something that
     cannot move come last.
 
-    Return (groups, rows of all, levels). ``row`` is where the rows of a group begin, ``ends`` (2,) where the groups of
-    either kind end, ``run_ends`` where each run of groups does that have as many points: a level has `MANIFOLD_POINTS`
-    of them, the most points first. ``nobody`` is the index of what has no body.
+    Return (groups, rows of all, levels). ``row`` is where the rows of a group begin, or would, were they all there:
+    those that are ``even``, of two balls each that are alike about all axes and do no more than rub, lack the first
+    `SPARED`. ``ends`` (2,) is where the groups of either kind end, ``run_ends`` where each run of groups does that have
+    as many points: a level has `MANIFOLD_POINTS` of them, the most points first. ``nobody`` is the index of what has no
+    body.
     """
     shuffled = shuffle(count, start, a, b)
     reached = np.zeros((2, len(inverse_mass)), np.int64)
     level, stands = np.empty(count, np.int64), np.empty(count, np.int64)
     levels = 0
     movers = np.empty((count, 2), np.int64)  # side by side, since they are gone through without order
+    known = np.full(len(inverse_mass), UNKNOWN, np.int8)
+    form, alike = np.empty(count, np.int64), np.empty(count, np.bool_)
     for m in range(count):
-        i, o = body_a[start[m]], body_b[start[m]]
-        movers[m, 0] = i if is_moving(i, inverse_mass) else -1
-        movers[m, 1] = o if is_moving(o, inverse_mass) else -1
-        stands[m] = 0 if movers[m, 0] >= 0 and movers[m, 1] >= 0 else 1
+        c, least = start[m], EVEN
+        for side, i in enumerate((body_a[c], body_b[c])):
+            how = what_moves(i, known, inverse_mass, inverse_inertia, freedom)
+            movers[m, side], least = i if how != STILL else -1, min(least, how)
+        stands[m] = 1 if least == STILL else 0
+        alike[m] = least == EVEN and kind[c] == TWO_BALLS and only_rubs(c, rolling, spinning, surface)
+        form[m] = MANIFOLD_POINTS - (0 if alike[m] else start[m + 1] - c)
     for m in shuffled:
         i, o, heights = movers[m, 0], movers[m, 1], reached[stands[m]]
         lowest = 0
@@ -83,26 +96,29 @@ def group_manifolds(
             heights[o] = lowest + 1
         level[m] = lowest
         levels = max(levels, lowest + 1)
-    begin = np.zeros(2 * levels * MANIFOLD_POINTS + 1, np.int64)
+    forms = MANIFOLD_POINTS + 1  # in a level by their points, the most first, and at last those that are even
+    begin = np.zeros(2 * levels * forms + 1, np.int64)
     for m in range(count):
-        begin[(stands[m] * levels + level[m] + 1) * MANIFOLD_POINTS - (start[m + 1] - start[m]) + 1] += 1
+        form[m] += (stands[m] * levels + level[m]) * forms
+        begin[form[m] + 1] += 1
     for k in range(1, len(begin)):
         begin[k] += begin[k - 1]
-    by_level = np.empty(count, np.int64)
+    by_form = np.empty(count, np.int64)
     for m in range(count):  # within a level in their order: neighbours' bodies are near each other in memory
-        k = (stands[m] * levels + level[m] + 1) * MANIFOLD_POINTS - (start[m + 1] - start[m])
-        by_level[begin[k]] = m
-        begin[k] += 1
+        by_form[begin[form[m]]] = m
+        begin[form[m]] += 1
     group, lane, rows, last, begun = -1, WIDTH, 0, -1, 0
     ends[0], run_ends[: 2 * levels * MANIFOLD_POINTS] = 0, 0
-    for m in by_level:
-        if lane == WIDTH or stands[m] * levels + level[m] != last:
+    for m in by_form:
+        if lane == WIDTH or stands[m] * levels + level[m] != last or alike[m] != even[group]:
             if stands[m] * levels + level[m] != last:
                 begun += 1
             group, lane, last = group + 1, 0, stands[m] * levels + level[m]
-            row[group], points[group] = rows, start[m + 1] - start[m]
+            row[group], points[group], even[group] = rows, start[m + 1] - start[m], alike[m]
             run_ends[begun * MANIFOLD_POINTS - points[group]] = group + 1
             rows += couplings(0, points[group]) + pair(points[group], 0)
+            if alike[m]:
+                row[group], rows = row[group] - SPARED, rows - SPARED
             for k in range(WIDTH):
                 index_a[group, k], index_b[group, k], first[group, k], size[group, k] = nobody, nobody, -1, 0
         if not stands[m]:
@@ -116,6 +132,27 @@ def group_manifolds(
     for k in range(1, begun * MANIFOLD_POINTS):
         run_ends[k] = max(run_ends[k], run_ends[k - 1])
     return group + 1, rows, begun
+
+
+@woven
+def only_rubs(c, rolling, spinning, surface):
+    """Tell whether contact c resists no rolling and no spinning, and no surface runs like a belt."""
+    still = surface[c, 0] == 0.0 and surface[c, 1] == 0.0 and surface[c, 2] == 0.0
+    return still and rolling[c] == 0.0 and spinning[c] == 0.0
+
+
+@woven
+def what_moves(i, known, inverse_mass, inverse_inertia, freedom):
+    """Return whether impulses move body i, or nobody, and how; it is written into ``known``."""
+    if i < 0:
+        return STILL
+    if known[i] == UNKNOWN:
+        known[i] = STILL
+        if inverse_mass[i] > 0.0:
+            free = freedom[i, 0] + freedom[i, 1] + freedom[i, 2] + freedom[i, 3] + freedom[i, 4] + freedom[i, 5] == 6.0
+            alike = inverse_inertia[i, 0] == inverse_inertia[i, 1] == inverse_inertia[i, 2]
+            known[i] = EVEN if free and alike else UNEVEN
+    return known[i]
 
 
 @woven
@@ -148,9 +185,3 @@ def shuffle(count, start, a, b):
         order[begin[bucket[m]]] = m
         begin[bucket[m]] += 1
     return order
-
-
-@woven
-def is_moving(i, inverse_mass):
-    """Tell whether i is a body that impulses move."""
-    return i >= 0 and inverse_mass[i] > 0.0

@@ -16,12 +16,13 @@ from carom.systems.constants import (
     PATIENCE,
 )
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
-from carom.systems.kernels.balls import BALL, NEVER
+from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body, pushed
+from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, making, woven
-from carom.systems.kernels.reach import are_apart, time_within_all, time_within_reach
+from carom.systems.kernels.reach import time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
 
 DONE, OUT_OF_REACH, TO_LOOK = 0, 1, 2  # why a flight ends
@@ -36,20 +37,21 @@ TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 1
     makes_arrays=True,
 )  # fmt: skip
 def fly(
-    watched, start, h, bend, clock,
+    start, h, bend, clock,
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     felt, detected_center, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
     count, beginning, group_of, stale, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
-    surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, until, turns, events,
-    pull, arc,
+    surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, within,
+    until, turns, events, pull, arc,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts.
 
     Returns (time reached, reason, events, cut, impacts logged, pair of each, log). Pairs are the ``count`` manifolds
     that begin at rows of the contact table: those of ``kind`` >= 0 are of a ball on an exact arc (`strike`), the others
-    strike with all their points at once (`blow`), and as bodies move at first only where they are ``closing``.
+    strike with all their points at once (`blow`). As bodies move at first, ``closing`` says which may strike, and
+    ``within`` how long nobody leaves his reach.
     Where a body comes to move faster than its detection foresaw, the flight goes on for as long as none can have left
     its reach; the caller brings all bodies to the time reached, detects anew and calls again. What the substep has
     counted so far goes on: ``events``, and for each pair ``strikes`` and ``plastic``, else to detect in the middle
@@ -61,19 +63,17 @@ def fly(
     pairs, number, held = np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count, np.int64)
     taken, near, holds = 0, 0, 0
     for m in range(count):
-        p = beginning[m]
-        near += kind[p] >= 0 or not resting[p]
-        if resting[p] and (kind[p] < 0 or restitution[p] == 0.0):  # only a heavy blow makes it an impact
+        near += closing[m] != HELD
+        if closing[m] >= HELD_BALL:
             held[holds] = m
             holds += 1
             continue
-        pairs[taken], number[taken] = p, m
+        pairs[taken], number[taken] = beginning[m], m
         taken += 1
 
     # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
     log, log_pair, log_count, kept = np.empty((64, WIDTH)), np.empty(64, np.int64), 0, np.empty((1, KEPT))
     now, end, cut, whirls = start, min(h, until), 0, False
-    within = time_within_all(watched, h - now, center, detected_center, reach, linear, acceleration)
     if within < end - now:
         end = now + within
     if not taken and start == 0.0:
@@ -83,15 +83,7 @@ def fly(
     seek_count, heavy = 0, False
     for m in range(taken):
         p = pairs[m]
-        if kind[p] < 0:
-            may_meet = closing[p]
-        elif kind[p] == BALL:
-            may_meet = not are_apart(
-                p, ball[p], other[p], h - now, center, linear, acceleration, other_position, radius, extent
-            )
-        else:
-            may_meet = True
-        if may_meet:
+        if closing[number[m]] == MAY:
             seek[seek_count] = m
             seek_count += 1
             gap = least_gap(

@@ -5,6 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import IMMOVABLE, MANIFOLD_POINTS, SAME_NORMAL, SINGULAR
 from carom.systems.kernels import groups as of
+from carom.systems.kernels.balls import BALL
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, couplings, pair
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import TINY, about, dot, keep, three
@@ -15,10 +16,15 @@ from carom.systems.kernels.rubbing import ROLLING, TWISTING
 
 
 @kernel("start")
-def find_manifolds(count, row_a, row_b, normal, start):
-    """Write where each manifold begins, and one past the last; return how many there are."""
-    number = 0
+def find_manifolds(count, row_a, row_b, kind, normal, start):
+    """Write where each manifold begins, and one past the last.
+
+    Return how many there are, whether some are not of balls on exact arcs, and whether some are of two balls.
+    """
+    number, solids, balls = 0, False, False
     for c in range(count):
+        solids |= kind[c] < 0
+        balls |= kind[c] == BALL
         if number:
             first = start[number - 1]
             if row_a[c] == row_a[first] and row_b[c] == row_b[first] and c - first < MANIFOLD_POINTS:
@@ -28,7 +34,7 @@ def find_manifolds(count, row_a, row_b, normal, start):
         start[number] = c
         number += 1
     start[number] = count
-    return number
+    return number, solids, balls
 
 
 @woven

@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
-from carom.systems.kernels.crew import eights_of, part_of, shared
+from carom.systems.kernels.crew import eights_of, shared
 from carom.systems.kernels.freedom import held_inverse
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_columns import are_all, in_a_row, take_four, take_freedom, take_one, take_three
@@ -164,12 +164,11 @@ def read_velocities(rows, velocity, linear, angular):
             linear[i, k], angular[i, k] = velocity[i, k], velocity[i, ANGULAR + k]
 
 
-@shared("bodies")
-def pack_ways(crew, rows, start_center, center, turned, bodies):
+@woven
+def write_ways(rows, start_center, center, turned, bodies):
     """Write how far bodies have moved and turned since their contacts were measured."""
     for k in range(BLOCK):
         bodies[WAY, -1, k] = 0.0
-    begin, end = part_of(crew, len(rows))
-    for i in rows[begin:end]:
+    for i in rows:
         for k in range(3):
             bodies[WAY, i, k], bodies[WAY, i, ANGULAR + k] = center[i, k] - start_center[i, k], turned[i, k]

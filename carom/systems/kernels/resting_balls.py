@@ -11,26 +11,15 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, plus, three, times
-from carom.systems.kernels.lanes import choose, gather, larger, load, root, scatter, some, spread, store
+from carom.systems.kernels.lanes import choose, gather, larger, load, root, scatter, spread, store
 from carom.systems.kernels.manifolds import inverse_or_none
 from carom.systems.kernels.packing import EVEN_INERTIA, INVERSE_MASS, VELOCITY
 from carom.systems.kernels.softness import aimed_at
 
 
 @woven
-def find_even(g, r, index_a, index_b, lanes, bodies):
-    """Mark a group of balls that are alike about all axes and do no more than rub."""
-    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-    sx, sy, sz = three(lanes, r + of.SURFACE)
-    more = larger(larger(larger(sx, -sx), larger(sy, -sy)), larger(sz, -sz))
-    more = larger(more, larger(load(lanes, r + of.ROLLING), load(lanes, r + of.SPINNING)))
-    if not some(larger(more, larger(-a[EVEN_INERTIA], -b[EVEN_INERTIA]))):
-        store(lanes, r + of.BALL, spread(3.0))
-
-
-@woven
 def are_even(r, lanes):
-    """Tell whether a group is what `find_even` finds."""
+    """Tell whether a group is of balls that are alike about all axes and do no more than rub."""
     return lanes[r + of.BALL, 0] > 2.0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.crew import eights_of, part_of, shared
+from carom.systems.kernels.crew import eights_of, part_of, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.kinematic import keep_course
@@ -12,7 +12,7 @@ from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, sto
 from carom.systems.kernels.lane_vectors import dot, minus, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
-from carom.systems.kernels.packing import WAY
+from carom.systems.kernels.packing import WAY, write_ways
 from carom.systems.kernels.resting_balls import are_even
 from carom.systems.kernels.spatial import turn
 
@@ -77,25 +77,31 @@ def finish_body(
             angular[i, k] *= angular_decay[i]
 
 
-@shared("lanes", "depth")
-def sink_contacts(crew, groups, index_a, index_b, first, size, points, row, kind, bodies, lanes, depth):
-    """Write the depths that contacts have come to be; those of balls on exact arcs are measured.
+@shared("bodies", "lanes", "depth")
+def sink_contacts(
+    crew, groups, rows, start_center, center, turned, index_a, index_b, first, size, points, row, kind,
+    bodies, lanes, depth,
+):  # fmt: skip
+    """Write the depths that contacts have come to be as bodies (rows) moved; those of balls on exact arcs are measured.
 
     A point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
     """
-    rows, moved, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
+    begin, end = part_of(crew, len(rows))
+    write_ways(rows[begin:end], start_center, center, turned, bodies)
+    wait_for_all(crew, 1)
+    into, moved, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     begin, end = part_of(crew, groups)
     for g in range(begin, end):
         r = row[g]
         a, b = gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g)
         if are_even(r, lanes):
             q = r + MANIFOLD_ROWS
-            store(rows, q + of.DEPTH, load(rows, q + of.DEPTH) - dot(three(rows, r + of.NORMAL), minus(b, a)))
+            store(into, q + of.DEPTH, load(into, q + of.DEPTH) - dot(three(into, r + of.NORMAL), minus(b, a)))
             continue
-        parting = parting_of(r, rows, a, b)
+        parting = parting_of(r, into, a, b)
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            store(rows, q + of.DEPTH, load(rows, q + of.DEPTH) - parting_at(q, rows, parting))
+            store(into, q + of.DEPTH, load(into, q + of.DEPTH) - parting_at(q, into, parting))
         for lane in range(WIDTH):
             c = first[g, lane]
             if c >= 0 and kind[c] < 0:

@@ -31,7 +31,7 @@ from carom.systems.kernels.lanes import (
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.manifolds import prepare
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
-from carom.systems.kernels.resting_balls import are_even, find_even, follow_normals, weigh_balls
+from carom.systems.kernels.resting_balls import are_even, follow_normals, weigh_balls
 from carom.systems.kernels.rubbing import BALLS, IDLE, RESTING, ROLLING, RUBBING, TWISTING
 
 
@@ -62,8 +62,6 @@ def sort_groups(
         changed = fresh[g]
         if changed:
             looks[g] = g >= ends[0] or (some(load(rows, r + of.BALL)) and not are_balls(r, lanes))
-            if g < ends[0] and are_balls(r, lanes):
-                find_even(g, r, of_a, of_b, rows, packed)
         measured = g < ends[0] and are_balls(r, lanes)
         moved_on = measured
         if measured:
@@ -118,7 +116,7 @@ def sort_groups(
                     resting[k] = (held >> lane & 1) == 1
         if changed:
             asks[g] = BALLS if some(rests) and are_even(r, lanes) else asked(r, points[g], rests, rows)
-            forget(r, points[g], rests, rows)
+            forget(r, points[g], rests, are_even(r, lanes), rows)
         fresh[g] = stale[g] = False
         if asks[g] == BALLS:
             if changed:
@@ -154,15 +152,17 @@ def asked(r, points, rests, lanes):
 
 
 @woven
-def forget(r, points, rests, lanes):
-    """Forget the impulses of manifolds that do not rest."""
+def forget(r, points, rests, even, lanes):
+    """Forget the impulses of manifolds that do not rest; those that are ``even`` only press and rub."""
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         store(lanes, q + of.WARM, load(lanes, q + of.WARM) * rests)
-    store(lanes, r + of.SPUN, load(lanes, r + of.SPUN) * rests)
     for k in range(3):
-        for row in (of.RUB, of.ROLLED):
-            store(lanes, r + row + k, load(lanes, r + row + k) * rests)
+        store(lanes, r + of.RUB + k, load(lanes, r + of.RUB + k) * rests)
+    if not even:
+        store(lanes, r + of.SPUN, load(lanes, r + of.SPUN) * rests)
+        for k in range(3):
+            store(lanes, r + of.ROLLED + k, load(lanes, r + of.ROLLED + k) * rests)
 
 
 @woven
