@@ -11,6 +11,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake, stirs
+from carom.systems.closing import closing
 from carom.systems.constants import MOST_LOOKS
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
@@ -163,7 +164,7 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
     """Find what stops the flight; those who meet before that are where they meet last, on their arcs from there."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     contact, manifolds, ledger = world[Contact], world[Resting], world[Ledger]
-    closing, within = manifolds.closing(world, world[BroadPhase].watched(world), h - at, began=at == 0.0)
+    closes, within = closing(world, h - at, began=at == 0.0)
     now, reason, events, cut, count, pair, log = fly(
         at, h, bend, world[Progress].clock,
         flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,
@@ -175,7 +176,7 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
         contact.share, contact.kind, contact.ball, contact.other,
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
-        contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, closing, within,
+        contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, closes, within,
         until, world[Fast].turns, events, ledger.pull, ledger.arc,
     )  # fmt: skip
     world[Answered].impacts_cut += cut

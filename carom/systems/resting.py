@@ -16,7 +16,6 @@ from carom.systems.awake import Awake
 from carom.systems.constants import MANIFOLD_POINTS, RELAX_SWEEPS
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
-from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.filling import fill_groups, hand_over
 from carom.systems.kernels.groups import group_manifolds
@@ -212,23 +211,6 @@ class Resting(Resource):
         if world[Linkage].groups:
             world[Linkage].measure(world, self.bodies)
         self._solve(world, Stage("solve", 1, h, *yielding(h)))
-
-    def closing(self, world: World, watched: Integers, span: float, *, began: bool) -> tuple[Integers, float]:
-        """Tell which manifolds may strike within ``span`` seconds, and when one of the ``watched`` may leave its reach.
-
-        What that is for manifolds says `find_closing`. Where the flight has not just begun, solids all may.
-        """
-        motion, flight, contact = world[Motion], world[Flight], world[Contact]
-        crew = crew_for(world, max(self.count, len(watched)))
-        within = np.full(threads_of(crew), span)
-        find_closing(
-            crew, self.count, self.groups, self.solids and began, span, self.rows(world), watched,
-            flight.center, flight.detected_center, flight.reach, motion.linear, motion.angular, flight.acceleration,
-            self.index_a, self.index_b, self.points, self.row, self.group_of, self.lane_of, self.start,
-            contact.kind, contact.ball, contact.other, contact.other_position, contact.radius, contact.extent,
-            contact.restitution, contact.resting, self.lanes, self.bodies, self.closes, within,
-        )  # fmt: skip
-        return self.closes, min(within.tolist())
 
     def sink(self, world: World) -> None:
         """Find how deep contacts have come to be."""

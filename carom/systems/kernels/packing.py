@@ -14,8 +14,8 @@ from carom.systems.kernels.lanes import WIDTH, address, choose, larger, planes, 
 from carom.systems.kernels.spatial import inverse_inertia_in_world, product
 
 # The planes, each of eight numbers a body: what one sweep reads of neighbours lies side by side.
-# Velocity: linear (3), inverse mass, angular (3), inverse inertia of what is alike about all axes and has no locks, -1
-# of others. The way since contacts were measured: linear (3), a gap, angular (3), a gap.
+# Velocity: linear (3), inverse mass, angular (3), inverse inertia about the first axis, which for balls is that about
+# all. The way since contacts were measured: linear (3), a gap, angular (3), a gap.
 # Inverse inertia in the world frame: upper half (6), the largest moment. Inverse mass along the axes (3), acceleration
 # by forces (3), inverse mass without locks. Until it sets out, the way gives place to the pose: centre (3), a gap,
 # rotation (4); and while arcs are bent, to what velocities have changed by (3).
@@ -82,8 +82,7 @@ def pack_bodies(
         xx, xy, xz, yy, yz, zz = inverse
         scatter(packed[INVERSE], address(index), 0, (xx, xy, xz, yy, yz, zz, larger(larger(ix, iy), iz), zero))
         locked = 3.0 - (free[3] + free[4] + free[5])
-        even = choose(larger(larger(uneven, locked), 3.0 - (free[0] + free[1] + free[2])), spread(-1.0), ix)
-        scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], m, w[0], w[1], w[2], even))
+        scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], m, w[0], w[1], w[2], ix))
         if some(choose(uneven, locked, zero)):
             for i in index[0]:
                 pack_held(i, inverse_inertia, principal, freedom, rotation, bodies)

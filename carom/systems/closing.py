@@ -1,0 +1,35 @@
+"""Closing: which manifolds may strike on the arcs that bodies fly, and for how long detection holds for them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs import Motion, World
+from carom.ecs.column import Integers
+from carom.ecs.components.flight import Flight
+from carom.ecs.relations.contact import Contact
+from carom.systems.detection.broad import BroadPhase
+from carom.systems.kernels.closing import find_closing
+from carom.systems.kernels.crew import threads_of
+from carom.systems.resting import Resting
+from carom.systems.threads import crew_for
+
+
+def closing(world: World, span: float, *, began: bool) -> tuple[Integers, float]:
+    """Return which manifolds may strike within ``span`` seconds, as `find_closing` tells it, and when one may leave.
+
+    That is the first moment (s, at most ``span``) at which a body may be where detection has not looked. Unless the
+    substep has just begun, nobody asks solids: all of them may strike.
+    """
+    motion, flight, contact, resting = world[Motion], world[Flight], world[Contact], world[Resting]
+    watched = world[BroadPhase].watched(world)
+    crew = crew_for(world, max(resting.count, len(watched)))
+    within = np.full(threads_of(crew), span)
+    find_closing(
+        crew, resting.count, resting.groups, resting.solids and began, span, resting.rows(world), watched,
+        flight.center, flight.detected_center, flight.reach, motion.linear, motion.angular, flight.acceleration,
+        resting.index_a, resting.index_b, resting.points, resting.row, resting.group_of, resting.lane_of, resting.start,
+        contact.kind, contact.ball, contact.other, contact.other_position, contact.radius, contact.extent,
+        contact.restitution, contact.resting, resting.lanes, resting.bodies, resting.closes, within,
+    )  # fmt: skip
+    return resting.closes, min(within.tolist())
