@@ -26,12 +26,16 @@ NOTHING = np.empty(0, np.uint8)
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """Every saved column of the present rows in row order, who lives, and the saved part of each resource."""
+    """Every saved column of the present rows in row order, who lives, and the saved part of each resource.
+
+    ``edited`` are the kinds that code outside has opened since the last step, which the next one is to answer.
+    """
 
     frame: int
     slots: Arrays
     tables: dict[type[Record], tuple[Rows, Arrays]]
     resources: dict[type[Resource], bytes]
+    edited: frozenset[type[Record]] = frozenset()
     memory: npt.NDArray[np.uint8] = field(default_factory=lambda: NOTHING, repr=False)
 
     def numbers(self, kind: type[Record]) -> Integers:
@@ -90,7 +94,7 @@ def look_at(world: World, roles: Collection[str] = SAVED) -> Snapshot:
         for kind, rows, names in held_columns(world, roles)
     }
     resources = {k: s for k, r in world.resources.items() if (s := r.state()) is not None}
-    return Snapshot(world.frame, world.slots.state(), tables, resources)
+    return Snapshot(world.frame, world.slots.state(), tables, resources, frozenset(world.edited))
 
 
 def take_snapshot(world: World, *, reuse: Snapshot | None = None) -> Snapshot:
@@ -106,7 +110,7 @@ def copied(seen: Snapshot, reuse: Snapshot | None = None) -> Snapshot:
         kind: (rows, {name: block.copy(array) for name, array in arrays.items()})
         for kind, (rows, arrays) in seen.tables.items()
     }
-    return Snapshot(seen.frame, seen.slots, tables, seen.resources, block.memory)
+    return Snapshot(seen.frame, seen.slots, tables, seen.resources, seen.edited, block.memory)
 
 
 def restore_snapshot(world: World, snapshot: Snapshot) -> None:
@@ -117,7 +121,7 @@ def restore_snapshot(world: World, snapshot: Snapshot) -> None:
     if faults := faults_of(snapshot, world):
         raise SnapshotError("\n  ".join(["the snapshot does not fit this world:", *faults]))
     _restore_resources(world, snapshot.resources)
-    world.begin_restore(snapshot.slots, snapshot.frame)
+    world.begin_restore(snapshot.slots, snapshot.frame, snapshot.edited)
     for kind in {*world.tables, *snapshot.tables}:
         rows, arrays = snapshot.tables.get(kind, (slice(0, 0), {}))
         world.table(kind).restore(rows, arrays)

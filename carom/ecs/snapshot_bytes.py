@@ -45,6 +45,8 @@ def bytes_from_snapshot(snapshot: Snapshot) -> bytes:
             listed.append([name, little.dtype.str, list(part.shape)])
             blocks.append(little.data)
     header = {"frame": snapshot.frame, "modules": {kind.key: kind.__module__ for kind in kinds}, "parts": listed}
+    if edited := sorted(kind.key for kind in snapshot.edited):
+        header["edited"] = edited
     blocks.insert(0, json.dumps(header, separators=(",", ":")).encode() + b"\n")
     digest, length = xxh3_128(), 0
     for block in blocks:
@@ -78,7 +80,8 @@ def snapshot_from_bytes(data: bytes, world: World, source: str = SOURCE) -> Snap
         columns = {name.partition(".")[2]: array for name, array in arrays.items() if name.startswith(f"{key}.")}
         tables[Record.registry[key]] = (as_rows(arrays[f"{key}#"]), columns)
     slots = {name.removeprefix("slots/"): array for name, array in arrays.items() if name.startswith("slots/")}
-    snapshot = Snapshot(header["frame"], slots, tables, states)
+    edited = frozenset(Record.registry[key] for key in header.get("edited", ()) if key in Record.registry)
+    snapshot = Snapshot(header["frame"], slots, tables, states, edited)
     if faults := [*faults, *faults_of(snapshot, world)]:
         raise SnapshotError("\n  ".join([f"{source} does not fit this world:", *faults]))
     return snapshot

@@ -34,9 +34,7 @@ class Structure:
         self.tables: dict[type[Record], Table] = {}
         self.structure = 0  # grows whenever entities or components come or go
         self.restored = 0  # grows with every snapshot restored
-        self.edited: set[type[Record]] = (
-            set()
-        )  # what code outside the step has opened since the last step or snapshot restored
+        self.edited: set[type[Record]] = set()  # what code outside the step has opened since the last step
         self.writes: WriteLog | None = None
         self.frame = 0
         self.running: System | None = None
@@ -141,7 +139,7 @@ class Structure:
             table.renumber(new_rows)
         self.structure += 1
 
-    def begin_restore(self, slots: dict[str, npt.NDArray[Any]], frame: int) -> None:
+    def begin_restore(self, slots: dict[str, npt.NDArray[Any]], frame: int, edited: frozenset[type[Record]]) -> None:
         """Let those live who lived when ``slots`` was saved; the tables are then filled by `restore_snapshot`."""
         if (reached := len(slots["generations"])) > self.slots.capacity:
             self._grow(reached)
@@ -150,7 +148,7 @@ class Structure:
         self.frame = frame
         self.structure += 1
         self.restored += 1
-        self.edited.clear()
+        self.edited = set(edited)
         if self.writes is not None:
             self.writes.forget()
 

@@ -17,16 +17,14 @@ class Awake(Resource):
     """The rows of bodies that do not sleep, kinematic ones among them, and of those that do; a cache.
 
     ``idle`` is a step in which nobody moves and nothing has changed since the one before. ``strangers`` tells of
-    systems in the schedule that are not carom's, which may change anything; ``asked`` are entities to be
-    woken, ``edited`` what code outside had opened for writing when this step began, ``written`` what it wrote, where
-    the world keeps a log of that.
+    systems in the schedule that are not carom's, which may change anything; ``edited`` is what code outside had opened
+    for writing when this step began, ``written`` what it wrote, where the world keeps a log of that.
     """
 
     def __init__(self) -> None:
         self.rows: Integers = np.zeros(0, np.int64)
         self.sleepers = self.bodies = self.rows
         self.idle = self.strangers = False
-        self.asked: list[int] = []
         self.edited: set[type[Record]] = set()
         self.written: dict[type[Component], Written] = {}
         self.settings: Settings | None = None

@@ -39,12 +39,12 @@ class EditWatch:
 
     def begin(self, simulation: Simulation) -> None:
         """Know what was done before, or by commands of the last step."""
-        world = simulation.world
-        self._own, self._counts = set(world.edited), (world.structure, world.restored)
+        self._own = set(simulation.world.edited)
+        self.pass_over(simulation)
 
-    def pending(self, simulation: Simulation) -> set[type[Record]]:
-        """Return the components that code outside has written since the last step."""
-        return simulation.world.edited - self._own
+    def pass_over(self, simulation: Simulation) -> None:
+        """Leave out who came or went and what was restored until now."""
+        self._counts = simulation.world.structure, simulation.world.restored
 
     def done(self, simulation: Simulation) -> Done:
         """Return what was done between the step that has just been taken and the one before."""

@@ -15,7 +15,6 @@ from carom.ecs.components.name import NAME_LENGTH
 from carom.ecs.errors import DeclarationError
 from carom.systems.actions import ACTIONS, Action, Despawn, Release, Spawn
 from carom.systems.assembly import bundles_of
-from carom.systems.awake import Awake
 from carom.systems.declared import read_words
 from carom.systems.parameters import WordFault, number_fault
 from carom.systems.pushes import Pushes, push
@@ -76,7 +75,6 @@ def _carry_out(world: World) -> None:
         if pushes is not None:
             push(world, pushes)
             events.pushed.append(pushes)
-            world[Awake].asked += world.entities(pushes.rows).tolist()
         action.change(world)
     events.edited = world.edited - before
 

@@ -25,7 +25,10 @@ class Pushes(NamedTuple):
 
 
 def push(world: World, pushes: Pushes) -> None:
-    """Give dynamic bodies, each of which is there once, the velocities that impulses make; locked axes stay locked."""
+    """Give dynamic bodies, each of which is there once, the velocities that impulses make; locked axes stay locked.
+
+    Who sleeps is woken before the next step.
+    """
     rows, body, motion = pushes.rows, world[RigidBody], world[Motion]
     turning: Floats = np.empty((len(rows), 3))
     find_turning(
@@ -34,3 +37,4 @@ def push(world: World, pushes: Pushes) -> None:
     )  # fmt: skip
     motion.linear[rows] += body.inverse_mass[rows, None] * body.freedom[rows, :3] * pushes.impulse
     motion.angular[rows] += turning
+    motion.still[rows] = 0.0

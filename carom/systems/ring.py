@@ -7,7 +7,6 @@ from collections import deque
 
 from carom.ecs import (
     DeclarationError,
-    RigidBody,
     Schedule,
     Snapshot,
     SnapshotError,
@@ -15,7 +14,6 @@ from carom.ecs import (
     take_snapshot,
 )
 from carom.ecs.writes import WriteLog
-from carom.systems.awake import Awake
 from carom.systems.detection.answered import uncounted
 from carom.systems.edits import NOTHING, Done, EditWatch, Retelling
 from carom.systems.events import Events
@@ -118,11 +116,9 @@ class Ring:
         """Show an observer such as a recorder all frames since the oldest snapshot again, and leave the world as it is.
 
         The last of them is the world of now, or, where a step was not finished, what it was before that step. Others
-        who observe the simulation see nothing of it, and no counts change. Where code outside has changed something
-        since the last step, who sleeps is woken.
+        who observe the simulation see nothing of it, and no counts change.
         """
         world = simulation.world
-        pending, edited = self._edits.pending(simulation), set(world.edited)
         writes, world.writes = world.writes, None
         now = take_snapshot(world)
         last = now.frame if now.frame == self._seen or not self._kept else self._seen
@@ -144,10 +140,8 @@ class Ring:
             finally:
                 observer.end(simulation)
                 restore_snapshot(world, now)
-                self._edits.begin(simulation)
-                world.edited, world.writes = edited, writes
-                if pending:  # what it was before is no longer known
-                    world[Awake].asked += world.entities(world.row_numbers(RigidBody)).tolist()
+                self._edits.pass_over(simulation)
+                world.writes = writes
                 self._showing, retelling.done = False, None
 
     def _keep(self, simulation: Simulation) -> None:

@@ -27,6 +27,7 @@ from carom.systems.awake import Awake
 from carom.systems.bookkeeping import Bookkeeping
 from carom.systems.breakpoints import Breakpoint, StoppedError, look
 from carom.systems.clock import Clock
+from carom.systems.compound import bodies_of
 from carom.systems.declared import read_words
 from carom.systems.entity_words import refuse_words
 from carom.systems.events import Events, read_event, repetitions
@@ -160,7 +161,10 @@ class Simulation:
 
     def wake(self, *entities: int | str) -> None:
         """Wake bodies (handles or names) that sleep, with their islands, before the next step."""
-        self.world[Awake].asked += [self.world.find(one) if isinstance(one, str) else int(one) for one in entities]
+        handles = [self.world.find(one) if isinstance(one, str) else one for one in entities]
+        bodies = bodies_of(self.world)[[self.world.row(handle) for handle in handles]]
+        with self.world.edit(Motion) as motion:
+            motion.still[bodies[bodies >= 0]] = 0.0
 
     def keep_ledger(self) -> Ledger:
         """Book from now on, in every step, where energy comes from and goes to; return the ledger."""

@@ -28,7 +28,6 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake, stirs
 from carom.systems.bodies import centers_of_mass
-from carom.systems.compound import bodies_of
 from carom.systems.constants import SLEEP_TIME
 from carom.systems.detection.bounds import reach_within
 from carom.systems.forces.law import Forces
@@ -56,10 +55,11 @@ def wake_disturbed(world: World, dt: float) -> None:
     """Wake who was changed from outside since the last step, and see whether there is anything to do."""
     awake = world[Awake]
     changes, turned = awake.look(world), _turned(world)
-    if not changes and not awake.asked and not len(turned) and awake.idle:
-        return
     if changes or awake.strangers:
         awake.find(world)
+    asked = awake.sleepers[world[Motion].still[awake.sleepers] < SLEEP_TIME]
+    if not changes and not len(asked) and not len(turned) and awake.idle:
+        return
     ties, joined = world[Ties], Joint in changes.edited
     if joined or changes.structure or changes.restored:
         held = ties.bodies
@@ -72,9 +72,7 @@ def wake_disturbed(world: World, dt: float) -> None:
         if not world[Settings].sleeping or remade or (changes.settings and not changes.restored):
             wake(world, awake.sleepers)
         else:
-            asked = [world.row(entity) for entity in awake.asked if entity in world]
-            bodies = bodies_of(world)[asked] if asked else np.zeros(0, np.int64)
-            disturbed = [bodies[bodies >= 0], turned, bodies_on_springs(world)]  # springs may be new
+            disturbed = [asked, turned, bodies_on_springs(world)]  # springs may be new
             if awake.strangers or changes.edited & PLACED:
                 disturbed.append(_changed(world, awake.sleepers))
             if changes.structure:
@@ -82,7 +80,6 @@ def wake_disturbed(world: World, dt: float) -> None:
             if joined:
                 disturbed += [held, ties.bodies]
             wake(world, np.concatenate(disturbed))
-    awake.asked.clear()
     awake.idle = not changes and awake.nobody_moves(world)
 
 
@@ -99,7 +96,7 @@ def fall_asleep(world: World, dt: float) -> None:
     if awake.strangers and len(awake.sleepers):  # one of them may be pushing
         force = world[Force]
         pushed = (force.force[awake.sleepers] != 0.0) | (force.torque[awake.sleepers] != 0.0)
-        awake.asked += world.entities(awake.sleepers[pushed.any(axis=1)]).tolist()
+        motion.still[awake.sleepers[pushed.any(axis=1)]] = 0.0
     motion.still[world[Ties].now(world).restless] = -dt  # who is turned by a motor
     for _, rows in world[Forces].restless(world):
         motion.still[rows] = -dt  # who is pushed another way in every step

@@ -56,10 +56,14 @@ def left_alone(world: World) -> Integers:
 
 
 def locate_contacts(world: World) -> None:
-    """Find the rows of what sleeping contacts are of."""
-    sleeping, bodies = world[SleepingContact], bodies_of(world)
-    count = sleeping.count
-    sleeping.row_a[:count], sleeping.row_b[:count] = (
-        world.slots.rows(sleeping.a[:count]), world.slots.rows(sleeping.b[:count]),
-    )  # fmt: skip
-    sleeping.body_a[:count], sleeping.body_b[:count] = bodies[sleeping.row_a[:count]], bodies[sleeping.row_b[:count]]
+    """Find the rows of what sleeping contacts are of; who is no more has no body."""
+    sleeping, bodies, slots = world[SleepingContact], bodies_of(world), world.slots
+    now = slice(sleeping.count)
+    for handles, rows, body in (
+        (sleeping.a[now], sleeping.row_a[now], sleeping.body_a[now]),
+        (sleeping.b[now], sleeping.row_b[now], sleeping.body_b[now]),
+    ):
+        there = slots.live(handles)
+        rows[~there], body[~there] = 0, -1
+        rows[there] = slots.rows(handles[there])
+        body[there] = bodies[rows[there]]

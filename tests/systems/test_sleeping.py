@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import pytest
 from sleepers import BALL, BOX, asleep, choose, sleeping, stacks
 
@@ -10,6 +12,7 @@ from carom.ecs import (
     Entity,
     Material,
     Motion,
+    RigidBody,
     Transform,
     World,
     restore_snapshot,
@@ -18,9 +21,11 @@ from carom.ecs import (
     take_snapshot,
 )
 from carom.ecs.commands import Commands
+from carom.ecs.components.external_force import ExternalForce
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
+from carom.ecs.snapshot_bytes import bytes_from_snapshot, snapshot_from_bytes
 from carom.systems.simulation import Simulation
 from carom.systems.step import STEP
 
@@ -130,6 +135,53 @@ def test_a_snapshot_of_sleepers_goes_on_the_same_way() -> None:
         other.step(10)
         assert state_hash(other.world) == future
         assert _drop(other) == dropped
+
+
+def _write(name: str, kind: type, column: str, value: object) -> Callable[[Simulation], None]:
+    def write(simulation: Simulation) -> None:
+        world = simulation.world
+        with world.edit(kind) as table:
+            getattr(table, column)[world.row(world.find(name))] = value
+
+    return write
+
+
+@pytest.mark.parametrize(
+    "disturb",
+    [
+        pytest.param(_write("a2", Motion, "linear", (1.0, 0.0, 0.0)), id="pushed"),
+        pytest.param(_write("a2", ExternalForce, "force", (0.0, 50.0, 0.0)), id="pulled"),
+        pytest.param(_write("a2", Transform, "position", (0.0, 4.0, 0.0)), id="lifted"),
+        pytest.param(_write("floor", Transform, "position", (0.0, -1.5, 0.0)), id="floor lowered"),
+        pytest.param(_write("a2", Material, "friction", 0.1), id="oiled"),
+        pytest.param(_write("a2", RigidBody, "inverse_mass", 0.5), id="loaded"),
+        pytest.param(lambda simulation: simulation.world.despawn(simulation.world.find("floor")), id="floor gone"),
+        pytest.param(lambda simulation: simulation.world.despawn(simulation.world.find("a1")), id="one gone"),
+        pytest.param(lambda simulation: simulation.explode(impulse=20.0, position=(0.0, 0.0, 0.0)), id="blown up"),
+        pytest.param(lambda simulation: simulation.wake("a2"), id="woken"),
+    ],
+)
+def test_a_snapshot_between_a_change_and_the_step_that_answers_it_leads_where_the_change_leads(
+    disturb: Callable[[Simulation], None],
+) -> None:
+    """In this world and, as bytes, in another: who sleeps wakes as without it."""
+    simulation = sleeping(0.0)
+    disturb(simulation)
+    snapshot = take_snapshot(simulation.world)
+    simulation.step()
+    woken, other = asleep(simulation, "a0"), stacks(0.0)
+    assert woken == [False]
+    simulation.step(9)
+    future = state_hash(simulation.world)
+    for again, kept in (
+        (simulation, snapshot),
+        (other, snapshot_from_bytes(bytes_from_snapshot(snapshot), other.world)),
+    ):
+        restore_snapshot(again.world, kept)
+        again.step()
+        assert asleep(again, "a0") == woken
+        again.step(9)
+        assert state_hash(again.world) == future
 
 
 def test_rows_may_change_under_sleepers() -> None:
