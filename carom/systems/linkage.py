@@ -55,7 +55,7 @@ class Linkage(Resource):
         rows, before = world[Awake].now(world), self.awake
         same = self.version == world[Ties].now(world).version and self.restored == world.restored
         if same and (rows is before or np.array_equal(rows, before)):
-            self.awake = rows  # who is found anew at the beginning of every step, to be told at once from then on
+            self.awake = rows  # who is found anew after every change from outside, to be told at once from then on
             return True
         return False
 

@@ -16,7 +16,7 @@ RIM_POINTS = 16  # corners that stand for each rim; the one that a half space to
 RIM_TURNS = tuple(sine_cosine(2.0 * math.pi * k / RIM_POINTS)[::-1] for k in range(RIM_POINTS))
 
 #: Which number each corner has: any four in a row, which are solved together, are all around the rim.
-RIM_NUMBERS = tuple(int(f"{k:04b}"[::-1], 2) for k in range(RIM_POINTS))
+RIM_NUMBERS = tuple(int(f"{k:0{RIM_POINTS.bit_length() - 1}b}"[::-1], 2) for k in range(RIM_POINTS))
 
 
 def rim_points(radius: float, height: float, towards: tuple[float, float, float]) -> Floats:

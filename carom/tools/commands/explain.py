@@ -21,11 +21,12 @@ def execute(arguments: argparse.Namespace) -> int:
     if not arguments.json:
         print(explain(frame), end="")
         return 0
+    repeated = {system.name for phase in frame.phases if phase.repeat for _, system in phase}  # in phases within it too
     print_json(
         [
             {
                 "phase": phase.name,
-                "repeated": phase.repeat is not None,
+                "repeated": system.name in repeated,
                 "system": system.name,
                 **{use: [kind.__name__ for kind in getattr(system, use)] for use in ("reads", "writes", "adds")},
             }
