@@ -15,21 +15,22 @@ from carom.systems.resting import Resting
 from carom.systems.threads import crew_for
 
 
-def closing(world: World, span: float, *, began: bool) -> tuple[Integers, float]:
-    """Return which manifolds may strike within ``span`` seconds, as `find_closing` tells it, and when one may leave.
+def closing(world: World, span: float, *, began: bool) -> tuple[Integers, float, bool]:
+    """Return which manifolds may strike within ``span`` seconds, as `find_closing` tells it; until when; if any.
 
-    That is the first moment (s, at most ``span``) at which a body may be where detection has not looked. Unless the
+    Until the first moment (s, at most ``span``) at which a body may be where detection has not looked. Unless the
     substep has just begun, nobody asks solids: all of them may strike.
     """
     motion, flight, contact, resting = world[Motion], world[Flight], world[Contact], world[Resting]
     watched = world[BroadPhase].watched(world)
     crew = crew_for(world, max(resting.count, len(watched)))
-    within = np.full(threads_of(crew), span)
+    soon = np.array([(span, 0.0)] * threads_of(crew))
     find_closing(
         crew, resting.count, resting.groups, resting.solids and began, span, resting.rows(world), watched,
         flight.center, flight.detected_center, flight.reach, motion.linear, motion.angular, flight.acceleration,
         resting.index_a, resting.index_b, resting.points, resting.row, resting.group_of, resting.lane_of, resting.start,
         contact.kind, contact.ball, contact.other, contact.other_position, contact.radius, contact.extent,
-        contact.restitution, contact.resting, resting.lanes, resting.bodies, resting.closes, within,
+        contact.restitution, contact.resting, resting.lanes, resting.bodies, resting.closes, soon,
     )  # fmt: skip
-    return resting.closes, min(within.tolist())
+    times, numbers = zip(*soon.tolist(), strict=True)
+    return resting.closes, min(times), any(numbers)

@@ -164,7 +164,10 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
     """Find what stops the flight; those who meet before that are where they meet last, on their arcs from there."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
     contact, manifolds, ledger = world[Contact], world[Resting], world[Ledger]
-    closes, within = closing(world, h - at, began=at == 0.0)
+    began = at == 0.0
+    closes, within, some = closing(world, h - at, began=began)
+    if began and not some and h <= min(within, until):
+        return h, DONE, events
     now, reason, events, cut, count, pair, log = fly(
         at, h, bend, world[Progress].clock,
         flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,

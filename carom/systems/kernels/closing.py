@@ -21,20 +21,20 @@ from carom.systems.kernels.reach import are_apart, time_within_all
 CANNOT, MAY, HELD_BALL, HELD = range(4)
 
 
-@shared("lanes", "bodies", "closing", "within")
+@shared("lanes", "bodies", "closing", "soon")
 def find_closing(
     crew, count, groups, solids, h, rows, watched, center, detected_center, reach, linear, angular, acceleration,
     index_a, index_b, points, row, group_of, lane_of, start, kind, ball, other, other_position, radius, extent,
-    restitution, resting, lanes, bodies, closing, within,
+    restitution, resting, lanes, bodies, closing, soon,
 ):  # fmt: skip
-    """Tell of each manifold whether it may strike within ``h`` seconds, and in ``within`` when a body leaves its reach.
+    """Tell of each manifold whether it may strike within ``h`` seconds, and how soon a body leaves its reach.
 
-    Each thread has one number in ``within``, for those who are ``watched``. What `foresee` and `foresee_blow` find is
+    Each thread has a row in ``soon``: when one of those leaves who are ``watched``, and how many may strike. What `foresee` and `foresee_blow` find is
     among those that may. ``solids`` says that what is not of balls on exact arcs is to be asked, for which the
     velocities of all bodies (rows) are packed; else those may. ``start`` are the first contacts of manifolds.
     """
     begin, end = part_of(crew, len(watched))
-    within[crew[1]] = time_within_all(watched[begin:end], h, center, detected_center, reach, linear, acceleration)
+    soon[crew[1], 0] = time_within_all(watched[begin:end], h, center, detected_center, reach, linear, acceleration)
     if solids:
         begin, end = part_of(crew, len(rows))
         write_velocities(rows[begin:end], linear, angular, bodies[VELOCITY])
@@ -45,6 +45,7 @@ def find_closing(
                 close_group(g, row[g], points[g], h, address(index_a), address(index_b), address(lanes), planes(bodies))
         wait_for_all(crew, 2)
     begin, end = part_of(crew, count)
+    number = 0
     for m in range(begin, end):
         p = start[m]
         if resting[p] and kind[p] < 0:
@@ -58,6 +59,8 @@ def find_closing(
         else:
             asked = solids and kind[p] < 0
             closing[m] = MAY if not asked or lanes[row[group_of[m]] + of.CLOSES, lane_of[m]] > 0.0 else CANNOT
+            number += closing[m]
+    soon[crew[1], 1] = number
 
 
 @woven
