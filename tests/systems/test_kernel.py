@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 
+import numpy as np
 import pytest
 
 from carom.systems.kernels import balls, balls_narrow, broad_cache, groups, kernel, levers, mesh_axes, spatial
@@ -47,3 +48,21 @@ def test_another_text_gives_another_stamp_to_all_that_call_it(monkeypatch: pytes
     monkeypatch.setattr(kernel, "digest_of_called", kernel.digest_of)
     changed = [name for name, stamp in kept.items() if kernel.stamp_of(name) != stamp]
     assert changed == [balls.__name__, balls_narrow.__name__]
+
+
+def test_a_kernel_is_handed_read_only_arrays_themselves_and_as_they_are_now(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A piece of an array that may be written is not copied, however often it comes; others are, each time anew."""
+    given = []
+    first = kernel.Kernel(lambda values: None, (), ("values",), makes_arrays=False)
+    monkeypatch.setattr(first, "_run", lambda values: given.append(values))
+    room, alone = np.arange(6.0), np.arange(3.0)
+    piece = room[2:5].view()
+    piece.flags.writeable = alone.flags.writeable = False
+    for number in (7.0, 8.0):
+        room[2] = number
+        for array in (piece, alone, np.broadcast_to(room[2], 3)):
+            first(array)
+    pieces, copies, spread = given[::3], given[1::3], given[2::3]
+    assert all(array.flags.writeable and np.shares_memory(array, room) for array in pieces)
+    assert not any(np.shares_memory(array, alone) for array in copies)
+    assert [array.tolist() for array in spread] == [[7.0] * 3, [8.0] * 3]

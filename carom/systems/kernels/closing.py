@@ -29,9 +29,10 @@ def find_closing(
 ):  # fmt: skip
     """Tell of each manifold whether it may strike within ``h`` seconds, and how soon a body leaves its reach.
 
-    Each thread has a row in ``soon``: when one of those leaves who are ``watched``, and how many may strike. What `foresee` and `foresee_blow` find is
-    among those that may. ``solids`` says that what is not of balls on exact arcs is to be asked, for which the
-    velocities of all bodies (rows) are packed; else those may. ``start`` are the first contacts of manifolds.
+    Each thread has a row in ``soon``: when one of those leaves who are ``watched``, and how many may strike, among whom
+    is what `foresee` and `foresee_blow` find. ``solids`` says that what is not of balls on exact arcs is to be asked,
+    for which the velocities of all bodies (rows) are packed; else those may. ``start`` are the first contacts of
+    manifolds.
     """
     begin, end = part_of(crew, len(watched))
     soon[crew[1], 0] = time_within_all(watched[begin:end], h, center, detected_center, reach, linear, acceleration)
