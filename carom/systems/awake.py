@@ -81,6 +81,11 @@ class Changes:
         return bool(self.edited) or self.restored or self.structure or self.settings
 
 
+def ask(motion: Motion, rows: Integers) -> None:
+    """Ask for those of some bodies (rows) that sleep to be woken before the next step; `Motion.still` says so."""
+    motion.still[rows[motion.asleep[rows]]] = -1.0
+
+
 def stirs(world: World) -> bool:
     """Tell whether there is anything to do in this step."""
     return not world[Awake].idle

@@ -8,6 +8,7 @@ import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
+from carom.systems.awake import ask
 from carom.systems.kernels.turning import find_turning
 
 
@@ -37,4 +38,4 @@ def push(world: World, pushes: Pushes) -> None:
     )  # fmt: skip
     motion.linear[rows] += body.inverse_mass[rows, None] * body.freedom[rows, :3] * pushes.impulse
     motion.angular[rows] += turning
-    motion.still[rows] = 0.0
+    ask(motion, rows)

@@ -26,7 +26,7 @@ from carom.ecs.components.path import Path
 from carom.ecs.components.spring import Spring
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
-from carom.systems.awake import Awake, stirs
+from carom.systems.awake import Awake, ask, stirs
 from carom.systems.bodies import centers_of_mass
 from carom.systems.constants import SLEEP_TIME
 from carom.systems.detection.bounds import reach_within
@@ -57,7 +57,7 @@ def wake_disturbed(world: World, dt: float) -> None:
     changes, turned = awake.look(world), _turned(world)
     if changes or awake.strangers:
         awake.find(world)
-    asked = awake.sleepers[world[Motion].still[awake.sleepers] < SLEEP_TIME]
+    asked = awake.sleepers[world[Motion].still[awake.sleepers] < 0.0]
     if not changes and not len(asked) and not len(turned) and awake.idle:
         return
     ties, joined = world[Ties], Joint in changes.edited
@@ -96,7 +96,7 @@ def fall_asleep(world: World, dt: float) -> None:
     if awake.strangers and len(awake.sleepers):  # one of them may be pushing
         force = world[Force]
         pushed = (force.force[awake.sleepers] != 0.0) | (force.torque[awake.sleepers] != 0.0)
-        motion.still[awake.sleepers[pushed.any(axis=1)]] = 0.0
+        ask(motion, awake.sleepers[pushed.any(axis=1)])
     motion.still[world[Ties].now(world).restless] = -dt  # who is turned by a motor
     for _, rows in world[Forces].restless(world):
         motion.still[rows] = -dt  # who is pushed another way in every step

@@ -113,6 +113,20 @@ def test_sleeping_is_a_choice() -> None:
     assert asleep(simulation, "a0", "a1", "a2", "b0") == [False] * 3 + [True]
 
 
+def test_who_is_put_to_sleep_from_outside_sleeps_until_asked() -> None:
+    """In mid-air, as long as nobody touches it."""
+    simulation = Simulation()
+    simulation.add(name="ball", collider=BALL, body={}, transform=HIGH)
+    simulation["ball"].motion.asleep = True
+    simulation.step(30)
+    assert asleep(simulation, "ball") == [True]
+    assert simulation["ball"].transform.position[1] == 30.0
+    simulation.wake("ball")
+    simulation.step()
+    assert asleep(simulation, "ball") == [False]
+    assert simulation["ball"].transform.position[1] < 30.0
+
+
 def _drop(simulation: Simulation) -> list[str]:
     simulation.add(name="late", collider=BALL, body={}, transform={"position": (0.3, 4.5, 0.1)})
     hashes = []

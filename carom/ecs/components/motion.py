@@ -11,5 +11,5 @@ class Motion(Component):
     angular: Floats = column(3, unit="rad/s", doc="angular velocity")
     linear_acceleration: Floats = column(3, unit="m/s2", doc="acceleration by forces in the last substep")
     angular_acceleration: Floats = column(3, unit="rad/s2", doc="angular acceleration by torques in the last substep")
-    still: Floats = column(unit="s", doc="for how long it has been slower than what may fall asleep")
+    still: Floats = column(unit="s", doc="for how long it has been slower than what may sleep; below 0, is to wake")
     asleep: Booleans = column(unit="1", doc="left alone until something touches or changes it", dtype="bool")
