@@ -94,7 +94,8 @@ def look_at(world: World, roles: Collection[str] = SAVED) -> Snapshot:
         for kind, rows, names in held_columns(world, roles)
     }
     resources = {k: s for k, r in world.resources.items() if (s := r.state()) is not None}
-    return Snapshot(world.frame, world.slots.state(), tables, resources, frozenset(world.edited))
+    edited = frozenset(kind for kind in world.edited if issubclass(kind, Record))  # resources may be opened too
+    return Snapshot(world.frame, world.slots.state(), tables, resources, edited)
 
 
 def take_snapshot(world: World, *, reuse: Snapshot | None = None) -> Snapshot:

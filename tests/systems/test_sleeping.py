@@ -26,6 +26,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
 from carom.ecs.snapshot_bytes import bytes_from_snapshot, snapshot_from_bytes
+from carom.systems.settings import Settings
 from carom.systems.simulation import Simulation
 from carom.systems.step import STEP
 
@@ -160,6 +161,11 @@ def _write(name: str, kind: type, column: str, value: object) -> Callable[[Simul
     return write
 
 
+def _open_settings(simulation: Simulation) -> None:
+    with simulation.world.edit(Settings):
+        simulation.wake("a2")
+
+
 @pytest.mark.parametrize(
     "disturb",
     [
@@ -173,6 +179,7 @@ def _write(name: str, kind: type, column: str, value: object) -> Callable[[Simul
         pytest.param(lambda simulation: simulation.world.despawn(simulation.world.find("a1")), id="one gone"),
         pytest.param(lambda simulation: simulation.explode(impulse=20.0, position=(0.0, 0.0, 0.0)), id="blown up"),
         pytest.param(lambda simulation: simulation.wake("a2"), id="woken"),
+        pytest.param(_open_settings, id="settings opened, woken"),
     ],
 )
 def test_a_snapshot_between_a_change_and_the_step_that_answers_it_leads_where_the_change_leads(

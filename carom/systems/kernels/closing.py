@@ -60,7 +60,7 @@ def find_closing(
         else:
             asked = solids and kind[p] < 0
             closing[m] = MAY if not asked or lanes[row[group_of[m]] + of.CLOSES, lane_of[m]] > 0.0 else CANNOT
-            number += closing[m]
+            number += closing[m] == MAY
     soon[crew[1], 1] = number
 
 
