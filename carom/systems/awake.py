@@ -81,7 +81,7 @@ class Changes:
         return bool(self.edited) or self.restored or self.structure or self.settings
 
 
-def ask(motion: Motion, rows: Integers) -> None:
+def ask_to_wake(motion: Motion, rows: Integers) -> None:
     """Ask for those of some bodies (rows) that sleep to be woken before the next step; `Motion.still` says so."""
     motion.still[rows[motion.asleep[rows]]] = -1.0
 

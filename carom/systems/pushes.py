@@ -8,7 +8,7 @@ import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
 from carom.ecs.column import Floats, Integers
-from carom.systems.awake import ask
+from carom.systems.awake import ask_to_wake
 from carom.systems.kernels.turning import find_turning
 
 
@@ -38,4 +38,4 @@ def push(world: World, pushes: Pushes) -> None:
     )  # fmt: skip
     motion.linear[rows] += body.inverse_mass[rows, None] * body.freedom[rows, :3] * pushes.impulse
     motion.angular[rows] += turning
-    ask(motion, rows)
+    ask_to_wake(motion, rows)

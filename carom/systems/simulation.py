@@ -23,7 +23,7 @@ from carom.ecs.components.motion import Motion
 from carom.ecs.components.transform import Transform
 from carom.ecs.errors import DeclarationError
 from carom.systems.assembly import add_entities, add_entity
-from carom.systems.awake import Awake, ask
+from carom.systems.awake import Awake, ask_to_wake
 from carom.systems.bookkeeping import Bookkeeping
 from carom.systems.breakpoints import Breakpoint, StoppedError, look
 from carom.systems.clock import Clock
@@ -167,7 +167,7 @@ class Simulation:
         handles = [self.world.find(one) if isinstance(one, str) else one for one in entities]
         bodies = bodies_of(self.world)[[self.world.row(handle) for handle in handles]]
         with self.world.edit(Motion) as motion:
-            ask(motion, bodies[bodies >= 0])
+            ask_to_wake(motion, bodies[bodies >= 0])
 
     def keep_ledger(self) -> Ledger:
         """Book from now on, in every step, where energy comes from and goes to; return the ledger."""

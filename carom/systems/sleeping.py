@@ -26,7 +26,7 @@ from carom.ecs.components.path import Path
 from carom.ecs.components.spring import Spring
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
-from carom.systems.awake import Awake, ask, stirs
+from carom.systems.awake import Awake, ask_to_wake, stirs
 from carom.systems.bodies import centers_of_mass
 from carom.systems.constants import SLEEP_TIME
 from carom.systems.detection.bounds import reach_within
@@ -68,6 +68,7 @@ def wake_disturbed(world: World, dt: float) -> None:
         place_frozen(world, awake.sleepers)
         locate_contacts(world)
     if len(awake.sleepers):
+        # Snapshots keep that somebody was moved since the last step, and not who.
         remade = changes.edited & SHAPED or (changes.restored and Transform in changes.edited)
         if not world[Settings].sleeping or remade or (changes.settings and not changes.restored):
             wake(world, awake.sleepers)
@@ -96,7 +97,7 @@ def fall_asleep(world: World, dt: float) -> None:
     if awake.strangers and len(awake.sleepers):  # one of them may be pushing
         force = world[Force]
         pushed = (force.force[awake.sleepers] != 0.0) | (force.torque[awake.sleepers] != 0.0)
-        ask(motion, awake.sleepers[pushed.any(axis=1)])
+        ask_to_wake(motion, awake.sleepers[pushed.any(axis=1)])
     motion.still[world[Ties].now(world).restless] = -dt  # who is turned by a motor
     for _, rows in world[Forces].restless(world):
         motion.still[rows] = -dt  # who is pushed another way in every step

@@ -166,31 +166,35 @@ def _open_settings(simulation: Simulation) -> None:
         simulation.wake("a2")
 
 
-@pytest.mark.parametrize(
-    "disturb",
+@pytest.mark.parametrize(  # where somebody is moved, all who sleep are woken after the snapshot
+    ("disturb", "others"),
     [
-        pytest.param(_write("a2", Motion, "linear", (1.0, 0.0, 0.0)), id="pushed"),
-        pytest.param(_write("a2", ExternalForce, "force", (0.0, 50.0, 0.0)), id="pulled"),
-        pytest.param(_write("a2", Transform, "position", (0.0, 4.0, 0.0)), id="lifted"),
-        pytest.param(_write("floor", Transform, "position", (0.0, -1.5, 0.0)), id="floor lowered"),
-        pytest.param(_write("a2", Material, "friction", 0.1), id="oiled"),
-        pytest.param(_write("a2", RigidBody, "inverse_mass", 0.5), id="loaded"),
-        pytest.param(lambda simulation: simulation.world.despawn(simulation.world.find("floor")), id="floor gone"),
-        pytest.param(lambda simulation: simulation.world.despawn(simulation.world.find("a1")), id="one gone"),
-        pytest.param(lambda simulation: simulation.explode(impulse=20.0, position=(0.0, 0.0, 0.0)), id="blown up"),
-        pytest.param(lambda simulation: simulation.wake("a2"), id="woken"),
-        pytest.param(_open_settings, id="settings opened, woken"),
+        pytest.param(_write("a2", Motion, "linear", (1.0, 0.0, 0.0)), (4.0,), id="pushed"),
+        pytest.param(_write("a2", ExternalForce, "force", (0.0, 50.0, 0.0)), (4.0,), id="pulled"),
+        pytest.param(_write("a2", Transform, "position", (0.0, 4.0, 0.0)), (), id="lifted"),
+        pytest.param(_write("floor", Transform, "position", (0.0, -1.5, 0.0)), (), id="floor lowered"),
+        pytest.param(_write("a2", Material, "friction", 0.1), (4.0,), id="oiled"),
+        pytest.param(_write("a2", RigidBody, "inverse_mass", 0.5), (4.0,), id="loaded"),
+        pytest.param(
+            lambda simulation: simulation.world.despawn(simulation.world.find("floor")), (4.0,), id="floor gone"
+        ),
+        pytest.param(lambda simulation: simulation.world.despawn(simulation.world.find("a1")), (4.0,), id="one gone"),
+        pytest.param(
+            lambda simulation: simulation.explode(impulse=20.0, position=(0.0, 0.0, 0.0)), (4.0,), id="blown up"
+        ),
+        pytest.param(lambda simulation: simulation.wake("a2"), (4.0,), id="woken"),
+        pytest.param(_open_settings, (4.0,), id="settings opened, woken"),
     ],
 )
 def test_a_snapshot_between_a_change_and_the_step_that_answers_it_leads_where_the_change_leads(
-    disturb: Callable[[Simulation], None],
+    disturb: Callable[[Simulation], None], others: tuple[float, ...]
 ) -> None:
-    """In this world and, as bytes, in another: who sleeps wakes as without it."""
-    simulation = sleeping(0.0)
+    """In this world and, as bytes, in another: who sleeps wakes as without it, and nobody else."""
+    simulation = sleeping(0.0, *others)
     disturb(simulation)
     snapshot = take_snapshot(simulation.world)
     simulation.step()
-    woken, other = asleep(simulation, "a0"), stacks(0.0)
+    woken, other = asleep(simulation, "a0"), stacks(0.0, *others)
     assert woken == [False]
     simulation.step(9)
     future = state_hash(simulation.world)
