@@ -13,6 +13,7 @@ from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import pack
 from carom.systems.detection.meshes import joined
 from carom.systems.detection.narrow import STAND_INS
+from carom.systems.kernels.crew import ALONE
 from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
@@ -90,7 +91,7 @@ def kernel_call(a: Shape, b: Shape, position: Floats, rotation: Floats) -> tuple
     feature, depth, normal, point = np.zeros(room, np.int64), np.zeros(room), np.zeros((room, 3)), np.zeros((room, 3))
     hulls = [hull_faces(b.geometry)] if isinstance(b, Convex) else []
     inputs = (
-        which, which, which + n, np.zeros(n), 0,
+        ALONE, which, which, which + n, np.zeros(n), 0, MOST_POINTS,
         shape, size.reshape(2 * n, -1), position.reshape(2 * n, 3), rotation.reshape(2 * n, 4),
         np.zeros(2 * n, np.int64), pack(dict(enumerate(hulls))), joined({}),
     )  # fmt: skip
