@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.tools.bench import BENCHES
+from carom.tools.bench import BENCHES, hull_rows, narrow_rows
 from carom.tools.bench.measure import Figure, compared, timed, timed_process
 from carom.tools.bench.table_loops import by_numba, by_numpy, columns, scheduled
 from carom.tools.bench.table_worlds import contiguous, fragmented
@@ -143,3 +143,20 @@ def test_rows_with_gaps_are_those_of_three_sets_less_a_tenth() -> None:
     assert 0.45 < world.count(RigidBody) / world.count(Motion) < 0.55
     assert np.count_nonzero(np.diff(world.row_numbers(Transform, Motion)) > 1) > 4000
     assert contiguous(9000).rows(Transform, Motion, RigidBody) == slice(0, 9000)
+
+
+def test_kernels_are_raced_with_fcl_over_poses_that_touch(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In every row a kernel measures each pose, and is handed what it takes today."""
+    monkeypatch.setattr(narrow_rows, "POSES", 20)
+    monkeypatch.setattr(narrow_rows, "DRAWN", 4000)
+    monkeypatch.setattr(narrow_rows, "REPEATS", 1)
+    monkeypatch.setattr(narrow_rows, "CALLS", 1)
+    rows = [*narrow_rows.figures(), *hull_rows.figures()]
+    assert len(rows) == len(narrow_rows.PAIRS) + 3
+    assert all(math.isfinite(row.cpu) and row.cpu > 0.0 for row in rows)
+    for a, b in narrow_rows.PAIRS.values():
+        measure, count, depth = narrow_rows.kernel_call(a, b, *narrow_rows.touching(a, b))
+        measure()
+        assert (count > 0).all()
+        deepest = [points.max() for points in np.split(depth[: count.sum()], np.cumsum(count)[:-1])]
+        assert 0.0 < min(deepest) <= max(deepest) < narrow_rows.DEEPEST
