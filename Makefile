@@ -4,6 +4,9 @@
 .NOTPARALLEL:
 .PHONY: demo test lint docs clean
 
+# Python keeps what it has compiled, whatever the environment says: tests start hundreds of processes.
+export PYTHONDONTWRITEBYTECODE :=
+
 READY := .venv/.carom-$(shell pwd -P | cksum | cut -d' ' -f1)
 
 demo: $(READY)-run
