@@ -35,7 +35,7 @@ class Settings(Resource):
     """How a simulation steps; the values here are the defaults of files and Python alike."""
 
     dt: float = meant(1.0 / 60.0, "one step")
-    substeps: int = meant(4, "parts of a step in which forces act and contacts are solved")
+    substeps: int = meant(4, "parts of a step in which forces act and contacts are solved; the more, the stiffer these")
     gravity: tuple[float, float, float] = meant((0.0, -9.81, 0.0), "acceleration of free fall")
     integrator: Integrator = meant("verlet", "rule by which bodies that touch nothing move")
     dimensions: int = meant(3, "2: every body keeps to its plane z = const and turns about z only")

@@ -16,7 +16,7 @@ from carom.ecs import Collider, ColliderPose, RigidBody, World
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.ecs.spatial import quaternion
-from carom.systems.constants import CONTACT_FREQUENCY, IMPACTS_AT_LEAST, IMPACTS_PER_PAIR
+from carom.systems.constants import CONTACT_PERIODS, IMPACTS_AT_LEAST, IMPACTS_PER_PAIR
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import overlapping
@@ -201,7 +201,7 @@ def test_four_boxes_stand_for_ten_seconds(collision: str) -> None:
     simulation.step(600)
     for k, entity in enumerate(tower):
         body = simulation[entity]
-        sunk = sum((3 - j) * 2.0 * 9.81 for j in range(k)) / (2.0 * np.pi * CONTACT_FREQUENCY) ** 2
+        sunk = sum((3 - j) * 2.0 * 9.81 for j in range(k)) / (2.0 * np.pi * CONTACT_PERIODS * 240.0) ** 2
         assert body.transform.position == pytest.approx([0.0, 0.5 + k - sunk, 0.0], abs=1e-4)
         assert body.transform.rotation == pytest.approx([0.0, 0.0, 0.0, 1.0], abs=1e-5)
         assert np.abs(body.motion.linear).max() < 1e-9

@@ -13,9 +13,10 @@ RECYCLED_SLIP, RECYCLED_TURN = 1e-3, 2e-3
 # Points of a manifold; a pair with more on one plane has several.
 MANIFOLD_POINTS = 4
 
-# Hz and damping ratio of the spring by which contacts of two moving bodies yield. Stiffer: pyramids flutter (from 60 Hz
-# on). Softer: ten cubes of one size sink by 25 mm instead of 11 (30 Hz). A heavy body sinks into light ones.
-CONTACT_FREQUENCY, CONTACT_DAMPING = 45.0, 10.0
+# Periods, in a substep, and damping ratio of the spring by which contacts of two moving bodies yield: 45 Hz in substeps
+# of 1/240 s, stiffer in finer ones. Stiffer: pyramids flutter (from a quarter on). Softer: ten cubes of 1 m sink by 25 mm
+# instead of 11 (1/8), and towers buckle sooner. A heavy body sinks into light ones.
+CONTACT_PERIODS, CONTACT_DAMPING = 0.1875, 10.0
 
 # Part of the overlap with what cannot move that leaves in a substep; such contacts do not yield, so that what lies on
 # the ground lies where it should. Larger: bodies under a pile tremble. Smaller: it takes longer.
