@@ -58,8 +58,8 @@ def test_ten_cubes_stand_for_twenty_seconds(substeps: int) -> None:
     """They neither lean nor creep, and sink by what the springs between them give; the ground does not yield.
 
     Those swing 3/16 of a period in a substep, at 45 Hz in the four of a default step. Below i cubes each of four points
-    bears i g / 4 on a spring of w^2 times the mass that a corner feels, 1/8 kg: that of two cubes of 1 kg in a row, each
-    with the lever 1/2 m about two axes of inertia 1/6 kg m2.
+    bears i g / 4 on a spring of w^2 times the mass that a corner feels, 1/8 kg: that of two cubes of 1 kg in a row,
+    each with the lever 1/2 m about two axes of inertia 1/6 kg m2.
     """
     simulation = on_ground(substeps=substeps)
     for i in range(10):
@@ -77,7 +77,7 @@ def test_ten_cubes_stand_for_twenty_seconds(substeps: int) -> None:
     ("size", "count", "substeps"), [(0.1, 9, 4), (0.1, 14, 8), (0.3, 20, 8), (0.03, 8, 8), (0.01, 8, 16)]
 )
 def test_towers_of_small_cubes_stand_in_fine_substeps(size: float, count: int, substeps: int) -> None:
-    """A tower buckles where springs yield to its weight more than they right it: all but the first on those of 45 Hz."""
+    """A tower buckles where springs yield to its weight more than they right: all but the first on those of 45 Hz."""
     simulation = on_ground(substeps=substeps)
     for i in range(count):
         add_cube(simulation, 0.0, (0.5 + i) * size, 0.0, mass=1000.0 * size**3, size=size)

@@ -14,8 +14,8 @@ RECYCLED_SLIP, RECYCLED_TURN = 1e-3, 2e-3
 MANIFOLD_POINTS = 4
 
 # Periods, in a substep, and damping ratio of the spring by which contacts of two moving bodies yield: 45 Hz in substeps
-# of 1/240 s, stiffer in finer ones. Stiffer: pyramids flutter (from a quarter on). Softer: ten cubes of 1 m sink by 25 mm
-# instead of 11 (1/8), and towers buckle sooner. A heavy body sinks into light ones.
+# of 1/240 s, stiffer in finer ones. Stiffer: pyramids flutter (from a quarter on). Softer: ten cubes of 1 m sink by
+# 25 mm instead of 11 (1/8), and towers buckle sooner. A heavy body sinks into light ones.
 CONTACT_PERIODS, CONTACT_DAMPING = 0.1875, 10.0
 
 # Part of the overlap with what cannot move that leaves in a substep; such contacts do not yield, so that what lies on
