@@ -106,15 +106,21 @@ def test_a_cube_leans_on_any_corner_of_the_octagon_it_shares_with_another(below:
         assert np.abs(positions(simulation) - place["position"]).max() <= 1e-5
 
 
-def test_a_pyramid_of_55_cubes_stands() -> None:
-    """Ten at the base, 5 cm apart: none moves sideways by more than 1 mm in 10 s."""
-    simulation = on_ground()
+@pytest.mark.parametrize(
+    ("substeps", "aside", "speed"), [(1, 0.02, 1e-3), (2, 2e-3, 1e-3), (4, 1e-3, 1e-4), (8, 2e-4, 1e-6)]
+)
+def test_a_pyramid_of_55_cubes_stands(substeps: int, aside: float, speed: float) -> None:
+    """Ten at the base, 5 cm apart: none moves sideways by more than 1 mm in 10 s; by more in coarse substeps.
+
+    Springs are softer then, and it rests: stiffer than substeps can follow, they made it flutter at 10 cm/s.
+    """
+    simulation = on_ground(substeps=substeps)
     placed = [((j - i) * 1.05 + 0.525 * i - 4.725, 0.5 + i, 0.0) for i in range(10) for j in range(i, 10)]
     for place in placed:
         add_cube(simulation, *place)
     simulation.step(600)
-    assert np.abs(positions(simulation) - placed)[:, [0, 2]].max() <= 1e-3
-    assert fastest(simulation) <= 1e-4
+    assert np.abs(positions(simulation) - placed)[:, [0, 2]].max() <= aside
+    assert fastest(simulation) <= speed
 
 
 def test_four_cubes_in_a_column_carry_a_hundred_times_their_mass() -> None:
