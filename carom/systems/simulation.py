@@ -48,7 +48,7 @@ from carom.systems.places import extended
 from carom.systems.pushes import Pushes, push
 from carom.systems.queries.space import Space
 from carom.systems.resources import resources
-from carom.systems.settings import settings_of
+from carom.systems.settings import Settings, settings_of
 from carom.systems.step import STEP, has_strangers
 from carom.systems.threads import Threads
 from carom.systems.tracing import find_source, refuse_stated
@@ -66,7 +66,6 @@ class Simulation:
     """
 
     def __init__(self, *, checked: bool | None = None, **settings: Any) -> None:
-        self.settings = settings_of(settings)
         self.world = World()
         self.schedule: Schedule = extended(STEP)
         self.checked = bool(os.environ.get(CHECK_VARIABLE)) if checked is None else checked
@@ -78,8 +77,17 @@ class Simulation:
         self.space = Space(self.world)
         self._earlier = EarlierPoses()
         self.hearers: list[Callable[[System], None]] = []
-        for resource in resources(self.settings):
+        for resource in resources(settings_of(settings)):
             self.world.add(resource)
+
+    @property
+    def settings(self) -> Settings:
+        """Return the settings that the world steps by; set others to let it go on by them."""
+        return self.world[Settings]
+
+    @settings.setter
+    def settings(self, settings: Settings) -> None:
+        self.world.add(settings)
 
     # Building: the words are those of world files, numbers are SI.
     def add(self, **words: Any) -> Entity:

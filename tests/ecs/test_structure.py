@@ -208,7 +208,6 @@ def test_compact_in_the_middle_of_a_break_changes_no_bit_of_what_follows(collisi
     for compact in (False, True):
         simulation = load_world("billiards").simulation
         simulation.settings = replace(simulation.settings, collision=collision)
-        simulation.world.add(simulation.settings)
         simulation.step(120)
         world = simulation.world
         world.despawn(*(world.find(name) for name in ("ball_1", "ball_8", "ball_12")))

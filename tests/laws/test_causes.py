@@ -48,7 +48,6 @@ def test_causes_add_up_to_the_change_of_velocity(world: str, integrator: str) ->
     asked, free = make(), make()
     for simulation in (asked, free):
         simulation.settings = simulation.settings.__class__(**vars(simulation.settings) | {"integrator": integrator})
-        simulation.world.add(simulation.settings)
     rows = dynamic_rows(asked.world)
     worst, sources = 0.0, set()
     for frame in range(frames):

@@ -133,7 +133,6 @@ def crowd(threads: int, *, come: bool = True) -> list[str]:
         found.append(state_hash(simulation.world))
         if threads == 4 and simulation.frame == 4:  # a world may ask for more of them at any time
             simulation.settings = replace(simulation.settings, threads=5)
-            simulation.world.add(simulation.settings)
     assert simulation.world[Resting].count >= FEWEST
     if threads > 1:
         assert (sum(parts_taken(simulation.world[Threads].crew)) > 0) == come

@@ -43,4 +43,3 @@ def sleeping(*places: float, **settings: Any) -> Simulation:
 def choose(simulation: Simulation, **settings: Any) -> None:
     """Let a world go on by other settings."""
     simulation.settings = replace(simulation.settings, **settings)
-    simulation.world.add(simulation.settings)

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from faults import error
 
-from carom.ecs import Force, NonFiniteError, RigidBody, System, Transform, World, system
+from carom.ecs import Force, Motion, NonFiniteError, RigidBody, System, Transform, World, system
 from carom.ecs.relations.impact import Impact
 from carom.ecs.timings import Timings
 from carom.systems.progress import Progress
@@ -118,3 +119,13 @@ for gravity in ((0, -10, 0), (0.0, -9.81, 0.0)):
 """
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.split() == ["-10.0", "-9.81"]
+
+
+def test_settings_set_later_are_those_that_the_world_steps_by() -> None:
+    """Gravity and dt are those set, not those the simulation was made with."""
+    simulation = Simulation(gravity=(0.0, -10.0, 0.0))
+    ball = simulation.add(body={"mass": 1.0})
+    simulation.settings = replace(simulation.settings, gravity=(0.0, 4.0, 0.0), dt=0.5)
+    simulation.step()
+    assert simulation.time == 0.5
+    assert simulation.world[Motion].linear[simulation.world.row(ball), 1] == 2.0
