@@ -10,6 +10,9 @@ import yaml
 from carom.worlds.errors import Fault
 from carom.worlds.source import OPENING
 
+DEEPEST = 64
+TOO_DEEP = f"is nested deeper than {DEEPEST} levels"
+GIVEN_UP = "exceeded maximum nesting depth"  # what libyaml says from 1,000 levels on, before it hands over the first
 TAB = re.compile(r"[ ]*\t")
 COMMENT = re.compile(r"[:,{\[]\s+#\w")
 
@@ -20,6 +23,8 @@ def no_yaml(name: str, text: str, fault: yaml.YAMLError) -> Fault:
         return Fault(name, 1, 1, "", f"is not YAML: {str(fault).splitlines()[0]}")
     mark = fault.problem_mark or fault.context_mark
     line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+    if fault.problem == GIVEN_UP:
+        return Fault(name, line, column, "", TOO_DEEP)
     begun = fault.context_mark.line + 1 if fault.context_mark else line
     problem = " ".join(part for part in (fault.context, fault.problem) if part)
     hints = _hints(problem, text.split("\n"), begun, line)

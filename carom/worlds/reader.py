@@ -10,12 +10,11 @@ from typing import Any
 import yaml
 
 from carom.worlds.errors import Fault, Path, WorldError, dotted, shown
-from carom.worlds.no_yaml import no_yaml
+from carom.worlds.no_yaml import DEEPEST, TOO_DEEP, no_yaml
 from carom.worlds.source import OPENING, Position, Source
 
 MOST_CHARACTERS = 32_000_000  # a file of a million bodies; above it is no world
 MOST_REPEATED = 200_000  # values that come from aliases: a "billion laughs" file is short and unfolds without end
-DEEPEST = 64
 
 
 class Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
@@ -87,7 +86,7 @@ class _Builder:
         if self.repeated > MOST_REPEATED:
             raise self.refusal(event, f"repeats more than {MOST_REPEATED} values by aliases")
         if len(path) > DEEPEST:
-            raise self.refusal(event, f"is nested deeper than {DEEPEST} levels")
+            raise self.refusal(event, TOO_DEEP)
         self.source.positions.setdefault(path, _place(event))
         if isinstance(event, yaml.AliasEvent):
             return self.repeat(event, path)

