@@ -24,8 +24,8 @@ AfterSystem = Callable[[System], None]
 class Phase:
     """Systems in order under one name, run ``repeat(world)`` times with the time step divided among the repeats.
 
-    ``when`` is asked before the first repeat and reads what the systems of the phase declare. A phase may stand within
-    another, between systems: it is run in each repeat of that one.
+    ``when`` is asked before each repeat, and where it does not hold that was the last; it reads what the systems of the
+    phase declare. A phase may stand within another, between systems: it is run in each repeat of that one.
     """
 
     def __init__(
@@ -85,11 +85,11 @@ class Schedule:
 
                 def go(phase: Phase, dt: float) -> bool:
                     nonlocal began
-                    if phase.question and not phase.question.holds(world, checked=checked):
-                        return False
                     repeats = 1 if phase.repeat is None else phase.repeat(world)
                     share = dt / max(repeats, 1)
-                    for _ in range(repeats):
+                    for done in range(repeats):
+                        if phase.question and not phase.question.holds(world, checked=checked):
+                            return done > 0
                         for part, name in phase.parts:
                             if isinstance(part, Phase):
                                 world.running = None

@@ -17,7 +17,9 @@ EVENTS = (Impact, Hit, Enter, Exit, ContactBegin, ContactEnd, JointBreak)
 class Progress(Resource):
     """Simulated time at the start of the substep, what the step has left after it (s), and its resting manifolds.
 
-    Where it is ``crowded``, so many may meet within the step that detection foresees a substep only.
+    Where it is ``crowded``, so many may meet within the step that detection foresees a substep only. Once it has
+    ``gone_on`` nothing is left to do in the substep, but where its flight has ``stopped``: when, why, after how many
+    impacts.
     """
 
     clock: float = 0.0
@@ -25,6 +27,15 @@ class Progress(Resource):
     substep: int = 0
     resting: int = 0
     crowded: bool = False
+    gone_on: bool = False
+    stopped: tuple[float, int, int] | None = None
+
+    def come_to(self, substep: int, dt: float, world: World) -> None:
+        """Set the clock to the start of a substep, from 1 on, of the current step."""
+        settings = world[Settings]
+        self.substep = substep
+        self.clock = (world.frame - 1) * settings.dt + (substep - 1) * dt
+        self.left = (settings.substeps - substep) * dt
 
     @property
     def foreseen(self) -> float:
@@ -45,7 +56,6 @@ def begin_step(world: World, dt: float) -> None:
 @system(reads=(Settings,), writes=(Progress,))
 def begin_substep(world: World, dt: float) -> None:
     """Set the clock to the start of the substep."""
-    progress, settings = world[Progress], world[Settings]
-    progress.clock = (world.frame - 1) * settings.dt + progress.substep * dt
-    progress.substep += 1
-    progress.left = (settings.substeps - progress.substep) * dt
+    progress = world[Progress]
+    progress.come_to(progress.substep + 1, dt, world)
+    progress.gone_on = False

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from math import inf
 
+import numpy as np
+
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
+from carom.ecs.column import Floats, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
@@ -24,7 +27,8 @@ from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.impact_log import write_impacts
-from carom.systems.kernels.impacts import DONE, OUT_OF_REACH, fly
+from carom.systems.kernels.impacts import DONE, FEW_IMPACTS, OUT_OF_REACH, fly
+from carom.systems.kernels.impacts import WIDTH as LOG_WIDTH
 from carom.systems.kernels.settling import finish_drift
 from carom.systems.landings import Landings
 from carom.systems.ledger import Ledger
@@ -117,15 +121,19 @@ def hand_impulses_over(world: World, dt: float) -> None:
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one may meet whom nobody foresaw."""
     contact, progress = world[Contact], world[Progress]
-    if contact.count:
-        contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
     at, events, looks, stuck = 0.0, 0, 0, 0
+    begun, progress.stopped = progress.stopped, None
+    if contact.count and not begun:
+        contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
     while True:
         before = at, events
-        look = at + world[Fast].next_look(world, dt - at)
-        if looks >= MOST_LOOKS and look < inf:
-            look, world[Answered].looks_cut = inf, world[Answered].looks_cut + 1
-        at, reason, events = _fly(world, at, dt, events, look)
+        if begun:
+            (at, reason, events), begun = begun, None
+        else:
+            look = at + world[Fast].next_look(world, dt - at)
+            if looks >= MOST_LOOKS and look < inf:
+                look, world[Answered].looks_cut = inf, world[Answered].looks_cut + 1
+            at, reason, events = _fly(world, at, dt, events, look)
         looks += 1
         if reason == DONE:
             return
@@ -180,18 +188,28 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
         contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, closes, within,
-        until, world[Fast].turns, events, ledger.pull, ledger.arc,
+        until, world[Fast].turns, events, ledger.pull, ledger.arc, 0, *room_for_log(),
     )  # fmt: skip
+    log_impacts(world, cut, count, pair, log)
+    return now, reason, events
+
+
+def room_for_log() -> tuple[Integers, Floats]:
+    """Return room for the pairs of impacts and what is noted of each; kernels make more where it is not enough."""
+    return np.empty(FEW_IMPACTS, np.int64), np.empty((FEW_IMPACTS, LOG_WIDTH))
+
+
+def log_impacts(world: World, cut: int, count: int, pair: Integers, log: Floats) -> None:
+    """Append what a flight has noted of its impacts to their table; ``cut`` are those that were let pass."""
     world[Answered].impacts_cut += cut
     if count:
-        impact = world[Impact]
+        contact, impact = world[Contact], world[Impact]
         first = impact.count
         world.resize(Impact, first + count)
         write_impacts(
             first, pair[:count], log[:count], contact.a, contact.b, impact.a, impact.b, impact.time, impact.speed,
             impact.impulse, impact.work, impact.point, impact.normal, impact.friction_impulse,
         )  # fmt: skip
-    return now, reason, events
 
 
 @system(reads=(RigidBody, Settings, Threads, Awake, Linkage), writes=(Transform, Motion, Flight, Contact, Resting))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Integers
+from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -214,15 +214,21 @@ class Resting(Resource):
 
     def sink(self, world: World) -> None:
         """Find how deep contacts have come to be."""
-        self.placed = False
+        self.forget_poses()
         if not self.groups:
             return
-        flight, contact, self.packed = world[Flight], world[Contact], None
+        flight, contact = world[Flight], world[Contact]
         sink_contacts(
             crew_for(world, self.count), self.groups, self.rows(world), flight.start_center, flight.center,
             flight.turned, self.index_a, self.index_b, self.first, self.size, self.points, self.row, contact.kind,
             self.bodies, self.lanes, contact.depth,
         )  # fmt: skip
+
+    def forget_poses(self) -> None:
+        """Bodies have moved since they were packed; where there are contacts, by how much lies in the place of that."""
+        self.placed = False
+        if self.groups:
+            self.packed = None
 
     def relax(self, world: World, h: float) -> None:
         """Take the speed by which overlap left out of the velocities."""
@@ -269,13 +275,17 @@ class Resting(Resource):
         if not self.groups:
             return
         crew = crew_for(world, self.count)
-        if len(self.scratch) < threads_of(crew):
-            self.scratch = aligned(threads_of(crew), SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH)
         press_groups(
             crew, begins, sweeps, ended, stage.h, self.ends, self.levels, self.run_ends, stage.soft, stage.rigid,
-            self.index_a, self.index_b, self.points, self.row, self.asks, rows, self.scratch, self.lanes, self.bodies,
-            motion.linear, motion.angular,
+            self.index_a, self.index_b, self.points, self.row, self.asks, rows, self.pages_for(crew), self.lanes,
+            self.bodies, motion.linear, motion.angular,
         )  # fmt: skip
+
+    def pages_for(self, crew: Integers) -> Floats:
+        """Return room in which each thread of a crew solves the points of a group."""
+        if len(self.scratch) < threads_of(crew):
+            self.scratch = aligned(threads_of(crew), SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH)
+        return self.scratch
 
     def _tell(self, stage: Stage, done: int) -> None:
         for hear in self.hearers:

@@ -26,6 +26,7 @@ from carom.systems.forces.standing import forces_vary
 from carom.systems.forces.thruster import apply_thruster
 from carom.systems.forces.vortex import apply_vortex
 from carom.systems.forces.wind import apply_wind
+from carom.systems.going_on import go_on, is_to_begin, is_to_end
 from carom.systems.hierarchy import carry_children
 from carom.systems.integration import clear_forces, kick, predict, sum_forces
 from carom.systems.jointing import join_bodies, tell_joints
@@ -34,7 +35,7 @@ from carom.systems.particles.deaths import end_particles
 from carom.systems.particles.emission import emit_particles, note_emitters
 from carom.systems.particles.moving import move_particles
 from carom.systems.particles.pieces import emits
-from carom.systems.progress import begin_step, begin_substep
+from carom.systems.progress import Progress, begin_step, begin_substep
 from carom.systems.response import drift, hand_impulses_over, hold, look_ahead, relax, settle, sort_out_contacts
 from carom.systems.sensors import sense
 from carom.systems.settings import Settings
@@ -45,6 +46,11 @@ from carom.systems.touching import tell_contacts, tell_hits
 def substeps(world: World) -> int:
     """Return how many substeps a step has."""
     return world[Settings].substeps
+
+
+def is_in_step(world: World) -> bool:
+    """Tell whether there is anything to do in this step, and substeps are left."""
+    return stirs(world) and world[Progress].substep < world[Settings].substeps
 
 
 STEP = Schedule(
@@ -92,16 +98,25 @@ STEP = Schedule(
             sum_forces,  # accelerations; bodies back at the start of the substep
             when=forces_vary,
         ),
-        join_bodies,  # which joints hold somebody
-        sort_out_contacts,  # which pairs rest
-        kick,  # each body's arc
-        hold,  # velocities that respect joints and resting contacts
-        drift,  # the flight along the arcs, with impacts at their exact times
-        sense,  # who entered and left sensors on the way
-        settle,  # origins placed, and how deep contacts have come to be
-        relax,  # velocities without what pushed overlap out
+        go_on,  # all that follows, and all further substeps, at once where nobody looks on
+        Phase(
+            "begin substep",
+            join_bodies,  # which joints hold somebody
+            sort_out_contacts,  # which pairs rest
+            kick,  # each body's arc
+            hold,  # velocities that respect joints and resting contacts
+            when=is_to_begin,
+        ),
+        Phase(
+            "end substep",
+            drift,  # the flight along the arcs, with impacts at their exact times
+            sense,  # who entered and left sensors on the way
+            settle,  # origins placed, and how deep contacts have come to be
+            relax,  # velocities without what pushed overlap out
+            when=is_to_end,
+        ),
         repeat=substeps,
-        when=stirs,
+        when=is_in_step,
     ),
     Phase(
         "finish",

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from carom.systems.kernels.crew_words import call, count_up, describe, give_way, look, tell
-from carom.systems.kernels.kernel import Kernel, calling, compiled, kernel, names_of, woven
+from carom.systems.kernels.kernel import Kernel, calling, compiled, kernel, names_of, part_of_callers, woven
 from carom.systems.kernels.lane_widths import WIDTH
 
 # Words of the crew: which shift it is, none where odd; the kernel and its arguments; how many take part. On the next
@@ -45,17 +45,24 @@ def shared(*outputs: str, makes_arrays: bool = False) -> Callable[[Callable[...,
     """
 
     def make(function):
-        run = calling(perform, work=compiled(function, no_cpython_wrapper=True, _nrt=makes_arrays))
+        work = compiled(function, no_cpython_wrapper=True, _nrt=makes_arrays)
+        run = calling(hand_out, work=work)
         run.__module__, run.__qualname__ = function.__module__, function.__qualname__
         run.__name__, run.__doc__ = function.__name__, function.__doc__
-        return Kernel(run, outputs, names_of(function), makes_arrays=makes_arrays)
+        return Kernel(run, outputs, names_of(function), makes_arrays=makes_arrays, within=work)
 
     return make
 
 
-def perform(crew, *arguments):
+def hand_out(crew, *arguments):
+    """Share the work of a kernel."""
+    share(crew, work, *arguments)  # type: ignore[name-defined]  # noqa: F821 - `calling` hands it over
+
+
+@part_of_callers
+def share(crew, work, *arguments):
     """Let all threads that have come do their parts; return when they have."""
-    task, data = describe(work, crew, arguments)  # type: ignore[name-defined]  # noqa: F821 - `calling` hands it over
+    task, data = describe(work, crew, arguments)
     parts, shift, most = 1, look(crew, SHIFT), len(crew) // ROOM
     while parts < most and shift % 2 == 0 and look(crew, ROOM * parts + HERE) == shift:
         parts += 1

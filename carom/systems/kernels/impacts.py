@@ -27,6 +27,7 @@ from carom.systems.kernels.strikes import foresee, strike
 
 DONE, OUT_OF_REACH, TO_LOOK = 0, 1, 2  # why a flight ends
 
+FEW_IMPACTS = 64  # a flight has room for at first
 # A row of the log: time, speed, impulse, work, and where the three vectors of 3 begin.
 TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 10, 13
 
@@ -34,6 +35,7 @@ TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 1
 @kernel(
     "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
     "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic", "stale", "arc",
+    "log", "log_pair",
     makes_arrays=True,
 )  # fmt: skip
 def fly(
@@ -44,9 +46,9 @@ def fly(
     count, beginning, group_of, stale, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
     surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, within,
-    until, turns, events, pull, arc,
+    until, turns, events, pull, arc, log_count, log_pair, log,
 ):  # fmt: skip
-    """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts.
+    """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts after those ``log_count``.
 
     Returns (time reached, reason, events, cut, impacts logged, pair of each, log). Pairs are the ``count`` manifolds
     that begin at rows of the contact table: those of ``kind`` >= 0 are of a ball on an exact arc (`strike`), the others
@@ -71,8 +73,7 @@ def fly(
         pairs[taken], number[taken] = beginning[m], m
         taken += 1
 
-    # The log grows here: to stop where a table of the caller's is full would make bits depend on its capacity.
-    log, log_pair, log_count, kept = np.empty((64, WIDTH)), np.empty(64, np.int64), 0, np.empty((1, KEPT))
+    kept = np.empty((1, KEPT))
     now, end, cut, whirls = start, min(h, until), 0, False
     if within < end - now:
         end = now + within
@@ -222,7 +223,7 @@ def fly(
             for k, f in enumerate((fx, fy, fz)):
                 log[row, FRICTION + k] += along_a * f
         elif speed > 0.0:
-            if log_count == len(log_pair):
+            if log_count == len(log_pair):  # it grows: to stop where it is full would make bits depend on its room
                 longer, longer_pair = np.empty((2 * log_count, WIDTH)), np.empty(2 * log_count, np.int64)
                 for k in range(log_count):  # one by one: slices take seconds to compile, for what is said of shapes
                     longer_pair[k] = log_pair[k]

@@ -86,6 +86,11 @@ def woven(function: Callable[..., Any]) -> Any:
     return compiled(function, no_cpython_wrapper=True, forceinline=True, _nrt=False)
 
 
+def part_of_callers(function: Callable[..., Any]) -> Any:
+    """Compile a function with each kernel that hands it compiled functions, by which no code is found on disk again."""
+    return numba.njit(error_model="numpy", no_cfunc_wrapper=True, nogil=True, forceinline=True, _nrt=False)(function)
+
+
 def making(function: Callable[..., Any]) -> Any:
     """Compile a function that only kernels call and that makes arrays."""
     return compiled(function, no_cpython_wrapper=True, _nrt=True)
@@ -109,17 +114,26 @@ class Kernel:
     """
 
     def __init__(
-        self, function: Callable[..., Any], outputs: tuple[str, ...], names: tuple[str, ...], *, makes_arrays: bool
-    ) -> None:
+        self, function: Callable[..., Any], outputs: tuple[str, ...], names: tuple[str, ...], *, makes_arrays: bool,
+        within: Any = None,
+    ) -> None:  # fmt: skip
         unknown = set(outputs) - set(names)
         assert not unknown, f"{function.__name__} has no arguments {unknown}"
         self.name = function.__name__
+        self._function, self._makes_arrays, self._within = function, makes_arrays, within
         self.__doc__ = function.__doc__
         self._run = compiled(function, entry=True, _nrt=makes_arrays)
         self._outputs = [names.index(name) for name in outputs]
         self._names = names
         self._settled = False
         self._views: list[tuple[Any, Any]] = [(self, self)] * len(names)  # of read-only arrays, as last given
+
+    @property
+    def within(self) -> Any:
+        """Return what other kernels call in its place; of one that is shared, what each thread does."""
+        if self._within is None:
+            self._within = compiled(self._function, no_cpython_wrapper=True, _nrt=self._makes_arrays)
+        return self._within
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the compiled function, compiling it on the first call."""

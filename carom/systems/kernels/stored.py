@@ -94,7 +94,8 @@ class Stored(FunctionCache):
         """Return the compiled function; None where it has to be compiled."""
         if not self._opened:
             super().__init__(self._function)
-            name = f"{self._function.__module__.rpartition('.')[2]}.{self._function.__qualname__}"
+            kind = ".entry" if self._impl_class is EntryCode else ""
+            name = f"{self._function.__module__.rpartition('.')[2]}.{self._function.__qualname__}{kind}"
             self._cache_file = Files(Path(self._cache_path), name, self._stamp)
             self._opened = True
         rtsys.initialize(target_context)

@@ -1,0 +1,208 @@
+"""Substeps: what the systems of a substep do, one after the other, for as long as nobody has to be asked in between."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+import numpy as np
+
+from carom.systems.constants import RELAX_SWEEPS
+from carom.systems.kernels.advancing import advance_bodies
+from carom.systems.kernels.arcs import bend_arcs
+from carom.systems.kernels.ball_touches import write_touches
+from carom.systems.kernels.closing import find_closing
+from carom.systems.kernels.crew import ROOM, share
+from carom.systems.kernels.flight import predict_middle
+from carom.systems.kernels.impacts import DONE, fly
+from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kicking import VERLET, kick_bodies
+from carom.systems.kernels.packing import pack_bodies
+from carom.systems.kernels.reach import find_leaving
+from carom.systems.kernels.resting import press_groups
+from carom.systems.kernels.settling import finish_drift, sink_contacts
+from carom.systems.kernels.sorting import sort_groups
+from carom.systems.kernels.ticks import nanoseconds
+
+predict, pack, sort, touch = predict_middle.within, pack_bodies.within, sort_groups.within, write_touches.within
+kick, press, bend, close = kick_bodies.within, press_groups.within, bend_arcs.within, find_closing.within
+advance, finish, sink, leave, soar = (
+    advance_bodies.within, finish_drift.within, sink_contacts.within, find_leaving.within, fly.within
+)  # fmt: skip
+
+#: The systems whose work is done here, in the order of the frame.
+LOOK_AHEAD, PREDICT, SORT, KICK, HOLD, DRIFT, SETTLE, RELAX, SYSTEMS = range(9)
+HARD = (0.0, 1.0)
+
+
+@kernel(
+    "fresh", "stale", "looks", "asks", "closes", "leans", "lanes", "bodies", "scratch",
+    "position", "rotation", "linear", "angular", "last_acceleration", "last_angular_acceleration",
+    "center", "time", "acceleration", "angular_acceleration", "decay", "angular_decay", "flow", "touching",
+    "start_position", "start_rotation", "start_linear", "start_angular", "start_center", "turned",
+    "normal", "depth", "point", "offset_a", "offset_b", "resting", "impulse", "friction_impulse", "strikes", "plastic",
+    "arc", "log", "log_pair", "spent",
+    makes_arrays=True,
+)  # fmt: skip
+def take_substeps(
+    crew, alone, fewest, number, substeps, h, begun, crowded, scheme, resting_stage, soft, rigid,
+    rows, watched, bound, contacts, count, groups, levels, solids, balls,
+    start, group_of, lane_of, index_a, index_b, first, size, points, row, fresh, stale, looks, asks, ends, run_ends,
+    closes, leans, lanes, bodies, scratch,
+    center_of_mass, inverse_mass, inertia, inverse_inertia, principal_axes, freedom, drag, drag_flow, angular_drag,
+    position, rotation, linear, angular, last_acceleration, last_angular_acceleration,
+    center, time, acceleration, angular_acceleration, felt, decay, angular_decay, flow, touching, held,
+    start_position, start_rotation, start_linear, start_angular, start_center, turned, detected_center, reach,
+    body_a, body_b, normal, depth, point, offset_a, offset_b, share_of_b, kind, ball, other, sign, radius, extent,
+    other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
+    strikes, plastic, turns, pull, arc, log_pair, log, spent,
+):  # fmt: skip
+    """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
+
+    Or before a substep in which somebody may leave what detection foresaw. Return (the last substep begun, why its
+    flight ended, when, events, how many manifolds rest in it, cut, impacts logged, pair of each, log); it is over where
+    that is `DONE`.
+
+    Forces are those of the first substep, and there are no joints, no sensors and no pairs of the fast. What is done
+    for each of `SYSTEMS` is what that does; ``spent`` is how long it took (ns).
+    """
+    for_rows = crew if len(rows) >= fewest else alone  # as `crew_for` does
+    for_bound = crew if len(bound) >= fewest else alone
+    for_groups = crew if count >= fewest else alone
+    for_closing = crew if max(count, len(watched)) >= fewest else alone
+    bends, leaving = 0.5 if scheme == VERLET else 0.0, np.empty(1, np.int64)
+    apart, rests = np.zeros(len(crew) // ROOM, np.bool_), np.zeros(len(crew) // ROOM, np.int64)
+    soon, cut, logged, begins = np.empty((len(crew) // ROOM, 2)), 0, 0, number
+    now = nanoseconds()
+    for k in range(number, substeps + 1):
+        clock, left = begun + (k - 1) * h, (substeps - k) * h
+        if k > begins:
+            span = h if crowded else h + left
+            leaves = leave(watched, span, center, detected_center, reach, linear, felt, leaving)
+            now = note(LOOK_AHEAD, now, spent)
+            if leaves:
+                return k - 1, DONE, h, 0, 0, cut, logged, log_pair, log
+            share(
+                for_rows, predict, rows, 0.0, center_of_mass, freedom, held, last_acceleration,
+                last_angular_acceleration, position, rotation, linear, angular, center, start_center, start_position,
+                start_rotation, start_linear, start_angular, angular_acceleration, time, turned, touching,
+            )  # fmt: skip
+            now = note(PREDICT, now, spent)
+        rest = 0
+        if groups:
+            share(
+                for_bound, pack, bound, True, center_of_mass, center, linear, angular, felt, inverse_mass,
+                inverse_inertia, principal_axes, freedom, rotation, bodies, apart,
+            )  # fmt: skip
+            clear(leans)
+            share(
+                for_groups, sort, groups, h, scheme == VERLET, resting_stage, False, ends, index_a, index_b, first,
+                size, points, row, fresh, stale, looks, asks, lanes, bodies, center, rotation,
+                kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b, normal,
+                depth, point, offset_a, offset_b, resting, held, touching, leans, rests,
+            )  # fmt: skip
+            rest = total(rests)
+            if balls and k == substeps:
+                share(
+                    for_groups, touch, contacts, kind, sign, radius, extent, body_a, body_b, inverse_mass, center,
+                    normal, depth, point, offset_a, offset_b,
+                )  # fmt: skip
+            now = note(SORT, now, spent)
+        share(
+            for_rows, kick, rows, h, scheme, inverse_mass, freedom, drag, drag_flow, angular_drag, felt, touching,
+            linear, angular, acceleration, angular_acceleration, decay, angular_decay, flow,
+            last_acceleration, last_angular_acceleration,
+        )  # fmt: skip
+        now = note(KICK, now, spent)
+        if rest:
+            share(
+                for_groups, press, True, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
+                row, asks, bound, scratch, lanes, bodies, linear, angular,
+            )  # fmt: skip
+            if scheme == VERLET and some_lean(leans):
+                share(
+                    for_groups, bend, h, bound, leans, levels, run_ends, index_a, index_b, row, asks, lanes, bodies,
+                    start_linear, start_angular, linear, angular, acceleration, angular_acceleration,
+                )  # fmt: skip
+            now = note(HOLD, now, spent)
+        for c in range(contacts):
+            strikes[c] = plastic[c] = 0
+        at, reason, events = h, DONE, 0
+        if count or len(watched):
+            for part in range(len(soon)):
+                soon[part, 0], soon[part, 1] = h, 0.0
+            share(
+                for_closing, close, count, groups, solids, h, bound, watched, center, detected_center, reach,
+                linear, angular, acceleration, index_a, index_b, points, row, group_of, lane_of, start,
+                kind, ball, other, other_position, radius, extent, restitution, resting, lanes, bodies, closes, soon,
+            )  # fmt: skip
+            within, some = h, False
+            for part in range(len(soon)):
+                within, some = min(within, soon[part, 0]), some or soon[part, 1] > 0.0
+            if some or within < h:
+                at, reason, events, passed, logged, log_pair, log = soar(
+                    0.0, h, bends, clock, center, start_center, rotation, turned, linear, angular, time, acceleration,
+                    angular_acceleration, felt, detected_center, reach, inverse_mass, inertia, inverse_inertia,
+                    principal_axes, freedom, count, start, group_of, stale, body_a, body_b, normal, depth,
+                    offset_a, offset_b, share_of_b, kind, ball, other, extent, radius, other_position, other_rotation,
+                    sign, surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic,
+                    closes, within, np.inf, turns, 0, pull, arc, logged, log_pair, log,
+                )  # fmt: skip
+                cut += passed
+        share(
+            for_rows, advance, rows, at, bends, center, rotation, turned, linear, angular, time, acceleration,
+            angular_acceleration, inverse_mass, inertia, principal_axes, freedom, pull, arc,
+        )  # fmt: skip
+        now = note(DRIFT, now, spent)
+        if reason != DONE:
+            return k, reason, at, events, rest, cut, logged, log_pair, log
+        share(
+            for_rows, finish, rows, True, h, inverse_mass, center_of_mass, freedom, start_position, start_rotation,
+            decay, angular_decay, flow, rotation, center, linear, angular, position,
+        )  # fmt: skip
+        if groups:
+            share(
+                for_groups, sink, groups, bound, start_center, center, turned, index_a, index_b, first, size, points,
+                row, kind, bodies, lanes, depth,
+            )  # fmt: skip
+        now = note(SETTLE, now, spent)
+        if rest:
+            share(
+                for_groups, press, False, RELAX_SWEEPS, True, h, ends, levels, run_ends, HARD, HARD, index_a, index_b,
+                points, row, asks, bound, scratch, lanes, bodies, linear, angular,
+            )  # fmt: skip
+            now = note(RELAX, now, spent)
+    return substeps, DONE, h, 0, 0, cut, logged, log_pair, log
+
+
+@woven
+def clear(leans):
+    """Let nobody lean on anybody."""
+    for side in range(2):
+        for i in range(leans.shape[1]):
+            leans[side, i] = False
+
+
+@woven
+def total(numbers):
+    """Return the sum of what threads have counted; they begin with 0 again."""
+    found = 0
+    for part in range(len(numbers)):
+        found += numbers[part]
+        numbers[part] = 0
+    return found
+
+
+@woven
+def some_lean(leans):
+    """Tell whether somebody rests on something as balls on exact arcs do."""
+    found = False
+    for i in range(leans.shape[1]):
+        found |= leans[1, i]
+    return found
+
+
+@woven
+def note(system, since, spent):
+    """Add the time since then to that of a system; return the time."""
+    now = nanoseconds()
+    spent[system] += now - since
+    return now

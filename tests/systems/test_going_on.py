@@ -1,0 +1,126 @@
+"""Substeps that are taken at once lead where the systems of the frame lead one by one, and say what each took."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from carom.ecs import Timings, World, state_hash, system
+from carom.ecs.relations.impact import Impact
+from carom.systems.going_on import DONE_AT_ONCE
+from carom.systems.simulation import Simulation
+from carom.worlds import load_world
+
+SPHERE = {"sphere": {"radius": 0.2}}
+
+
+def looked_on(simulation: Simulation) -> Simulation:
+    """Return a simulation with somebody who is told of every system."""
+    simulation.hearers.append(lambda system: None)
+    return simulation
+
+
+def struck(**settings: object) -> Simulation:
+    """Return balls in a row, the first of which comes fast: those behind leave what detection foresaw in mid-flight.
+
+    A small box is so fast that it is looked after on its way.
+    """
+    simulation = Simulation(checked=False, **settings)
+    simulation.add(collider={"plane": {}})
+    for k in range(6):
+        simulation.add(
+            collider=SPHERE, body={"mass": 1.0}, material={"restitution": 0.9},
+            transform={"position": (0.45 * k, 0.2 + 0.3 * (k % 2), 0.01 * k)},
+            motion={"linear": (9.0 if k == 0 else 0.0, 0.0, 0.0)},
+        )  # fmt: skip
+    simulation.add(
+        collider={"box": {"size": (0.02, 0.02, 0.02)}}, body={},
+        transform={"position": (0.9, 0.25, 9.0)}, motion={"linear": (0.0, 1.0, -200.0)},
+    )  # fmt: skip
+    return simulation
+
+
+@pytest.mark.parametrize("world", ["billiards", "heap", "dominoes", "cannon", "trap", "leaning_tower", "blast"])
+def test_the_same_comes_out_whether_somebody_looks_on_or_not(world: str) -> None:
+    """To the last bit, impacts and their order too."""
+    alone, seen = load_world(world).simulation, looked_on(load_world(world).simulation)
+    alone.checked = seen.checked = False
+    for _ in range(90):
+        for simulation in (alone, seen):
+            simulation.step()
+        assert state_hash(alone.world) == state_hash(seen.world)
+        one, other = alone.world[Impact], seen.world[Impact]
+        assert one.count == other.count
+        for column in ("a", "b", "time", "speed", "impulse", "work", "point", "normal", "friction_impulse"):
+            assert np.array_equal(getattr(one, column)[: one.count], getattr(other, column)[: one.count])
+
+
+@pytest.mark.parametrize("integrator", ["euler", "semi_implicit", "verlet"])
+def test_the_same_comes_out_where_others_are_met_whom_nobody_foresaw(integrator: str) -> None:
+    """In the middle of a flight, and between two substeps."""
+    alone, seen = struck(integrator=integrator), looked_on(struck(integrator=integrator))
+    for _ in range(60):
+        for simulation in (alone, seen):
+            simulation.step()
+        assert state_hash(alone.world) == state_hash(seen.world)
+    timings = alone.world[Timings]
+    in_flight, begun = timings["sense"].calls, timings["begin_substep"].calls
+    assert in_flight > 0, "no flight was stopped"
+    assert begun - 60 - in_flight > 0, "no substep was begun anew between two"
+
+
+def test_what_each_system_took_is_told() -> None:
+    """As if it had run by itself, once a step."""
+    simulation = struck()
+    simulation.step(120)
+    timings = simulation.world[Timings]
+    assert timings["go_on"].calls >= 120
+    for name in DONE_AT_ONCE:
+        assert timings[name].calls > 0, name
+        assert timings[name].seconds > 0.0, name
+    assert timings["go_on"].seconds > 0.0
+
+
+@system()
+def look_on(world: World, dt: float) -> None:
+    """Do nothing; but it is not carom's."""
+
+
+def insert(simulation: Simulation) -> None:
+    """Let a system run that is not carom's."""
+    simulation.schedule = simulation.schedule.insert(look_on, after="kick")
+
+
+def check(simulation: Simulation) -> None:
+    """Let systems be held to what they declare."""
+    simulation.checked = True
+
+
+def join(simulation: Simulation) -> None:
+    """Hang a body on a joint."""
+    simulation.add(name="hung", collider=SPHERE, body={}, transform={"position": (0.0, 5.0, 0.0)})
+    simulation.add(joint={"ball": {"b": "hung", "at": (0.0, 6.0, 0.0)}})
+
+
+def spread_a_sensor(simulation: Simulation) -> None:
+    """Ask who comes and goes."""
+    simulation.add(collider={"sphere": {"radius": 3.0}, "sensor": True})
+
+
+def blow(simulation: Simulation) -> None:
+    """Let a force act that is not the same in all substeps."""
+    simulation.force("wind", velocity=(1.0, 0.0, 0.0))
+    simulation.force("quadratic_drag", area=1.0)
+
+
+@pytest.mark.parametrize("ask", [looked_on, insert, check, join, spread_a_sensor, blow])
+def test_who_asks_for_more_has_the_systems_run_one_by_one(ask: Callable[[Simulation], object]) -> None:
+    """So that nothing that they do is left out."""
+    simulation = struck()
+    ask(simulation)
+    simulation.step()
+    timings = simulation.world[Timings]
+    assert timings["go_on"].calls == 0
+    assert timings["kick"].calls == 4
