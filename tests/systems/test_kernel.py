@@ -4,10 +4,21 @@ from __future__ import annotations
 
 import sys
 
+import numba
 import numpy as np
 import pytest
 
-from carom.systems.kernels import balls, balls_narrow, broad_cache, groups, kernel, levers, mesh_axes, spatial
+from carom.systems.kernels import (
+    balls,
+    balls_narrow,
+    broad_cache,
+    groups,
+    indices,
+    kernel,
+    levers,
+    mesh_axes,
+    spatial,
+)
 
 
 def test_a_kernel_depends_on_the_modules_it_calls_directly_or_not() -> None:
@@ -66,3 +77,12 @@ def test_a_kernel_is_handed_read_only_arrays_themselves_and_as_they_are_now(monk
     assert all(array.flags.writeable and np.shares_memory(array, room) for array in pieces)
     assert not any(np.shares_memory(array, alone) for array in copies)
     assert [array.tolist() for array in spread] == [[7.0] * 3, [8.0] * 3]
+
+
+def test_indices_of_kernels_are_not_looked_at_and_those_of_others_count_from_the_end() -> None:
+    """Kernels are known by their names; what others compile goes on as Numba has it."""
+    rows, found = np.arange(3), np.empty(3, np.int64)
+    assert broad_cache.find_met(rows, np.ones(3, np.int64), np.ones(3, np.int64), found) == 3
+    (code,) = broad_cache.find_met._run.overloads.values()
+    assert code.fndesc.mangled_name.startswith(indices.OWN)
+    assert numba.njit(lambda column, at: column[at])(np.array([1.0, 2.0]), -1) == 2.0

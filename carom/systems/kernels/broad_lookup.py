@@ -50,7 +50,7 @@ def look_up(
                 for x in range(x0, x1 + 1):
                     for y in range(y0, y1 + 1):
                         start = (x * int(cell[2, 1]) + y) * int(cell[2, 2])
-                        t, last = 0, grid_cells[-1]
+                        t, last = 0, grid_cells[len(grid_cells) - 1]
                         if not whole:
                             last = start + z1
                             end = len(grid_rows)

@@ -66,7 +66,8 @@ def pairs_of(pairs, body_row, leaves, found):
     """Write the pairs of which a body leaves, and return their count."""
     count = 0
     for p in range(len(pairs)):
-        if leaves[body_row[pairs[p, 0]]] or leaves[body_row[pairs[p, 1]]]:
+        a, b = body_row[pairs[p, 0]], body_row[pairs[p, 1]]
+        if (a >= 0 and leaves[a]) or (b >= 0 and leaves[b]):
             found[count, 0], found[count, 1] = pairs[p, 0], pairs[p, 1]
             count += 1
     return count

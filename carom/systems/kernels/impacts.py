@@ -277,7 +277,7 @@ def pairs_of_bodies(pairs, body_a, body_b, count):
     for i in range(1, len(begin)):
         begin[i] += begin[i - 1]
     place = begin.copy()
-    of_body = np.empty(begin[-1], np.int64)
+    of_body = np.empty(begin[count], np.int64)
     for m in range(len(pairs)):
         for body in (body_a[pairs[m]], body_b[pairs[m]]):
             if body >= 0:

@@ -16,6 +16,7 @@ import numpy as np
 
 from carom.ecs.access import GUARDED
 from carom.ecs.errors import AccessError
+from carom.systems.kernels import indices  # noqa: F401 - by which kernels are compiled
 from carom.systems.kernels.stored import Stored
 
 IMPORTS = re.compile(rb"^ *from (carom\.[\w.]+) import", re.MULTILINE)

@@ -49,10 +49,11 @@ def pack_bodies(
     Without ``weigh`` masses are what they were, and nobody asks for what forces do.
     Tell in ``apart``, of which each thread has one, whether a centre of mass is not at the origin.
     """
+    nobody = bodies.shape[1] - 1
     for plane in range(PLANES):
         for k in range(BLOCK):
-            bodies[plane, -1, k] = 0.0
-    bodies[POSE, -1, BLOCK - 1] = 1.0
+            bodies[plane, nobody, k] = 0.0
+    bodies[POSE, nobody, BLOCK - 1] = 1.0
     index, packed, zero, centred = np.empty((1, WIDTH), np.int64), planes(bodies), spread(0.0), True
     one, three, four, six = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((WIDTH, 6))
     begin, end = eights_of(crew, len(rows))
@@ -167,7 +168,7 @@ def read_velocities(rows, velocity, linear, angular):
 def write_ways(rows, start_center, center, turned, bodies):
     """Write how far bodies have moved and turned since their contacts were measured."""
     for k in range(BLOCK):
-        bodies[WAY, -1, k] = 0.0
+        bodies[WAY, bodies.shape[1] - 1, k] = 0.0
     for i in rows:
         for k in range(3):
             bodies[WAY, i, k], bodies[WAY, i, ANGULAR + k] = center[i, k] - start_center[i, k], turned[i, k]
