@@ -189,6 +189,8 @@ def seat_contacts(
             continue
         a, b = row_a[c], row_b[c]
         if is_ball(a, shape) or is_ball(b, shape):
+            if form[c] == 0.0:  # as it most often was before
+                continue
             seat_depth[c], form[c] = 0.0, 0.0
             for k in range(3):
                 seat_a[c, k], seat_b[c, k], lean_a[c, k], lean_b[c, k] = 0.0, 0.0, 0.0, 0.0

@@ -81,39 +81,49 @@ def renew_contacts(
         o, c = until, end
     # Rows that stay where they are keep what they hold; what others held is put aside before it is written over.
     moves = np.empty(max(0, count - begin), np.int64)
-    moving = 0
+    moving, seats = 0, 0
     for c in range(begin, count):
         if match[c] != c:
             moves[moving] = c
-            moving += 1
-    kept, counted = np.zeros((moving, 25)), np.zeros((moving, 3), np.int64)
+            moving, seats = moving + 1, seats + recycled[c]
+    kept, counted, seated = np.empty((moving, 11)), np.empty((moving, 3), np.int64), np.empty((seats, 14))
+    n = 0
     for m in range(moving):
         o = match[moves[m]]
-        if o >= 0:
-            counted[m, 0], counted[m, 1], counted[m, 2] = resting[o], strikes[o], plastic[o]
-            kept[m, 0], kept[m, 7] = warm_normal[o], impulse[o]
+        if o < 0:
+            continue
+        counted[m, 0], counted[m, 1], counted[m, 2] = resting[o], strikes[o], plastic[o]
+        kept[m, 0], kept[m, 1] = warm_normal[o], impulse[o]
+        for k in range(3):
+            kept[m, 2 + k], kept[m, 5 + k] = warm_friction[o, k], warm_rolling[o, k]
+            kept[m, 8 + k] = friction_impulse[o, k]
+        if recycled[moves[m]]:
+            seated[n, 0], seated[n, 1] = seat_depth[o], form[o]
             for k in range(3):
-                kept[m, 1 + k], kept[m, 4 + k] = warm_friction[o, k], warm_rolling[o, k]
-                kept[m, 8 + k] = friction_impulse[o, k]
-            if recycled[moves[m]]:
-                kept[m, 11], kept[m, 12] = seat_depth[o], form[o]
-                for k in range(3):
-                    kept[m, 13 + k], kept[m, 16 + k] = seat_a[o, k], seat_b[o, k]
-                    kept[m, 19 + k], kept[m, 22 + k] = lean_a[o, k], lean_b[o, k]
+                seated[n, 2 + k], seated[n, 5 + k] = seat_a[o, k], seat_b[o, k]
+                seated[n, 8 + k], seated[n, 11 + k] = lean_a[o, k], lean_b[o, k]
+            n += 1
     wait_for_all(crew, 1)
+    n = 0
     for m in range(moving):
         c = moves[m]
         a[c], b[c] = handles[found_a[c]], handles[found_b[c]]
+        if match[c] < 0:
+            resting[c], strikes[c], plastic[c], warm_normal[c], impulse[c] = False, 0, 0, 0.0, 0.0
+            for k in range(3):
+                warm_friction[c, k] = warm_rolling[c, k] = friction_impulse[c, k] = 0.0
+            continue
         resting[c], strikes[c], plastic[c] = counted[m, 0] != 0, counted[m, 1], counted[m, 2]
-        warm_normal[c], impulse[c] = kept[m, 0], kept[m, 7]
+        warm_normal[c], impulse[c] = kept[m, 0], kept[m, 1]
         for k in range(3):
-            warm_friction[c, k], warm_rolling[c, k] = kept[m, 1 + k], kept[m, 4 + k]
+            warm_friction[c, k], warm_rolling[c, k] = kept[m, 2 + k], kept[m, 5 + k]
             friction_impulse[c, k] = kept[m, 8 + k]
         if recycled[c]:
-            seat_depth[c], form[c] = kept[m, 11], kept[m, 12]
+            seat_depth[c], form[c] = seated[n, 0], seated[n, 1]
             for k in range(3):
-                seat_a[c, k], seat_b[c, k] = kept[m, 13 + k], kept[m, 16 + k]
-                lean_a[c, k], lean_b[c, k] = kept[m, 19 + k], kept[m, 22 + k]
+                seat_a[c, k], seat_b[c, k] = seated[n, 2 + k], seated[n, 5 + k]
+                lean_a[c, k], lean_b[c, k] = seated[n, 8 + k], seated[n, 11 + k]
+            n += 1
     for c in range(begin, count):
         row_a[c], row_b[c], feature[c], by_fcl[c] = found_a[c], found_b[c], found_feature[c], found_by_fcl[c]
         depth[c] = found_depth[c]
