@@ -69,31 +69,25 @@ def group_manifolds(
     body.
     """
     shuffled = shuffle(count, start, a, b)
-    reached = np.zeros((2, len(inverse_mass)), np.int64)
-    level, stands = np.empty(count, np.int64), np.empty(count, np.int64)
-    levels = 0
-    movers = np.empty((count, 2), np.int64)  # side by side, since they are gone through without order
-    known = np.full(len(inverse_mass), UNKNOWN, np.int8)
-    form, alike = np.empty(count, np.int64), np.empty(count, np.bool_)
+    # What is gone through without order is kept small, and what is asked for together side by side.
+    reached = np.zeros(2 * nobody + 2, np.int32)
+    movers, level, levels = np.empty((count, 2), np.int32), np.empty(count, np.int32), 0
+    known = np.full(nobody, UNKNOWN, np.int8)
+    form, alike, stands = np.empty(count, np.int32), np.empty(count, np.bool_), np.empty(count, np.bool_)
     for m in range(count):
         c, least = start[m], EVEN
         for side, i in enumerate((body_a[c], body_b[c])):
             how = what_moves(i, known, inverse_mass, inverse_inertia, freedom)
-            movers[m, side], least = i if how != STILL else -1, min(least, how)
-        stands[m] = 1 if least == STILL else 0
+            movers[m, side], least = i if how != STILL else nobody, min(least, how)
+        stands[m] = least == STILL
         alike[m] = least == EVEN and kind[c] == TWO_BALLS and only_rubs(c, rolling, spinning, surface)
         form[m] = MANIFOLD_POINTS - (0 if alike[m] else start[m + 1] - c)
     for m in shuffled:
-        i, o, heights = movers[m, 0], movers[m, 1], reached[stands[m]]
-        lowest = 0
-        if i >= 0:
-            lowest = heights[i]
-        if o >= 0:
-            lowest = max(lowest, heights[o])
-        if i >= 0:
-            heights[i] = lowest + 1
-        if o >= 0:
-            heights[o] = lowest + 1
+        first_height = nobody + 1 if stands[m] else 0
+        i, o = first_height + movers[m, 0], first_height + movers[m, 1]
+        lowest = max(reached[i], reached[o])
+        reached[i] = reached[o] = lowest + 1
+        reached[first_height + nobody] = 0
         level[m] = lowest
         levels = max(levels, lowest + 1)
     forms = MANIFOLD_POINTS + 1  # in a level by their points, the most first, and at last those that are even
@@ -103,7 +97,7 @@ def group_manifolds(
         begin[form[m] + 1] += 1
     for k in range(1, len(begin)):
         begin[k] += begin[k - 1]
-    by_form = np.empty(count, np.int64)
+    by_form = np.empty(count, np.int32)
     for m in range(count):  # within a level in their order: neighbours' bodies are near each other in memory
         by_form[begin[form[m]]] = m
         begin[form[m]] += 1
@@ -123,7 +117,9 @@ def group_manifolds(
                 index_a[group, k], index_b[group, k], first[group, k], size[group, k] = nobody, nobody, -1, 0
         if not stands[m]:
             ends[0] = group + 1
-        i, o = body_a[start[m]], body_b[start[m]]
+        i, o = movers[m, 0], movers[m, 1]
+        if stands[m]:  # whom nothing moves may still move
+            i, o = body_a[start[m]], body_b[start[m]]
         index_a[group, lane], index_b[group, lane] = i if i >= 0 else nobody, o if o >= 0 else nobody
         first[group, lane], group_of[m], lane_of[m] = start[m], group, lane
         size[group, lane] = start[m + 1] - start[m]
@@ -173,14 +169,14 @@ def shuffle(count, start, a, b):
 
     By who they are of, not where in the table: rows change when a world is made compact.
     """
-    bucket, begin = np.empty(count, np.int64), np.zeros(BUCKETS + 1, np.int64)
+    bucket, begin = np.empty(count, np.int32), np.zeros(BUCKETS + 1, np.int64)
     for m in range(count):
         c = start[m]
         bucket[m] = ((a[c] & INDEX_MASK) * 40503 + (b[c] & INDEX_MASK) * 30011) % 65521 % BUCKETS
         begin[bucket[m] + 1] += 1
     for k in range(BUCKETS):
         begin[k + 1] += begin[k]
-    order = np.empty(count, np.int64)
+    order = np.empty(count, np.int32)
     for m in range(count):
         order[begin[bucket[m]]] = m
         begin[bucket[m]] += 1
