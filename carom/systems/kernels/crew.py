@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from carom.systems.kernels.crew_words import call, count_up, describe, give_way, look, tell
-from carom.systems.kernels.kernel import Kernel, calling, compiled, kernel, names_of, part_of_callers, woven
+from carom.systems.kernels.kernel import Kernel, calling, compiled, in_the_name_of, kernel, names_of, woven
 from carom.systems.kernels.lane_widths import WIDTH
 
 # Words of the crew: which shift it is, none where odd; the kernel and its arguments; how many take part. On the next
@@ -46,9 +46,7 @@ def shared(*outputs: str, makes_arrays: bool = False) -> Callable[[Callable[...,
 
     def make(function):
         work = compiled(function, no_cpython_wrapper=True, _nrt=makes_arrays)
-        run = calling(hand_out, work=work)
-        run.__module__, run.__qualname__ = function.__module__, function.__qualname__
-        run.__name__, run.__doc__ = function.__name__, function.__doc__
+        run = in_the_name_of(function, calling(hand_out, work=work))
         return Kernel(run, outputs, names_of(function), makes_arrays=makes_arrays, within=work)
 
     return make
@@ -56,13 +54,13 @@ def shared(*outputs: str, makes_arrays: bool = False) -> Callable[[Callable[...,
 
 def hand_out(crew, *arguments):
     """Share the work of a kernel."""
-    share(crew, work, *arguments)  # type: ignore[name-defined]  # noqa: F821 - `calling` hands it over
+    share(crew, describe(work, crew, arguments))  # type: ignore[name-defined]  # noqa: F821 - `calling` hands it over
 
 
-@part_of_callers
-def share(crew, work, *arguments):
-    """Let all threads that have come do their parts; return when they have."""
-    task, data = describe(work, crew, arguments)
+@woven
+def share(crew, described):
+    """Let all threads that have come do their parts of a task that `describe` has found; return when they have."""
+    task, data = described
     parts, shift, most = 1, look(crew, SHIFT), len(crew) // ROOM
     while parts < most and shift % 2 == 0 and look(crew, ROOM * parts + HERE) == shift:
         parts += 1

@@ -100,16 +100,19 @@ else:
             data = cgutils.alloca_once_value(builder, context.make_tuple(builder, given, values[1:]))
             compiled = function.dispatcher.overloads[tuple(called.args)]
             context.add_linking_libs([compiled.library])
-            task = ir.Function(builder.module, TASK, name=f"{compiled.fndesc.mangled_name}.task")
-            task.linkage = "internal"
-            inner = ir.IRBuilder(task.append_basic_block())
-            place, part, parts = task.args
-            there = inner.load(inner.bitcast(place, context.get_value_type(given).as_pointer()))
-            words, others = cgutils.unpack_tuple(inner, there, 2)
-            passed = (context.make_tuple(inner, share, [words, part, parts]), *cgutils.unpack_tuple(inner, others))
-            target = context.declare_function(builder.module, compiled.fndesc)
-            status, _ = context.call_conv.call_function(inner, target, called.return_type, called.args, passed)
-            inner.ret(inner.zext(status.is_error, WHOLE))
+            name = f"{compiled.fndesc.mangled_name}.task"
+            task = builder.module.globals.get(name)  # if it is called elsewhere in the same function
+            if task is None:
+                task = ir.Function(builder.module, TASK, name=name)
+                task.linkage = "internal"
+                inner = ir.IRBuilder(task.append_basic_block())
+                place, part, parts = task.args
+                there = inner.load(inner.bitcast(place, context.get_value_type(given).as_pointer()))
+                words, others = cgutils.unpack_tuple(inner, there, 2)
+                passed = (context.make_tuple(inner, share, [words, part, parts]), *cgutils.unpack_tuple(inner, others))
+                target = context.declare_function(builder.module, compiled.fndesc)
+                status, _ = context.call_conv.call_function(inner, target, called.return_type, called.args, passed)
+                inner.ret(inner.zext(status.is_error, WHOLE))
             return context.make_tuple(builder, sig.return_type, [builder.ptrtoint(it, WHOLE) for it in (task, data)])
 
         return types.UniTuple(types.int64, 2)(function, crew, arguments), lower

@@ -87,11 +87,6 @@ def woven(function: Callable[..., Any]) -> Any:
     return compiled(function, no_cpython_wrapper=True, forceinline=True, _nrt=False)
 
 
-def part_of_callers(function: Callable[..., Any]) -> Any:
-    """Compile a function with each kernel that hands it compiled functions, by which no code is found on disk again."""
-    return numba.njit(error_model="numpy", no_cfunc_wrapper=True, nogil=True, forceinline=True, _nrt=False)(function)
-
-
 def making(function: Callable[..., Any]) -> Any:
     """Compile a function that only kernels call and that makes arrays."""
     return compiled(function, no_cpython_wrapper=True, _nrt=True)
@@ -107,11 +102,24 @@ def calling(function: Callable[..., Any], **compiled_ones: Any) -> Callable[...,
     return FunctionType(function.__code__, vars(sys.modules[function.__module__]) | compiled_ones)
 
 
+def in_the_name_of(function: Callable[..., Any], other: Callable[..., Any]) -> Callable[..., Any]:
+    """Return another function, called like this one and known as it."""
+    other.__module__, other.__qualname__ = function.__module__, function.__qualname__
+    other.__name__, other.__doc__ = function.__name__, function.__doc__
+    return other
+
+
+def hand_on(*arguments: Any) -> Any:
+    """Do the work of a kernel that other kernels do too."""
+    return work(*arguments)  # type: ignore[name-defined]  # noqa: F821 - `calling` hands it over
+
+
 class Kernel:
     """A compiled function of one specialisation, that names the arguments it writes.
 
     Read-only arrays (outside of systems, and what a system declares to read) would make Numba compile a second time, so
-    they are passed as writable views; handing a read-only array to an output is an AccessError.
+    they are passed as writable views; handing a read-only array to an output is an AccessError. ``within`` is what
+    other kernels call in its place, where they do; of one that is shared, what each thread does.
     """
 
     def __init__(
@@ -121,20 +129,13 @@ class Kernel:
         unknown = set(outputs) - set(names)
         assert not unknown, f"{function.__name__} has no arguments {unknown}"
         self.name = function.__name__
-        self._function, self._makes_arrays, self._within = function, makes_arrays, within
+        self.within = within
         self.__doc__ = function.__doc__
         self._run = compiled(function, entry=True, _nrt=makes_arrays)
         self._outputs = [names.index(name) for name in outputs]
         self._names = names
         self._settled = False
         self._views: list[tuple[Any, Any]] = [(self, self)] * len(names)  # of read-only arrays, as last given
-
-    @property
-    def within(self) -> Any:
-        """Return what other kernels call in its place; of one that is shared, what each thread does."""
-        if self._within is None:
-            self._within = compiled(self._function, no_cpython_wrapper=True, _nrt=self._makes_arrays)
-        return self._within
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the compiled function, compiling it on the first call."""
@@ -174,10 +175,18 @@ class Kernel:
         return view
 
 
-def kernel(*outputs: str, makes_arrays: bool = False) -> Callable[[Callable[..., Any]], Kernel]:
+def kernel(*outputs: str, makes_arrays: bool = False, within: bool = False) -> Callable[[Callable[..., Any]], Kernel]:
     """Compile a function over arrays; ``outputs`` are the names of the arguments it writes.
 
     One that makes no arrays of its own takes those it is handed in half the time; where one does, Numba says "NRT
-    required but not enabled" until it says so.
+    required but not enabled" until it says so. Other kernels call it ``within`` where that is stated.
     """
-    return lambda function: Kernel(function, outputs, names_of(function), makes_arrays=makes_arrays)
+
+    def make(function: Callable[..., Any]) -> Kernel:
+        names, run, work = names_of(function), function, None
+        if within:
+            work = compiled(function, no_cpython_wrapper=True, _nrt=makes_arrays)
+            run = in_the_name_of(function, calling(hand_on, work=work))
+        return Kernel(run, outputs, names, makes_arrays=makes_arrays, within=work)
+
+    return make

@@ -86,7 +86,7 @@ def time_within_all(rows, span, center, detected_center, reach, linear, accelera
     return least
 
 
-@kernel("leaving")
+@kernel("leaving", within=True)
 def find_leaving(rows, span, center, detected_center, reach, linear, acceleration, leaving):
     """Write which bodies may leave their reach within ``span`` seconds, as many as there is room for; count them."""
     count = 0

@@ -11,6 +11,7 @@ from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
 from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.crew import ROOM, share
+from carom.systems.kernels.crew_words import describe
 from carom.systems.kernels.flight import predict_middle
 from carom.systems.kernels.impacts import DONE, fly
 from carom.systems.kernels.kernel import kernel, woven
@@ -70,7 +71,8 @@ def take_substeps(
     for_closing = crew if max(count, len(watched)) >= fewest else alone
     bends, leaving = 0.5 if scheme == VERLET else 0.0, np.empty(1, np.int64)
     apart, rests = np.zeros(len(crew) // ROOM, np.bool_), np.zeros(len(crew) // ROOM, np.int64)
-    soon, cut, logged, begins = np.empty((len(crew) // ROOM, 2)), 0, 0, number
+    soon, cut, begins = np.empty((len(crew) // ROOM, 2)), 0, number
+    none = logged = np.int64(0)  # a bare 0 has a type of its own, for which `fly` would be compiled once more
     now = nanoseconds()
     for k in range(number, substeps + 1):
         clock, left = begun + (k - 1) * h, (substeps - k) * h
@@ -80,60 +82,60 @@ def take_substeps(
             now = note(LOOK_AHEAD, now, spent)
             if leaves:
                 return k - 1, DONE, h, 0, 0, cut, logged, log_pair, log
-            share(
-                for_rows, predict, rows, 0.0, center_of_mass, freedom, held, last_acceleration,
+            share(for_rows, describe(predict, for_rows, (
+                rows, 0.0, center_of_mass, freedom, held, last_acceleration,
                 last_angular_acceleration, position, rotation, linear, angular, center, start_center, start_position,
                 start_rotation, start_linear, start_angular, angular_acceleration, time, turned, touching,
-            )  # fmt: skip
+            )))  # fmt: skip
             now = note(PREDICT, now, spent)
         rest = 0
         if groups:
-            share(
-                for_bound, pack, bound, True, center_of_mass, center, linear, angular, felt, inverse_mass,
+            share(for_bound, describe(pack, for_bound, (
+                bound, True, center_of_mass, center, linear, angular, felt, inverse_mass,
                 inverse_inertia, principal_axes, freedom, rotation, bodies, apart,
-            )  # fmt: skip
+            )))  # fmt: skip
             clear(leans)
-            share(
-                for_groups, sort, groups, h, scheme == VERLET, resting_stage, False, ends, index_a, index_b, first,
+            share(for_groups, describe(sort, for_groups, (
+                groups, h, scheme == VERLET, resting_stage, False, ends, index_a, index_b, first,
                 size, points, row, fresh, stale, looks, asks, lanes, bodies, center, rotation,
                 kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b, normal,
                 depth, point, offset_a, offset_b, resting, held, touching, leans, rests,
-            )  # fmt: skip
+            )))  # fmt: skip
             rest = total(rests)
             if balls and k == substeps:
-                share(
-                    for_groups, touch, contacts, kind, sign, radius, extent, body_a, body_b, inverse_mass, center,
+                share(for_groups, describe(touch, for_groups, (
+                    contacts, kind, sign, radius, extent, body_a, body_b, inverse_mass, center,
                     normal, depth, point, offset_a, offset_b,
-                )  # fmt: skip
+                )))  # fmt: skip
             now = note(SORT, now, spent)
-        share(
-            for_rows, kick, rows, h, scheme, inverse_mass, freedom, drag, drag_flow, angular_drag, felt, touching,
+        share(for_rows, describe(kick, for_rows, (
+            rows, h, scheme, inverse_mass, freedom, drag, drag_flow, angular_drag, felt, touching,
             linear, angular, acceleration, angular_acceleration, decay, angular_decay, flow,
             last_acceleration, last_angular_acceleration,
-        )  # fmt: skip
+        )))  # fmt: skip
         now = note(KICK, now, spent)
         if rest:
-            share(
-                for_groups, press, True, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
+            share(for_groups, describe(press, for_groups, (
+                True, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
                 row, asks, bound, scratch, lanes, bodies, linear, angular,
-            )  # fmt: skip
+            )))  # fmt: skip
             if scheme == VERLET and some_lean(leans):
-                share(
-                    for_groups, bend, h, bound, leans, levels, run_ends, index_a, index_b, row, asks, lanes, bodies,
+                share(for_groups, describe(bend, for_groups, (
+                    h, bound, leans, levels, run_ends, index_a, index_b, row, asks, lanes, bodies,
                     start_linear, start_angular, linear, angular, acceleration, angular_acceleration,
-                )  # fmt: skip
+                )))  # fmt: skip
             now = note(HOLD, now, spent)
         for c in range(contacts):
             strikes[c] = plastic[c] = 0
-        at, reason, events = h, DONE, 0
+        at, reason, events = h, DONE, none
         if count or len(watched):
             for part in range(len(soon)):
                 soon[part, 0], soon[part, 1] = h, 0.0
-            share(
-                for_closing, close, count, groups, solids, h, bound, watched, center, detected_center, reach,
+            share(for_closing, describe(close, for_closing, (
+                count, groups, solids, h, bound, watched, center, detected_center, reach,
                 linear, angular, acceleration, index_a, index_b, points, row, group_of, lane_of, start,
                 kind, ball, other, other_position, radius, extent, restitution, resting, lanes, bodies, closes, soon,
-            )  # fmt: skip
+            )))  # fmt: skip
             within, some = h, False
             for part in range(len(soon)):
                 within, some = min(within, soon[part, 0]), some or soon[part, 1] > 0.0
@@ -144,31 +146,31 @@ def take_substeps(
                     principal_axes, freedom, count, start, group_of, stale, body_a, body_b, normal, depth,
                     offset_a, offset_b, share_of_b, kind, ball, other, extent, radius, other_position, other_rotation,
                     sign, surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic,
-                    closes, within, np.inf, turns, 0, pull, arc, logged, log_pair, log,
+                    closes, within, np.inf, turns, none, pull, arc, logged, log_pair, log,
                 )  # fmt: skip
                 cut += passed
-        share(
-            for_rows, advance, rows, at, bends, center, rotation, turned, linear, angular, time, acceleration,
+        share(for_rows, describe(advance, for_rows, (
+            rows, at, bends, center, rotation, turned, linear, angular, time, acceleration,
             angular_acceleration, inverse_mass, inertia, principal_axes, freedom, pull, arc,
-        )  # fmt: skip
+        )))  # fmt: skip
         now = note(DRIFT, now, spent)
         if reason != DONE:
             return k, reason, at, events, rest, cut, logged, log_pair, log
-        share(
-            for_rows, finish, rows, True, h, inverse_mass, center_of_mass, freedom, start_position, start_rotation,
+        share(for_rows, describe(finish, for_rows, (
+            rows, True, h, inverse_mass, center_of_mass, freedom, start_position, start_rotation,
             decay, angular_decay, flow, rotation, center, linear, angular, position,
-        )  # fmt: skip
+        )))  # fmt: skip
         if groups:
-            share(
-                for_groups, sink, groups, bound, start_center, center, turned, index_a, index_b, first, size, points,
+            share(for_groups, describe(sink, for_groups, (
+                groups, bound, start_center, center, turned, index_a, index_b, first, size, points,
                 row, kind, bodies, lanes, depth,
-            )  # fmt: skip
+            )))  # fmt: skip
         now = note(SETTLE, now, spent)
         if rest:
-            share(
-                for_groups, press, False, RELAX_SWEEPS, True, h, ends, levels, run_ends, HARD, HARD, index_a, index_b,
+            share(for_groups, describe(press, for_groups, (
+                False, RELAX_SWEEPS, True, h, ends, levels, run_ends, HARD, HARD, index_a, index_b,
                 points, row, asks, bound, scratch, lanes, bodies, linear, angular,
-            )  # fmt: skip
+            )))  # fmt: skip
             now = note(RELAX, now, spent)
     return substeps, DONE, h, 0, 0, cut, logged, log_pair, log
 
