@@ -102,7 +102,8 @@ class Rapier:
         self.world = rapier3d.PhysicsWorld(gravity=(0.0, 0.0, -GRAVITY))
         self.world.integration_parameters.dt = DT
         self.world.set_num_threads(threads)
-        shape, rough = rapier3d.Collider, {"friction": FRICTION, "restitution": 0.0}
+        shape = rapier3d.Collider
+        rough: dict[str, Any] = {"friction": FRICTION, "restitution": 0.0}
         for center, half in scene.walls:
             self.world.add_collider(shape.cuboid(*half.tolist(), translation=tuple(center.tolist()), **rough))
         if scene.land is not None:
@@ -112,7 +113,7 @@ class Rapier:
         if scene.joints:
             self._join(rapier3d, scene, scene.joints)
 
-    def _add(self, rapier3d: Any, scene: Scene, k: int, rough: dict[str, float]) -> Any:
+    def _add(self, rapier3d: Any, scene: Scene, k: int, rough: dict[str, Any]) -> Any:
         half, shape = scene.half[k].tolist(), rapier3d.Collider
         body = rapier3d.RigidBody.dynamic(
             translation=scene.position[k].tolist(),
