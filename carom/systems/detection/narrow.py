@@ -131,11 +131,16 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     """
     collider, pose, answered = world[Collider], world[ColliderPose], world[Answered]
     n = len(pairs)
-    order, first, second = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n, np.int64)
+    order, first, second, side = (
+        np.empty(n, np.int64),
+        np.empty(n, np.int64),
+        np.empty(n, np.int64),
+        np.empty(n, np.int8),
+    )
     crew = crew_for(world, n)
     counts = np.zeros((2, threads_of(crew), len(FUNCTIONS) + 1), np.int64)
     table = FUNCTION_OF if (collision or world[Settings].collision) == "auto" else NO_STAND_INS
-    sort_by_function(crew, pairs, collider.shape, table, SWAPS, order, first, second, *counts)
+    sort_by_function(crew, pairs, collider.shape, table, SWAPS, side, order, first, second, *counts)
     begins = [0, *accumulate(counts[0].sum(axis=0).tolist())]
     by_fcl = begins[1]
     answered.fcl += by_fcl
@@ -157,7 +162,7 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     kept = keep_sound(world, pairs, reaches, points)
     found = Found.room(kept)
     collect_points(
-        crew, pairs, order, first, by_fcl, points.start, points.count,
-        points.feature, points.normal, points.depth, points.point, np.empty(n), *found[:-1],
+        crew, pairs, side, points.start, points.count, points.feature, points.normal, points.depth, points.point,
+        *found[:-1],
     )  # fmt: skip
     return found

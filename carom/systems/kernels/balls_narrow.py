@@ -40,14 +40,12 @@ def measure_balls(
                 kind, x, y, z, radius, ox, oy, oz,
                 rotation[o, 0], rotation[o, 1], rotation[o, 2], rotation[o, 3], ex, ey, ez,
             )  # fmt: skip
-        start[p] = taken
-        if gap > reaches[p]:
-            continue
         lever = radius + 0.5 * gap
-        count[p] = 1
         write_point(
             taken, 0, gap, -nx, -ny, -nz,
             x - lever * nx, y - lever * ny, z - lever * nz,
             feature, normal, depth, point,
         )  # fmt: skip
-        taken += 1
+        # No branch: who is near is past foreseeing. What is not counted is written over.
+        start[p], count[p] = taken, 0 if gap > reaches[p] else 1
+        taken += count[p]

@@ -101,33 +101,28 @@ def keep_overlapping(
 
     Each thread tells in ``meeting`` which of its pairs do, and in ``counts`` how many.
     """
-    begin, n = part_of(crew, len(pairs))
-    p, count = begin, 0
-    while p < n:
-        i = pairs[p, 0]
-        flat = shape[i] == HALF_SPACE
-        lx, ly, lz = lower[i, 0], lower[i, 1], lower[i, 2]
-        ux, uy, uz = upper[i, 0], upper[i, 1], upper[i, 2]
-        while p < n and pairs[p, 0] == i:
-            j = pairs[p, 1]
-            if flat or shape[j] == HALF_SPACE:
-                plane, box = (i, j) if flat else (j, i)
-                meets = meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper)
-                meets = meets and (lively[i] or lively[j])
-            else:  # no branch: which of these bounds overlap is past foreseeing, a wrong guess costs more than the test
-                meets = (
-                    (lx <= upper[j, 0]) & (lower[j, 0] <= ux) & (ly <= upper[j, 1]) & (lower[j, 1] <= uy)
-                    & (lz <= upper[j, 2]) & (lower[j, 2] <= uz) & (lively[i] | lively[j])
-                )  # fmt: skip
-            meeting[p] = meets
-            count += 1 if meets else 0
-            p += 1
+    begin, end = part_of(crew, len(pairs))
+    count = 0
+    for p in range(begin, end):
+        i, j = pairs[p, 0], pairs[p, 1]
+        if shape[i] == HALF_SPACE or shape[j] == HALF_SPACE:
+            plane, box = (i, j) if shape[i] == HALF_SPACE else (j, i)
+            meets = meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper)
+            meets = meets and (lively[i] or lively[j])
+        else:  # no branch: which of these bounds overlap is past foreseeing, a wrong guess costs more than the test
+            meets = (
+                (lower[i, 0] <= upper[j, 0]) & (lower[j, 0] <= upper[i, 0])
+                & (lower[i, 1] <= upper[j, 1]) & (lower[j, 1] <= upper[i, 1])
+                & (lower[i, 2] <= upper[j, 2]) & (lower[j, 2] <= upper[i, 2]) & (lively[i] | lively[j])
+            )  # fmt: skip
+        meeting[p] = meets
+        count += 1 if meets else 0
     counts[crew[1]] = count
     wait_for_all(crew, 1)
     to = 0
     for part in range(crew[1]):
         to += counts[part]
-    for p in range(begin, n):
+    for p in range(begin, end):
         if count:  # behind the last that meets there may be no more room
             found[to, 0], found[to, 1] = pairs[p, 0], pairs[p, 1]
         to += 1 if meeting[p] else 0

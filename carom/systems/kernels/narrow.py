@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.balls import BALL, BOX, HALF_SPACE
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
@@ -12,6 +14,7 @@ from carom.systems.shapes.plane import Plane
 from carom.systems.shapes.point import Point
 from carom.systems.shapes.sphere import Sphere
 
+AS_IT_IS, SWAPPED, FCLS = range(3)
 SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE, PLANE_SHAPE = Sphere.number, Point.number, Box.number, Plane.number
 
 
@@ -26,18 +29,25 @@ def reach_of_pairs(pairs, body_row, reach, reaches):
                 reaches[p] += reach[body]
 
 
-@shared("order", "first", "second", "counts", "places")
-def sort_by_function(crew, pairs, shape, function_of, swaps, order, first, second, counts, places):
+@shared("side", "order", "first", "second", "counts", "places")
+def sort_by_function(crew, pairs, shape, function_of, swaps, side, order, first, second, counts, places):
     """Sort pairs by the number of the function that measures them, keeping their order otherwise.
 
-    ``order[k]`` is a pair and ``first[k]``, ``second[k]`` its collider rows as the function takes them. Each thread has
-    a row of ``counts``, how many of its pairs each function measures, and one of ``places``, where it goes on writing
-    those. Shapes beyond the table have function 0.
+    ``order[k]`` is a pair and ``first[k]``, ``second[k]`` its collider rows as the function takes them; ``side`` tells
+    of each pair whether that is as it is, the other way round (`SWAPPED`), or it is FCL's, which takes it as it is.
+    Each thread has a row of ``counts``, how many of its pairs each function measures, and one of ``places``, where it
+    goes on writing those. Shapes beyond the table have function 0.
     """
     _, part, parts = crew
     begin, end = part_of(crew, len(pairs))
+    last, run = 0, 0  # most often the next is measured as the last: how many go on is not in memory
     for p in range(begin, end):
-        counts[part, function_for(shape[pairs[p, 0]], shape[pairs[p, 1]], function_of)] += 1
+        function = function_for(shape[pairs[p, 0]], shape[pairs[p, 1]], function_of)
+        if function != last:
+            counts[part, last] += run
+            last, run = function, 0
+        run += 1
+    counts[part, last] += run
     wait_for_all(crew, 1)
     before = 0
     for function in range(counts.shape[1]):
@@ -45,14 +55,18 @@ def sort_by_function(crew, pairs, shape, function_of, swaps, order, first, secon
             if one == part:
                 places[part, function] = before
             before += counts[one, function]
+    last, k = 0, places[part, 0]
     for p in range(begin, end):
         a, b = pairs[p, 0], pairs[p, 1]
         function = function_for(shape[a], shape[b], function_of)
-        k = places[part, function]
-        places[part, function] += 1
+        if function != last:
+            places[part, last] = k
+            last, k = function, places[part, function]
         order[k] = p
-        swap = function > 0 and swaps[shape[a], shape[b]]  # FCL takes them as they are
+        swap = function > 0 and swaps[shape[a], shape[b]]
+        side[p] = FCLS if function == 0 else SWAPPED if swap else AS_IT_IS
         first[k], second[k] = (b, a) if swap else (a, b)
+        k += 1
 
 
 @woven
@@ -62,23 +76,34 @@ def function_for(one, other, function_of):
     return function_of[one, other] if one < size and other < size else 0
 
 
-@shared("sign", "row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl")
+@woven
+def find_measured(begin, end, count, found):
+    """Write which pairs, from ``begin`` to ``end``, have points; return how many they are.
+
+    Which they are is past foreseeing, so that no branch hangs on it but here.
+    """
+    number = 0
+    for p in range(begin, end):
+        found[number] = p
+        number += 1 if count[p] else 0
+    return number
+
+
+@shared(
+    "row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl", makes_arrays=True
+)  # fmt: skip
 def collect_points(
-    crew, pairs, order, first, fcl_pairs, start, count, feature, normal, depth, point,
-    sign, row_a, row_b, found_feature, found_normal, found_depth, found_point, by_fcl,
+    crew, pairs, side, start, count, feature, normal, depth, point,
+    row_a, row_b, found_feature, found_normal, found_depth, found_point, by_fcl,
 ):  # fmt: skip
     """Put the points of all pairs in order of pair and feature, with normals from the lower row to the other."""
     first_pair, end_pair = part_of(crew, len(pairs))
-    for k in range(first_pair, end_pair):
-        sign[order[k]] = 1.0 if first[k] == pairs[order[k], 0] else -1.0
-        if k < fcl_pairs:
-            sign[order[k]] = 2.0  # FCL takes them as they are
-    wait_for_all(crew, 1)
     at = 0
     for p in range(first_pair):
         at += count[p]
-    for p in range(first_pair, end_pair):
-        begin, sense, fcl = at, -1.0 if sign[p] < 0.0 else 1.0, sign[p] == 2.0
+    measured = np.empty(end_pair - first_pair, np.int64)
+    for p in measured[: find_measured(first_pair, end_pair, count, measured)]:
+        begin, sense, fcl = at, -1.0 if side[p] == SWAPPED else 1.0, side[p] == FCLS
         for source in range(start[p], start[p] + count[p]):
             c = at
             while c > begin and found_feature[c - 1] > feature[source]:  # few: sorted as they come

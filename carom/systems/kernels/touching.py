@@ -112,15 +112,18 @@ def renew_touching(
             deepest = max(deepest, depth[c])
             living &= contact_a[c] == handles[x] and contact_b[c] == handles[y]
             c += 1
-        before, o = o, first_of_pair(o, count, x, y, was_a, was_b, handles, row_shift)
-        n = keep_sleepers(
-            before, o, was_a, was_b, was_since, handles, row_shift, body_row, asleep, n, a, b, since, begins, ends
-        )
-        known = o < count and was_a[o] == handles[x] and was_b[o] == handles[y]
+        known = is_pair(o, count, x, y, was_a, was_b, handles)  # most often
+        if not known:
+            before, o = o, first_of_pair(o, count, x, y, was_a, was_b, handles, row_shift)
+            n = keep_sleepers(
+                before, o, was_a, was_b, was_since, handles, row_shift, body_row, asleep, n, a, b, since, begins, ends
+            )
+            known = is_pair(o, count, x, y, was_a, was_b, handles)
         if living and (presses or deepest >= 0.0 or (known and deepest >= -TOUCH)):
             a[n], b[n], begins[n] = handles[x], handles[y], not known
             if known:
                 since[n], ends[o] = was_since[o], False
+                o += 1
             else:
                 since[n] = struck_at[s] if strikes else now
                 new += 1
@@ -130,6 +133,12 @@ def renew_touching(
         o, count, was_a, was_b, was_since, handles, row_shift, body_row, asleep, n, a, b, since, begins, ends
     )
     return n, new
+
+
+@woven
+def is_pair(o, count, x, y, a, b, handles):
+    """Tell whether the o-th of ``count`` pairs is that of the rows x and y."""
+    return o < count and a[o] == handles[x] and b[o] == handles[y]
 
 
 @woven

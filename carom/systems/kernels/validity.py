@@ -10,13 +10,13 @@ import numpy as np
 from carom.systems.constants import MEASURED, UNIT_NORMAL
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.narrow import PLANE_SHAPE
+from carom.systems.kernels.narrow import PLANE_SHAPE, find_measured
 from carom.systems.kernels.spatial import turn
 
 SOUND, NOT_FINITE, NOT_UNIT, TOO_DEEP, TOO_FAR = range(5)
 
 
-@shared("count", "feature", "normal", "depth", "point", "fault", "value", "limit", "numbers")
+@shared("count", "feature", "normal", "depth", "point", "fault", "value", "limit", "numbers", makes_arrays=True)
 def refuse_points(
     crew, pairs, reaches, shape, size, local, bound_center, bound_half, bound_radius, position, rotation,
     start, count, feature, normal, depth, point, fault, value, limit, numbers,
@@ -28,10 +28,9 @@ def refuse_points(
     """
     kept, dropped = 0, 0
     begin, end = part_of(crew, len(pairs))
-    for p in range(begin, end):
-        fault[p] = SOUND
-        if not count[p]:
-            continue
+    fault[begin:end] = SOUND
+    measured = np.empty(end - begin, np.int64)
+    for p in measured[: find_measured(begin, end, count, measured)]:
         a, b = pairs[p, 0], pairs[p, 1]
         deepest, farthest = inf, (1.0 + MEASURED) * reaches[p] + MEASURED
         greatest = 0.0
