@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 
 import pytest
 from hypothesis import settings
@@ -16,6 +17,9 @@ UNCHECKED = ("test_mirror_room", "test_rolling")
 # The same examples in every run, as long as they take: what passed passes everywhere.
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
+
+# Who starts tests in the background may ignore Ctrl-C for them, which those that they start would do too.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Simulations read it when they are made, in this process and in those that tests start.
 os.environ.setdefault(CHECK, "1")
