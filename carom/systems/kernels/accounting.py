@@ -114,7 +114,8 @@ def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, ea
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
             j = gained(q + of.WARM, lanes, earlier)
             total = total + j
-            by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
+            if asks[g] != BALLS:
+                by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
         rest_a, rest_b = at_rest(gather(bodies[VELOCITY], index_a, g)), at_rest(gather(bodies[VELOCITY], index_b, g))
         if asks[g] == BALLS:
             a, b = struck_balls(r, lanes, rest_a, rest_b, total, (zero, zero, zero))

@@ -20,12 +20,19 @@ def are_all_balls(kinds, there):
 
 
 @woven
-def place_balls(r, at, there, sign, radius, extent, lanes):
-    """Write where the two balls of manifolds, at places in the table, meet: on the line between their centres."""
+def place_balls(r, at, there, sign, radius, extent, even, lanes):
+    """Write where the two balls of manifolds, at places in the table, meet: on the line between their centres.
+
+    Groups that are ``even`` only need to know how far from these.
+    """
     zero = spread(0.0)
     ball, other = pick_one(radius, at, there), choose(there, pick(address(extent), 3, 0, at), zero)
     is_a = pick_one(sign, at, there)
     of_a, of_b = choose(is_a, ball, other), choose(is_a, other, ball)
+    if even:
+        store(lanes, r + of.LEVER_A, of_a)
+        store(lanes, r + of.LEVER_B, -of_b)
+        return
     keep(lanes, r + of.MIDDLE_A, zero, zero, of_a)
     keep(lanes, r + of.MIDDLE_B, zero, zero, -of_b)
     store(lanes, r + MANIFOLD_ROWS + of.AT, zero)
@@ -39,10 +46,11 @@ def are_balls(r, lanes):
 
 
 @woven
-def measure_balls_in_lanes(g, r, index_a, index_b, lanes, bodies):
+def measure_balls_in_lanes(g, r, even, index_a, index_b, lanes, bodies):
     """Measure the contacts of a group where the balls are; as `measure_ball` does, one by one."""
+    of_a, of_b = (of.LEVER_A, of.LEVER_B) if even else (of.MIDDLE_A + 2, of.MIDDLE_B + 2)
     a, b = gather(bodies[CENTER], index_a, g), gather(bodies[CENTER], index_b, g)
-    reach = load(lanes, r + of.MIDDLE_A + 2) - load(lanes, r + of.MIDDLE_B + 2)
+    reach = load(lanes, r + of_a) - load(lanes, r + of_b)
     there, zero = load(lanes, r + of.SHARE), spread(0.0)
     way = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
     distance = root(dot(way, way))

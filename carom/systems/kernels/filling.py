@@ -70,7 +70,7 @@ def fill_groups(
         keep_where(rows, r + RUB, rough, pushed)
         at = places_of(g, 0, first, size)
         if even[g]:
-            place_balls(r, at, sizes, sign, radius, extent, rows)
+            place_balls(r, at, sizes, sign, radius, extent, True, rows)
             store(rows, r + BALL, spread(3.0))
             continue
         rolls, spins = pick_one(rolling, at, sizes), pick_one(spinning, at, sizes)
@@ -83,7 +83,7 @@ def fill_groups(
         store(rows, r + SPUN, choose(choose(as_ball, spins, one), along, zero))  # what is no ball twists by its points
         keep_where(rows, r + ROLLED, choose(as_ball, rolls, one), minus(rolled, times(along, n)))
         if are_all_balls(kinds, sizes):
-            place_balls(r, at, sizes, sign, radius, extent, rows)
+            place_balls(r, at, sizes, sign, radius, extent, False, rows)
             store(rows, r + BALL, spread(2.0))
         else:
             store(rows, r + BALL, as_ball)

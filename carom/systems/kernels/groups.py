@@ -15,19 +15,22 @@ from carom.systems.kernels.lanes import WIDTH
 # Resistance to rolling (m), the inertia about any axis across the normal, the impulse of rolling; 1 where a point may
 # close within the substep; resistance to spinning (m), the inertia about the normal, the impulse of spinning; the
 # velocity of b's surface against a's; inverse masses along the axes; how unit twists about the axes of the frame turn
-# either body; tangents. Groups that `are_even` do without all of these.
+# either body; tangents; the middle of the points from both bodies, in the frame. Groups that `are_even` do without all
+# of these.
 ROLLING, ROLL, ROLLED, CLOSES, SPINNING, SPIN, SPUN, SURFACE, MASS_A, MASS_B = 0, 1, 2, 5, 6, 7, 8, 9, 12, 15
-TURN_A, TURN_B, TANGENT, SPARED = 18, 27, 36, 42
+TURN_A, TURN_B, TANGENT, MIDDLE_A, MIDDLE_B, SPARED = 18, 27, 36, 42, 45, 48
 # Friction summed over the step; one by its points; restitution; 1 where it is of a ball on an exact arc (2 where the
 # group is of two balls each, 3 where `are_even`); 1 where it rests, and where it did before (2 on a joint).
-RUBBED, SHARE, RESTITUTION, BALL, RESTS, TOGETHER = 42, 45, 46, 47, 48, 49
-# The impulse of friction; the normal, which is the cross product of the tangents; the middle of the points from both
-# bodies, in the frame; the inverse of the inverse mass along the tangents (a symmetric 2 x 2); friction.
-RUB, NORMAL, MIDDLE_A, MIDDLE_B, GIVE, FRICTION, MANIFOLD_ROWS = 50, 53, 56, 59, 62, 65, 66
+RUBBED, SHARE, RESTITUTION, BALL, RESTS, TOGETHER = 48, 51, 52, 53, 54, 55
+# The impulse of friction; the normal, which is the cross product of the tangents; the inverse of the inverse mass along
+# the tangents (a symmetric 2 x 2); friction. Even groups have one such mass, and behind it how far along the normal
+# points are from the centres of both balls.
+RUB, NORMAL, GIVE, LEVER_A, LEVER_B, FRICTION, MANIFOLD_ROWS = 56, 59, 62, 63, 64, 65, 66
 
-# Rows of each point, after those of the manifold: depth, normal impulse, the mass along the normal; where it is from
-# the middle along the tangents (along the normal it has no lever), how far; and the sum of its impulse over the step.
-DEPTH, WARM, MASS, AT, AWAY, SUM, POINT_ROWS = 0, 1, 2, 3, 5, 6, 7
+# Rows of each point, after those of the manifold: depth, normal impulse, the mass along the normal; the sum of its
+# impulse over the step; where it is from the middle along the tangents (along the normal it has no lever), how far:
+# even groups do without these, too.
+DEPTH, WARM, MASS, SUM, AT, AWAY, POINT_ROWS = 0, 1, 2, 3, 4, 6, 7
 # After those of all points a row for each two of them: how fast a unit impulse at either parts the bodies at the other.
 
 ABSENT = -1e300  # m, the depth of a point that a lane does not have
@@ -64,9 +67,9 @@ def group_manifolds(
 
     Return (groups, rows of all, levels). ``row`` is where the rows of a group begin, or would, were they all there:
     those that are ``even``, of two balls each that are alike about all axes and do no more than rub, lack the first
-    `SPARED`. ``ends`` (2,) is where the groups of either kind end, ``run_ends`` where each run of groups does that have
-    as many points: a level has `MANIFOLD_POINTS` of them, the most points first. ``nobody`` is the index of what has no
-    body.
+    `SPARED` and the last from `AT` on. ``ends`` (2,) is where the groups of either kind end, ``run_ends`` where each
+    run of groups does that have as many points: a level has `MANIFOLD_POINTS` of them, the most points first.
+    ``nobody`` is the index of what has no body.
     """
     shuffled = shuffle(count, start, a, b)
     # What is gone through without order is kept small, and what is asked for together side by side.
@@ -112,7 +115,7 @@ def group_manifolds(
             run_ends[begun * MANIFOLD_POINTS - points[group]] = group + 1
             rows += couplings(0, points[group]) + pair(points[group], 0)
             if alike[m]:
-                row[group], rows = row[group] - SPARED, rows - SPARED
+                row[group], rows = row[group] - SPARED, rows - SPARED - (POINT_ROWS - AT)
             for k in range(WIDTH):
                 index_a[group, k], index_b[group, k], first[group, k], size[group, k] = nobody, nobody, -1, 0
         if not stands[m]:

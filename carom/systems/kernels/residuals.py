@@ -77,7 +77,9 @@ def look_at_points(r, points, per_second, rate, hardness, parting, lanes, to, fo
         largest, summed = larger(largest, left), summed + left
         opened = opened + choose(before, zero, there)
         pushed = pushed + choose(depth * rate - PUSH_SPEED, there, zero)
-        total, twisting = total + before, twisting + before * load(lanes, q + of.AWAY)
+        total = total + before
+        if points > 1:  # else it is the middle
+            twisting = twisting + before * load(lanes, q + of.AWAY)
     store(found, to + LARGEST, largest)
     store(found, to + SUMMED, summed)
     store(found, to + OPEN, opened)

@@ -27,7 +27,7 @@ def are_even(r, lanes):
 def weigh_balls(g, r, rests, index_a, index_b, lanes, bodies):
     """Write the masses that count along the normal and across it; 0 where a manifold does not rest."""
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-    z_a, z_b = load(lanes, r + of.MIDDLE_A + 2), load(lanes, r + of.MIDDLE_B + 2)
+    z_a, z_b = load(lanes, r + of.LEVER_A), load(lanes, r + of.LEVER_B)
     yields = a[INVERSE_MASS] + b[INVERSE_MASS]
     gives = yields + (a[EVEN_INERTIA] * z_a * z_a + b[EVEN_INERTIA] * z_b * z_b)
     store(lanes, r + MANIFOLD_ROWS + of.MASS, inverse_or_none(rests, yields))
@@ -46,7 +46,7 @@ def follow_normals(r, lanes):
 def parting_of_balls(r, lanes, a, b):
     """Return how fast balls part, and the velocity of b's surface against a's across the normal."""
     n, way = three(lanes, r + of.NORMAL), minus(b, a)
-    z_a, z_b = load(lanes, r + of.MIDDLE_A + 2), load(lanes, r + of.MIDDLE_B + 2)
+    z_a, z_b = load(lanes, r + of.LEVER_A), load(lanes, r + of.LEVER_B)
     parts = dot(n, way)
     rolls = cross(minus(times(z_b, b[4:7]), times(z_a, a[4:7])), n)
     return parts, plus(minus(way, times(parts, n)), rolls)
@@ -55,7 +55,7 @@ def parting_of_balls(r, lanes, a, b):
 @woven
 def struck_balls(r, lanes, a, b, j, f):
     """Return velocities of both balls after an impulse along the normal and one across it."""
-    n, z_a, z_b = three(lanes, r + of.NORMAL), load(lanes, r + of.MIDDLE_A + 2), load(lanes, r + of.MIDDLE_B + 2)
+    n, z_a, z_b = three(lanes, r + of.NORMAL), load(lanes, r + of.LEVER_A), load(lanes, r + of.LEVER_B)
     push, turn = plus(times(j, n), f), cross(n, f)
     return (
         moved(a, -a[INVERSE_MASS], -a[EVEN_INERTIA] * z_a, push, turn),

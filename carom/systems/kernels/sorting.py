@@ -65,7 +65,7 @@ def sort_groups(
         measured = g < ends[0] and are_balls(r, lanes)
         moved_on = measured
         if measured:
-            measure_balls_in_lanes(g, r, of_a, of_b, rows, packed)
+            measure_balls_in_lanes(g, r, are_even(r, lanes), of_a, of_b, rows, packed)
         elif looks[g]:
             for lane in range(WIDTH):
                 c = first[g, lane]
