@@ -131,12 +131,8 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     """
     collider, pose, answered = world[Collider], world[ColliderPose], world[Answered]
     n = len(pairs)
-    order, first, second, side = (
-        np.empty(n, np.int64),
-        np.empty(n, np.int64),
-        np.empty(n, np.int64),
-        np.empty(n, np.int8),
-    )
+    order, first, second = np.empty(n, np.int64), np.empty(n, np.int64), np.empty(n, np.int64)
+    side = np.empty(n, np.int8)
     crew = crew_for(world, n)
     counts = np.zeros((2, threads_of(crew), len(FUNCTIONS) + 1), np.int64)
     table = FUNCTION_OF if (collision or world[Settings].collision) == "auto" else NO_STAND_INS

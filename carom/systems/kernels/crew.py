@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from carom.systems.kernels.crew_words import call, count_up, describe, give_way, look, tell
-from carom.systems.kernels.kernel import Kernel, calling, compiled, in_the_name_of, kernel, names_of, woven
+from carom.systems.kernels.kernel import Kernel, handed, kernel, woven
 from carom.systems.kernels.lane_widths import WIDTH
 
 # Words of the crew: which shift it is, none where odd; the kernel and its arguments; how many take part. On the next
@@ -43,24 +43,18 @@ def shared(*outputs: str, makes_arrays: bool = False) -> Callable[[Callable[...,
     Each thread that has come calls the function with the crew as (words, which part is its own, how many parts). It
     returns nothing, and what it writes does not depend on how many there are.
     """
-
-    def make(function):
-        work = compiled(function, no_cpython_wrapper=True, _nrt=makes_arrays)
-        run = in_the_name_of(function, calling(hand_out, work=work))
-        return Kernel(run, outputs, names_of(function), makes_arrays=makes_arrays, within=work)
-
-    return make
+    return lambda function: handed(function, hand_out, outputs, makes_arrays=makes_arrays)
 
 
 def hand_out(crew, *arguments):
     """Share the work of a kernel."""
-    share(crew, describe(work, crew, arguments))  # type: ignore[name-defined]  # noqa: F821 - `calling` hands it over
+    share(describe(work, crew, arguments))  # type: ignore[name-defined]  # noqa: F821 - `handed` hands it over
 
 
 @woven
-def share(crew, described):
+def share(described):
     """Let all threads that have come do their parts of a task that `describe` has found; return when they have."""
-    task, data = described
+    crew, task, data = described
     parts, shift, most = 1, look(crew, SHIFT), len(crew) // ROOM
     while parts < most and shift % 2 == 0 and look(crew, ROOM * parts + HERE) == shift:
         parts += 1

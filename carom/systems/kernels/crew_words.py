@@ -25,8 +25,8 @@ if numba.config.DISABLE_JIT:  # kernels are not shared then
         """Let other threads have the processor."""
 
     def describe(function, crew, arguments):
-        """Return a task and its data, which `call` calls."""
-        return function, (crew, arguments)
+        """Return the crew, a task and its data, which `call` calls."""
+        return crew, function, (crew, arguments)
 
     def call(task, data, part, parts):
         """Call a task that `describe` has found; return 1 where it fails, else 0."""
@@ -37,6 +37,7 @@ if numba.config.DISABLE_JIT:  # kernels are not shared then
 else:
     from llvmlite import ir
     from numba.core import cgutils, types
+    from numba.core.imputils import impl_ret_borrowed
     from numba.extending import intrinsic
 
     WHOLE, BYTES = ir.IntType(64), ir.IntType(8).as_pointer()
@@ -86,36 +87,42 @@ else:
 
         return types.void(), lower
 
+    def _task(context, builder, called, compiled, given):
+        """Return the task that calls a compiled function with what is given: the one of this module, once there is."""
+        name = f"{compiled.fndesc.mangled_name}.task"
+        if name in builder.module.globals:
+            return builder.module.globals[name]
+        task = ir.Function(builder.module, TASK, name=name)
+        task.linkage = "internal"
+        inner = ir.IRBuilder(task.append_basic_block())
+        place, part, parts = task.args
+        there = inner.load(inner.bitcast(place, context.get_value_type(given).as_pointer()))
+        words, others = cgutils.unpack_tuple(inner, there, 2)
+        passed = (context.make_tuple(inner, called.args[0], [words, part, parts]), *cgutils.unpack_tuple(inner, others))
+        target = context.declare_function(builder.module, compiled.fndesc)
+        status, _ = context.call_conv.call_function(inner, target, called.return_type, called.args, passed)
+        inner.ret(inner.zext(status.is_error, WHOLE))
+        return task
+
     @intrinsic
     def describe(typing, function, crew, arguments):
-        """Return the addresses of a task and its data, which `call` calls until its caller returns.
+        """Return the crew and the addresses of a task and its data, which `call` calls until its caller returns.
 
         The task calls a compiled function with (crew, part, parts) and the arguments, whatever those are.
         """
-        share = types.Tuple((crew, types.int64, types.int64))
-        called = function.get_call_type(typing, (share, *arguments), {})
+        called = function.get_call_type(typing, (types.Tuple((crew, types.int64, types.int64)), *arguments), {})
 
         def lower(context, builder, sig, values):
             given = types.Tuple(sig.args[1:])
             data = cgutils.alloca_once_value(builder, context.make_tuple(builder, given, values[1:]))
             compiled = function.dispatcher.overloads[tuple(called.args)]
             context.add_linking_libs([compiled.library])
-            name = f"{compiled.fndesc.mangled_name}.task"
-            task = builder.module.globals.get(name)  # if it is called elsewhere in the same function
-            if task is None:
-                task = ir.Function(builder.module, TASK, name=name)
-                task.linkage = "internal"
-                inner = ir.IRBuilder(task.append_basic_block())
-                place, part, parts = task.args
-                there = inner.load(inner.bitcast(place, context.get_value_type(given).as_pointer()))
-                words, others = cgutils.unpack_tuple(inner, there, 2)
-                passed = (context.make_tuple(inner, share, [words, part, parts]), *cgutils.unpack_tuple(inner, others))
-                target = context.declare_function(builder.module, compiled.fndesc)
-                status, _ = context.call_conv.call_function(inner, target, called.return_type, called.args, passed)
-                inner.ret(inner.zext(status.is_error, WHOLE))
-            return context.make_tuple(builder, sig.return_type, [builder.ptrtoint(it, WHOLE) for it in (task, data)])
+            task = _task(context, builder, called, compiled, given)
+            found = [values[1], *(builder.ptrtoint(it, WHOLE) for it in (task, data))]
+            described = context.make_tuple(builder, sig.return_type, found)
+            return impl_ret_borrowed(context, builder, sig.return_type, described)
 
-        return types.UniTuple(types.int64, 2)(function, crew, arguments), lower
+        return types.Tuple((crew, types.int64, types.int64))(function, crew, arguments), lower
 
     @intrinsic
     def call(typing, task, data, part, parts):

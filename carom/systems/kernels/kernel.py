@@ -102,16 +102,9 @@ def calling(function: Callable[..., Any], **compiled_ones: Any) -> Callable[...,
     return FunctionType(function.__code__, vars(sys.modules[function.__module__]) | compiled_ones)
 
 
-def in_the_name_of(function: Callable[..., Any], other: Callable[..., Any]) -> Callable[..., Any]:
-    """Return another function, called like this one and known as it."""
-    other.__module__, other.__qualname__ = function.__module__, function.__qualname__
-    other.__name__, other.__doc__ = function.__name__, function.__doc__
-    return other
-
-
 def hand_on(*arguments: Any) -> Any:
     """Do the work of a kernel that other kernels do too."""
-    return work(*arguments)  # type: ignore[name-defined]  # noqa: F821 - `calling` hands it over
+    return work(*arguments)  # type: ignore[name-defined]  # noqa: F821 - `handed` hands it over
 
 
 class Kernel:
@@ -175,18 +168,23 @@ class Kernel:
         return view
 
 
+def handed(
+    function: Callable[..., Any], hand: Callable[..., Any], outputs: tuple[str, ...], *, makes_arrays: bool
+) -> Kernel:
+    """Return a kernel that hands the work of a function, which other kernels call too, on by another one."""
+    work = compiled(function, no_cpython_wrapper=True, _nrt=makes_arrays)
+    run = calling(hand, work=work)
+    run.__module__, run.__qualname__ = function.__module__, function.__qualname__
+    run.__name__, run.__doc__ = function.__name__, function.__doc__
+    return Kernel(run, outputs, names_of(function), makes_arrays=makes_arrays, within=work)
+
+
 def kernel(*outputs: str, makes_arrays: bool = False, within: bool = False) -> Callable[[Callable[..., Any]], Kernel]:
     """Compile a function over arrays; ``outputs`` are the names of the arguments it writes.
 
     One that makes no arrays of its own takes those it is handed in half the time; where one does, Numba says "NRT
     required but not enabled" until it says so. Other kernels call it ``within`` where that is stated.
     """
-
-    def make(function: Callable[..., Any]) -> Kernel:
-        names, run, work = names_of(function), function, None
-        if within:
-            work = compiled(function, no_cpython_wrapper=True, _nrt=makes_arrays)
-            run = in_the_name_of(function, calling(hand_on, work=work))
-        return Kernel(run, outputs, names, makes_arrays=makes_arrays, within=work)
-
-    return make
+    if within:
+        return lambda function: handed(function, hand_on, outputs, makes_arrays=makes_arrays)
+    return lambda function: Kernel(function, outputs, names_of(function), makes_arrays=makes_arrays)

@@ -14,7 +14,7 @@ from carom.systems.shapes.plane import Plane
 from carom.systems.shapes.point import Point
 from carom.systems.shapes.sphere import Sphere
 
-AS_IT_IS, SWAPPED, FCLS = range(3)
+AS_IT_IS, SWAPPED, FCLS = range(3)  # how a pair is measured: by its function either way round, or by FCL
 SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE, PLANE_SHAPE = Sphere.number, Point.number, Box.number, Plane.number
 
 
@@ -34,9 +34,9 @@ def sort_by_function(crew, pairs, shape, function_of, swaps, side, order, first,
     """Sort pairs by the number of the function that measures them, keeping their order otherwise.
 
     ``order[k]`` is a pair and ``first[k]``, ``second[k]`` its collider rows as the function takes them; ``side`` tells
-    of each pair whether that is as it is, the other way round (`SWAPPED`), or it is FCL's, which takes it as it is.
-    Each thread has a row of ``counts``, how many of its pairs each function measures, and one of ``places``, where it
-    goes on writing those. Shapes beyond the table have function 0.
+    of each pair whether that is as it is, or `SWAPPED`; FCL takes all as they are. Each thread has a row of
+    ``counts``, how many of its pairs each function measures, and one of ``places``, where it goes on writing those.
+    Shapes beyond the table have function 0, which is FCL.
     """
     _, part, parts = crew
     begin, end = part_of(crew, len(pairs))
@@ -80,7 +80,7 @@ def function_for(one, other, function_of):
 def find_measured(begin, end, count, found):
     """Write which pairs, from ``begin`` to ``end``, have points; return how many they are.
 
-    Which they are is past foreseeing, so that no branch hangs on it but here.
+    Which they are is past foreseeing, so that no branch hangs on it, here or where the pairs are gone through.
     """
     number = 0
     for p in range(begin, end):

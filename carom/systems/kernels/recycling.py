@@ -54,7 +54,7 @@ def recycle_contacts(
         if is_ball(x, shape) or is_ball(y, shape):
             continue
         o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
-        if o == old_count or a[o] != handles[x] or b[o] != handles[y]:
+        if not is_pair(o, old_count, x, y, a, b, handles):
             continue
         if form[o] != form_of_pair(x, y, shape, size, geometry):
             continue
@@ -128,6 +128,12 @@ def first_of_pair(o, old_count, x, y, a, b, handles, row_shift):
             break
         o += 1
     return o
+
+
+@woven
+def is_pair(o, count, x, y, a, b, handles):
+    """Tell whether the o-th of ``count`` contacts or pairs is of the rows x and y."""
+    return o < count and a[o] == handles[x] and b[o] == handles[y]
 
 
 @woven

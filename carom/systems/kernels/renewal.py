@@ -8,7 +8,7 @@ import numpy as np
 from carom.systems.constants import SAME_POINT
 from carom.systems.kernels.crew import runs_of, shared, wait_for_all
 from carom.systems.kernels.kernel import inlined, woven
-from carom.systems.kernels.recycling import first_of_pair, smaller_reach
+from carom.systems.kernels.recycling import first_of_pair, is_pair, smaller_reach
 
 
 @woven
@@ -68,7 +68,7 @@ def renew_contacts(
             end += 1
         o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
         until = o
-        while until < old_count and a[until] == handles[x] and b[until] == handles[y]:
+        while is_pair(until, old_count, x, y, a, b, handles):
             until += 1
         if are_the_same(c, end, o, until, found_feature, feature):
             for k in range(end - c):

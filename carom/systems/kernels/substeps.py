@@ -82,7 +82,7 @@ def take_substeps(
             now = note(LOOK_AHEAD, now, spent)
             if leaves:
                 return k - 1, DONE, h, 0, 0, cut, logged, log_pair, log
-            share(for_rows, describe(predict, for_rows, (
+            share(describe(predict, for_rows, (
                 rows, 0.0, center_of_mass, freedom, held, last_acceleration,
                 last_angular_acceleration, position, rotation, linear, angular, center, start_center, start_position,
                 start_rotation, start_linear, start_angular, angular_acceleration, time, turned, touching,
@@ -90,12 +90,12 @@ def take_substeps(
             now = note(PREDICT, now, spent)
         rest = 0
         if groups:
-            share(for_bound, describe(pack, for_bound, (
+            share(describe(pack, for_bound, (
                 bound, True, center_of_mass, center, linear, angular, felt, inverse_mass,
                 inverse_inertia, principal_axes, freedom, rotation, bodies, apart,
             )))  # fmt: skip
             clear(leans)
-            share(for_groups, describe(sort, for_groups, (
+            share(describe(sort, for_groups, (
                 groups, h, scheme == VERLET, resting_stage, False, ends, index_a, index_b, first,
                 size, points, row, fresh, stale, looks, asks, lanes, bodies, center, rotation,
                 kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b, normal,
@@ -103,24 +103,24 @@ def take_substeps(
             )))  # fmt: skip
             rest = total(rests)
             if balls and k == substeps:
-                share(for_groups, describe(touch, for_groups, (
+                share(describe(touch, for_groups, (
                     contacts, kind, sign, radius, extent, body_a, body_b, inverse_mass, center,
                     normal, depth, point, offset_a, offset_b,
                 )))  # fmt: skip
             now = note(SORT, now, spent)
-        share(for_rows, describe(kick, for_rows, (
+        share(describe(kick, for_rows, (
             rows, h, scheme, inverse_mass, freedom, drag, drag_flow, angular_drag, felt, touching,
             linear, angular, acceleration, angular_acceleration, decay, angular_decay, flow,
             last_acceleration, last_angular_acceleration,
         )))  # fmt: skip
         now = note(KICK, now, spent)
         if rest:
-            share(for_groups, describe(press, for_groups, (
+            share(describe(press, for_groups, (
                 True, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
                 row, asks, bound, scratch, lanes, bodies, linear, angular,
             )))  # fmt: skip
             if scheme == VERLET and some_lean(leans):
-                share(for_groups, describe(bend, for_groups, (
+                share(describe(bend, for_groups, (
                     h, bound, leans, levels, run_ends, index_a, index_b, row, asks, lanes, bodies,
                     start_linear, start_angular, linear, angular, acceleration, angular_acceleration,
                 )))  # fmt: skip
@@ -131,7 +131,7 @@ def take_substeps(
         if count or len(watched):
             for part in range(len(soon)):
                 soon[part, 0], soon[part, 1] = h, 0.0
-            share(for_closing, describe(close, for_closing, (
+            share(describe(close, for_closing, (
                 count, groups, solids, h, bound, watched, center, detected_center, reach,
                 linear, angular, acceleration, index_a, index_b, points, row, group_of, lane_of, start,
                 kind, ball, other, other_position, radius, extent, restitution, resting, lanes, bodies, closes, soon,
@@ -149,25 +149,25 @@ def take_substeps(
                     closes, within, np.inf, turns, none, pull, arc, logged, log_pair, log,
                 )  # fmt: skip
                 cut += passed
-        share(for_rows, describe(advance, for_rows, (
+        share(describe(advance, for_rows, (
             rows, at, bends, center, rotation, turned, linear, angular, time, acceleration,
             angular_acceleration, inverse_mass, inertia, principal_axes, freedom, pull, arc,
         )))  # fmt: skip
         now = note(DRIFT, now, spent)
         if reason != DONE:
             return k, reason, at, events, rest, cut, logged, log_pair, log
-        share(for_rows, describe(finish, for_rows, (
+        share(describe(finish, for_rows, (
             rows, True, h, inverse_mass, center_of_mass, freedom, start_position, start_rotation,
             decay, angular_decay, flow, rotation, center, linear, angular, position,
         )))  # fmt: skip
         if groups:
-            share(for_groups, describe(sink, for_groups, (
+            share(describe(sink, for_groups, (
                 groups, bound, start_center, center, turned, index_a, index_b, first, size, points,
                 row, kind, bodies, lanes, depth,
             )))  # fmt: skip
         now = note(SETTLE, now, spent)
         if rest:
-            share(for_groups, describe(press, for_groups, (
+            share(describe(press, for_groups, (
                 False, RELAX_SWEEPS, True, h, ends, levels, run_ends, HARD, HARD, index_a, index_b,
                 points, row, asks, bound, scratch, lanes, bodies, linear, angular,
             )))  # fmt: skip

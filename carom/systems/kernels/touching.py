@@ -7,7 +7,7 @@ from math import inf
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import TOUCH
 from carom.systems.kernels.kernel import kernel, woven
-from carom.systems.kernels.recycling import first_of_pair, is_at, row_of
+from carom.systems.kernels.recycling import first_of_pair, is_at, is_pair, row_of
 
 
 @kernel("struck_a", "struck_b", "struck_at")
@@ -133,12 +133,6 @@ def renew_touching(
         o, count, was_a, was_b, was_since, handles, row_shift, body_row, asleep, n, a, b, since, begins, ends
     )
     return n, new
-
-
-@woven
-def is_pair(o, count, x, y, a, b, handles):
-    """Tell whether the o-th of ``count`` pairs is that of the rows x and y."""
-    return o < count and a[o] == handles[x] and b[o] == handles[y]
 
 
 @woven
