@@ -21,6 +21,7 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import overlapping
 from carom.systems.detection.narrow import measure_pairs
+from carom.systems.shapes.shape import BY_NUMBER
 from carom.systems.simulation import Simulation
 
 BALLS = ("sphere", "point")
@@ -55,6 +56,31 @@ def test_kernels_agree_with_fcl(a: str, b: str, count: int) -> None:
                 assert found.normal[0] == pytest.approx(normal, abs=2e-8 if "point" in (a, b) else 1e-9)
                 assert found.point[0] == pytest.approx(place, abs=1e-8)
     assert seen > count / 200
+
+
+def test_pairs_of_all_shapes_are_measured_at_once_as_they_are_one_by_one() -> None:
+    """Whichever function measures each of them, and whichever way round; none of their points is refused."""
+    simulation, generator = Simulation(), np.random.default_rng(3)
+    for shape in [*SHAPES.values(), *reversed(SHAPES.values())] * 2:
+        place = {"position": generator.uniform(-0.6, 0.6, 3), "rotation": turns(generator)}
+        simulation.add(collider={"shape": shape}, transform=place, visual=False)
+    world = simulation.world
+    pairs = np.array([[i, o] for i, o in combinations(range(world.used()), 2) if can_be_measured(world, i, o)])
+    with world.faces(None):
+        reach_within(world, 1 / 60)
+        at_once = measure_pairs(world, pairs, np.full(len(pairs), 0.05))
+        one_by_one = [measure_pairs(world, pairs[p : p + 1], np.array([0.05])) for p in range(len(pairs))]
+    for k, column in enumerate(at_once):
+        assert np.array_equal(column, np.concatenate([found[k] for found in one_by_one]))
+    assert at_once.by_fcl.any()
+    assert not at_once.by_fcl.all()
+    assert len({*zip(at_once.row_a.tolist(), at_once.row_b.tolist(), strict=True)}) < len(pairs)  # some are apart
+    assert world[Answered].refused == 0
+
+
+def can_be_measured(world: World, i: int, o: int) -> bool:
+    """Tell whether two shapes are not both static."""
+    return not all(BY_NUMBER[int(world[Collider].shape[row])].static for row in (i, o))
 
 
 def ambiguous(a: str, b: str, poses: Poses) -> bool:

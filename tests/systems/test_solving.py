@@ -106,6 +106,16 @@ def test_limits_are_told_when_they_are_at_work(world: Simulation, limits: dict[s
     assert found == limits
 
 
+def test_a_box_that_turns_on_its_spot_twists_with_all_that_its_points_may() -> None:
+    """Of a ball that touches at a point nothing is to twist: it turns for ever."""
+    for collider, limits in ((BOX["collider"], (1, 1)), ({"sphere": {"radius": 0.5}}, (0, 0))):
+        simulation = on_the_ground(collider=collider)
+        simulation["body"].motion.angular = (0.0, 3.0, 0.0)
+        solving = Solving(simulation)
+        simulation.step(3)
+        assert (last(solving).sliding, last(solving).spinning) == limits
+
+
 def test_rolling_and_spinning_have_limits_too() -> None:
     """Of a ball that rolls, and of one that turns on its spot, until it stands."""
     ball = {"collider": {"sphere": {"radius": 0.5}}}
