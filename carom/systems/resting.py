@@ -18,7 +18,7 @@ from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.filling import fill_groups, hand_over
-from carom.systems.kernels.groups import group_manifolds
+from carom.systems.kernels.groups import RUNS, group_manifolds
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.manifolds import find_manifolds
@@ -78,7 +78,7 @@ class Resting(Resource):
         self.index_a, self.index_b = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.points, self.row, self.closes = (np.empty(count, np.int64) for _ in range(3))
-        self.asks, self.run_ends = np.zeros(count, np.int64), np.empty(2 * MANIFOLD_POINTS * count, np.int64)
+        self.asks, self.run_ends = np.zeros(count, np.int64), np.empty(2 * RUNS * count, np.int64)
         self.even, self.fresh, self.stale, self.looks = (np.ones(count, np.bool_) for _ in range(4))
         self.ends = np.zeros(2, np.int64)
 
@@ -104,7 +104,7 @@ class Resting(Resource):
             self._reserve(2 * self.count)
         self.groups, rows, self.levels = group_manifolds(
             self.count, self.start, contact.a, contact.b, contact.body_a, contact.body_b,
-            contact.kind, contact.rolling, contact.spinning, contact.surface,
+            contact.kind, contact.rolling, contact.spinning, contact.surface, contact.resting,
             body.inverse_mass, body.inverse_inertia, body.freedom, nobody,
             self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
             self.points, self.row, self.even, self.ends, self.run_ends,
@@ -136,7 +136,7 @@ class Resting(Resource):
 
     def level_ends(self) -> list[int]:
         """Return where the groups of each level end."""
-        ends: list[int] = self.run_ends[MANIFOLD_POINTS - 1 : self.levels * MANIFOLD_POINTS : MANIFOLD_POINTS].tolist()
+        ends: list[int] = self.run_ends[RUNS - 1 : self.levels * RUNS : RUNS].tolist()
         return ends
 
     def pack(self, world: World) -> None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import MANIFOLD_POINTS
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
+from carom.systems.kernels.groups import RUNS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import dot, minus, three, times
 from carom.systems.kernels.lanes import address, choose, gather, load, planes, scatter, spread
@@ -32,7 +32,7 @@ def bend_arcs(
             change[i, k] = linear[i, k] - start_linear[i, k] if is_bent(leans, i) else 0.0
     wait_for_all(crew, passed)
     for level in range(levels):
-        for run in range(MANIFOLD_POINTS * level, MANIFOLD_POINTS * (level + 1)):
+        for run in range(RUNS * level, RUNS * (level + 1)):
             begin, end = part_of_run(crew, run, run_ends)
             for g in range(begin, end):
                 if asks[g] != IDLE:

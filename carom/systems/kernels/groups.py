@@ -35,6 +35,7 @@ DEPTH, WARM, MASS, SUM, AT, AWAY, POINT_ROWS = 0, 1, 2, 3, 4, 6, 7
 
 ABSENT = -1e300  # m, the depth of a point that a lane does not have
 BUCKETS = 256  # of manifolds that are shuffled
+RUNS = MANIFOLD_POINTS + 1  # of groups of a level: by their points, the most first, and at last those that are idle
 # Of bodies: moved by no impulse, or by those of some axes more than by others, or alike about all and without locks.
 UNKNOWN, STILL, UNEVEN, EVEN = -1, 0, 1, 2
 
@@ -54,7 +55,7 @@ UNKNOWN, STILL, UNEVEN, EVEN = -1, 0, 1, 2
     makes_arrays=True,
 )
 def group_manifolds(
-    count, start, a, b, body_a, body_b, kind, rolling, spinning, surface,
+    count, start, a, b, body_a, body_b, kind, rolling, spinning, surface, resting,
     inverse_mass, inverse_inertia, freedom, nobody,
     group_of, lane_of, index_a, index_b, first, size, points, row, even, ends, run_ends,
 ):  # fmt: skip
@@ -68,7 +69,8 @@ def group_manifolds(
     Return (groups, rows of all, levels). ``row`` is where the rows of a group begin, or would, were they all there:
     those that are ``even``, of two balls each that are alike about all axes and do no more than rub, lack the first
     `SPARED` and the last from `AT` on. ``ends`` (2,) is where the groups of either kind end, ``run_ends`` where each
-    run of groups does that have as many points: a level has `MANIFOLD_POINTS` of them, the most points first.
+    run of groups does that have as many points; a level has so many `RUNS`. Where they fill a group or more, those
+    that were not ``resting`` before come last in their level, idle: groups in which nobody rests have nothing to solve.
     ``nobody`` is the index of what has no body.
     """
     shuffled = shuffle(count, start, a, b)
@@ -93,10 +95,14 @@ def group_manifolds(
         reached[first_height + nobody] = 0
         level[m] = lowest
         levels = max(levels, lowest + 1)
-    forms = MANIFOLD_POINTS + 1  # in a level by their points, the most first, and at last those that are even
+    idle = np.zeros(2 * levels, np.int32)
+    for m in range(count):
+        level[m] += stands[m] * levels
+        idle[level[m]] += not resting[start[m]]
+    forms = 2 * RUNS  # in a level by their points, the most first, and at last those that are even; then those idle
     begin = np.zeros(2 * levels * forms + 1, np.int64)
     for m in range(count):
-        form[m] += (stands[m] * levels + level[m]) * forms
+        form[m] += level[m] * forms + (0 if resting[start[m]] or idle[level[m]] < WIDTH else RUNS)
         begin[form[m] + 1] += 1
     for k in range(1, len(begin)):
         begin[k] += begin[k - 1]
@@ -105,14 +111,15 @@ def group_manifolds(
         by_form[begin[form[m]]] = m
         begin[form[m]] += 1
     group, lane, rows, last, begun = -1, WIDTH, 0, -1, 0
-    ends[0], run_ends[: 2 * levels * MANIFOLD_POINTS] = 0, 0
+    ends[0], run_ends[: 2 * levels * RUNS] = 0, 0
     for m in by_form:
-        if lane == WIDTH or stands[m] * levels + level[m] != last or alike[m] != even[group]:
-            if stands[m] * levels + level[m] != last:
+        many = start[m + 1] - start[m]
+        if lane == WIDTH or level[m] != last or alike[m] != even[group] or many > points[group]:
+            if level[m] != last:
                 begun += 1
-            group, lane, last = group + 1, 0, stands[m] * levels + level[m]
-            row[group], points[group], even[group] = rows, start[m + 1] - start[m], alike[m]
-            run_ends[begun * MANIFOLD_POINTS - points[group]] = group + 1
+            group, lane, last = group + 1, 0, level[m]
+            row[group], points[group], even[group] = rows, many, alike[m]
+            run_ends[begun * RUNS - (1 if form[m] % forms >= RUNS else 1 + points[group])] = group + 1
             rows += couplings(0, points[group]) + pair(points[group], 0)
             if alike[m]:
                 row[group], rows = row[group] - SPARED, rows - SPARED - (POINT_ROWS - AT)
@@ -125,10 +132,10 @@ def group_manifolds(
             i, o = body_a[start[m]], body_b[start[m]]
         index_a[group, lane], index_b[group, lane] = i if i >= 0 else nobody, o if o >= 0 else nobody
         first[group, lane], group_of[m], lane_of[m] = start[m], group, lane
-        size[group, lane] = start[m + 1] - start[m]
+        size[group, lane] = many
         lane += 1
     ends[1] = group + 1
-    for k in range(1, begun * MANIFOLD_POINTS):
+    for k in range(1, begun * RUNS):
         run_ends[k] = max(run_ends[k], run_ends[k - 1])
     return group + 1, rows, begun
 

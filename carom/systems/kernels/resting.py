@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import MANIFOLD_POINTS, POINT_SWEEPS
+from carom.systems.constants import POINT_SWEEPS
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
-from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, couplings, pair
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, RUNS, couplings, pair
 from carom.systems.kernels.impulses import pressed, rolled, struck
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import dot, three
@@ -77,7 +77,7 @@ def press_groups(
     passed = 1
     wait_for_all(crew, passed)
     for level in range(levels if begins else 0):
-        for run in range(MANIFOLD_POINTS * level, MANIFOLD_POINTS * (level + 1)):
+        for run in range(RUNS * level, RUNS * (level + 1)):
             begin, end = part_of_run(crew, run, run_ends)
             for g in range(begin, end):
                 if asks[g] != IDLE:
@@ -86,7 +86,7 @@ def press_groups(
         wait_for_all(crew, passed)
     for sweep in range(sweeps):
         for level in range(levels):
-            for run in range(MANIFOLD_POINTS * level, MANIFOLD_POINTS * (level + 1)):
+            for run in range(RUNS * level, RUNS * (level + 1)):
                 begin, end = part_of_run(crew, run, run_ends)
                 for g in range(begin, end):
                     if asks[g] == IDLE:
