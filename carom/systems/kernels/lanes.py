@@ -18,6 +18,7 @@ if numba.config.DISABLE_JIT:
     from carom.systems.kernels.lanes_plain import (
         address,
         choose,
+        fetch,
         gather,
         larger,
         load,
@@ -35,6 +36,7 @@ else:
     from carom.systems.kernels.lanes_compiled import (
         address,
         choose,
+        fetch,
         gather,
         larger,
         load,
@@ -54,6 +56,7 @@ __all__ = [
     "address",
     "aligned",
     "choose",
+    "fetch",
     "gather",
     "larger",
     "load",

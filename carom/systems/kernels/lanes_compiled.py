@@ -266,3 +266,19 @@ def scatter(typing, plane, index, group, lanes):
         return context.get_dummy_value()
 
     return types.void(types.int64, types.int64, types.int64, EIGHT), lower
+
+
+@intrinsic
+def fetch(typing, plane, index, group):
+    """Have the processor bring what `gather` returns into its cache, while it goes on."""
+
+    def lower(context, builder, sig, values):
+        byte, integer = ir.IntType(8).as_pointer(), ir.IntType(32)
+        kind = ir.FunctionType(ir.VoidType(), [byte, integer, integer, integer])
+        prefetch = cgutils.get_or_insert_function(builder.module, kind, "llvm.prefetch.p0i8")
+        for places in _blocks(builder, *values):
+            for place in places:
+                builder.call(prefetch, [builder.bitcast(place, byte), integer(0), integer(3), integer(1)])
+        return context.get_dummy_value()
+
+    return types.void(types.int64, types.int64, types.int64), lower

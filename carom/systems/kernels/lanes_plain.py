@@ -76,3 +76,7 @@ def gather(plane, index, group):
 def scatter(plane, index, group, lanes):
     """Write what `gather` returns."""
     plane[index[group]] = np.array(lanes).T
+
+
+def fetch(plane, index, group):
+    """Have the processor bring what `gather` returns into its cache: here, nothing."""

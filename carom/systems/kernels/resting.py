@@ -12,6 +12,7 @@ from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import (
     address,
+    fetch,
     gather,
     larger,
     load,
@@ -81,6 +82,7 @@ def press_groups(
             begin, end = part_of_run(crew, run, run_ends)
             for g in range(begin, end):
                 if asks[g] != IDLE:
+                    fetch_next(g, end, index_a, index_b, bodies)
                     press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
         passed += 1
         wait_for_all(crew, passed)
@@ -91,6 +93,7 @@ def press_groups(
                 for g in range(begin, end):
                     if asks[g] == IDLE:
                         continue
+                    fetch_next(g, end, index_a, index_b, bodies)
                     rate, hardness = soft if g < ends[0] else rigid
                     press(
                         g, row[g], points[g], asks[g], 1.0 / h, rate, hardness,
@@ -101,6 +104,14 @@ def press_groups(
             passed += 1
             wait_for_all(crew, passed)
     read_velocities(mine, velocity, linear, angular)
+
+
+@woven
+def fetch_next(g, end, index_a, index_b, bodies):
+    """Have the velocities fetched that the group after g is of, which lie anywhere, while g is being solved."""
+    if g + 1 < end:
+        fetch(bodies[VELOCITY], index_a, g + 1)
+        fetch(bodies[VELOCITY], index_b, g + 1)
 
 
 @woven
