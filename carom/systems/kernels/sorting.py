@@ -7,7 +7,7 @@ from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import gap_of_ball, pose_of_other
 from carom.systems.kernels.balls_in_lanes import are_balls, measure_balls_in_lanes
-from carom.systems.kernels.crew import part_of, shared
+from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.filling import find_tangents, place_points
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
@@ -101,14 +101,13 @@ def sort_groups(
         others = some(rests - before) or some(before - rests)
         changed |= others
         held = which(rests)
-        for lane in range(WIDTH):
-            if held >> lane & 1:
-                number += 1
-                as_ball = 1 if lanes[r + of.BALL, lane] > 0.0 else 0
-                for i in (index_a[g, lane], index_b[g, lane]):
-                    leans[as_ball, i] = True
-                    if i < len(touching):
-                        touching[i] = True
+        if held:
+            as_balls = which(load(rows, r + of.BALL))
+            for lane in range(WIDTH):
+                if held >> lane & 1:
+                    number += 1
+                    as_ball = as_balls >> lane & 1
+                    leans[as_ball, index_a[g, lane]] = leans[as_ball, index_b[g, lane]] = True
         if others or stale[g] or joined or (fresh[g] and points[g] > 1):
             for lane in range(WIDTH):
                 c = first[g, lane]
@@ -124,6 +123,10 @@ def sort_groups(
         elif asks[g] != IDLE and (changed or moved_on):
             prepare(g, r, points[g], asks[g], rests, of_a, of_b, masses_a, masses_b, rows, packed)
     numbers[crew[1]] = number
+    wait_for_all(crew, 1)
+    begin, end = part_of(crew, len(touching))
+    for i in range(begin, end):
+        touching[i] |= leans[0, i] | leans[1, i]
 
 
 @woven
