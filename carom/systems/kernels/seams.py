@@ -23,6 +23,12 @@ def hide_at_seams(
     have sunk in. Balls have exact impacts, which know the edges they pass.
     """
     count, rows = len(row_a), len(shape)
+    glides, gliding = np.empty(rows, np.bool_), 0
+    for i in range(rows):
+        glides[i] = body_row[i] >= 0 and shape[i] != SPHERE_SHAPE and shape[i] != POINT_SHAPE
+        gliding += glides[i]
+    if gliding == 0:
+        return 0
     beginning, pairs = np.empty(count, np.int64), 0
     compound = np.zeros(rows, np.bool_)
     for c in range(count):
@@ -38,12 +44,11 @@ def hide_at_seams(
         if o >= 0 and o != b:
             compound[o] = True
 
-    glides, lies, gliding, lying = np.empty(rows, np.bool_), np.empty(rows, np.bool_), 0, 0
+    lies, lying = np.empty(rows, np.bool_), 0
     for i in range(rows):
-        glides[i] = body_row[i] >= 0 and shape[i] != SPHERE_SHAPE and shape[i] != POINT_SHAPE
         lies[i] = shape[i] == BOX_SHAPE and (body_row[i] < 0 or compound[body_row[i]])
-        gliding, lying = gliding + glides[i], lying + lies[i]
-    if gliding == 0 or lying < 2:
+        lying += lies[i]
+    if lying < 2:
         return 0
 
     # The manifolds that what glides has with boxes that may hide each other, as slices of one array.
