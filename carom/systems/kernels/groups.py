@@ -99,10 +99,11 @@ def group_manifolds(
     for m in range(count):
         level[m] += stands[m] * levels
         idle[level[m]] += not resting[start[m]]
-    forms = 2 * RUNS  # in a level by their points, the most first, and at last those that are even; then those idle
+    kinds = MANIFOLD_POINTS + 1  # in a level by their points, the most first, and at last those that are even
+    forms = 2 * kinds  # then the same of those that are idle
     begin = np.zeros(2 * levels * forms + 1, np.int64)
     for m in range(count):
-        form[m] += level[m] * forms + (0 if resting[start[m]] or idle[level[m]] < WIDTH else RUNS)
+        form[m] += level[m] * forms + (0 if resting[start[m]] or idle[level[m]] < WIDTH else kinds)
         begin[form[m] + 1] += 1
     for k in range(1, len(begin)):
         begin[k] += begin[k - 1]
@@ -119,7 +120,7 @@ def group_manifolds(
                 begun += 1
             group, lane, last = group + 1, 0, level[m]
             row[group], points[group], even[group] = rows, many, alike[m]
-            run_ends[begun * RUNS - (1 if form[m] % forms >= RUNS else 1 + points[group])] = group + 1
+            run_ends[begun * RUNS - (1 if form[m] % forms >= kinds else 1 + points[group])] = group + 1
             rows += couplings(0, points[group]) + pair(points[group], 0)
             if alike[m]:
                 row[group], rows = row[group] - SPARED, rows - SPARED - (POINT_ROWS - AT)
