@@ -22,9 +22,10 @@ from carom.ecs.errors import (
     NonFiniteError,
     SnapshotError,
 )
+from carom.ecs.phase import Phase
 from carom.ecs.prefab import Prefab
 from carom.ecs.query import Query
-from carom.ecs.schedule import Phase, Schedule
+from carom.ecs.schedule import Schedule
 from carom.ecs.snapshot import Snapshot, restore_snapshot, state_hash, take_snapshot
 from carom.ecs.snapshot_bytes import bytes_from_snapshot, snapshot_from_bytes
 from carom.ecs.snapshot_file import load_snapshot, save_snapshot

@@ -4,61 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
-from time import perf_counter_ns
 from typing import TYPE_CHECKING, Final
 
 from carom.ecs.access import Kind
-from carom.ecs.commands import apply_commands
 from carom.ecs.component import Record
 from carom.ecs.errors import DeclarationError, did_you_mean
-from carom.ecs.system import Condition, Question, System
+from carom.ecs.phase import AfterSystem, Frame, Phase
+from carom.ecs.system import System
 from carom.ecs.timings import COMMANDS, Timings
 
 if TYPE_CHECKING:
     from carom.ecs.world import World
-
-Repeat = Callable[["World"], int]
-AfterSystem = Callable[[System], None]
-
-
-class Phase:
-    """Systems in order under one name, run ``repeat(world)`` times with the time step divided among the repeats.
-
-    ``when`` is asked before each repeat, and where it does not hold that was the last; it reads what the systems of the
-    phase declare. A phase may stand within another, between systems: it is run in each repeat of that one.
-    """
-
-    def __init__(
-        self, name: str, *parts: System | Phase, repeat: Repeat | None = None, when: Condition | None = None
-    ) -> None:
-        for stray in parts:
-            if not isinstance(stray, System | Phase):
-                raise DeclarationError(
-                    f"phase '{name}' takes systems, received {getattr(stray, '__name__', repr(stray))}; "
-                    f"write @system(reads=..., writes=...) above the function"
-                )
-        self.name: Final = name
-        self.parts: Final = tuple((part, part.name) for part in parts)
-        self.repeat: Final = repeat
-        self.when: Final = when
-        systems = tuple(system for _, system in self)
-        self.question: Final = (
-            None if when is None else Question(when, f"phase '{name}'", "one of its systems", systems)
-        )
-
-    def __iter__(self) -> Iterator[tuple[Phase, System]]:
-        for part, _ in self.parts:
-            if isinstance(part, Phase):
-                yield from part
-            else:
-                yield self, part
-
-    def exchanged(self, exchange: Callable[[System], tuple[System, ...]]) -> Phase:
-        """Return this phase with each system exchanged for others."""
-        parts: list[System | Phase] = []
-        for part, _ in self.parts:
-            parts += (part.exchanged(exchange),) if isinstance(part, Phase) else exchange(part)
-        return Phase(self.name, *parts, repeat=self.repeat, when=self.when)
 
 
 class Schedule:
@@ -78,48 +34,9 @@ class Schedule:
             world.add(Timings())
         timings = world.resources[Timings]
         assert isinstance(timings, Timings)
-        spent, calls = timings.begin(self._names)
         try:
             with world.faces(None):
-                began = perf_counter_ns()  # one reading ends a system and begins the next: nothing is left out
-
-                def go(phase: Phase, dt: float) -> bool:
-                    nonlocal began
-                    repeats = 1 if phase.repeat is None else phase.repeat(world)
-                    share = dt / max(repeats, 1)
-                    for done in range(repeats):
-                        if phase.question and not phase.question.holds(world, checked=checked):
-                            return done > 0
-                        for part, name in phase.parts:
-                            if isinstance(part, Phase):
-                                world.running = None
-                                go(part, share)
-                                continue
-                            world.running = part
-                            if part.question and not part.question.holds(world, checked=checked):
-                                continue
-                            if checked:
-                                part.guarded(world, share)
-                            else:
-                                part.function(world, share)
-                            now = perf_counter_ns()
-                            spent[name] += now - began
-                            calls[name] += 1
-                            began = now
-                            if after is not None:
-                                after(part)
-                                began = perf_counter_ns()
-                    return True
-
-                for phase in self.phases:
-                    if not go(phase, dt):
-                        continue
-                    world.running = None
-                    apply_commands(world)
-                    now = perf_counter_ns()
-                    spent[COMMANDS] += now - began
-                    calls[COMMANDS] += 1
-                    began = now
+                Frame(world, checked, after, *timings.begin(self._names)).go_through(self.phases, dt)
         finally:
             world.running = None
 

@@ -16,7 +16,7 @@ from carom.ecs.timings import COMMANDS, Timings
 def ticking(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Replace the clock by a number of milliseconds that systems add to."""
     now = [0]
-    monkeypatch.setattr("carom.ecs.schedule.perf_counter_ns", lambda: now[0] * 1_000_000)
+    monkeypatch.setattr("carom.ecs.phase.perf_counter_ns", lambda: now[0] * 1_000_000)
     return now
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import subprocess
 import sys
@@ -129,3 +130,24 @@ def test_settings_set_later_are_those_that_the_world_steps_by() -> None:
     simulation.step()
     assert simulation.time == 0.5
     assert simulation.world[Motion].linear[simulation.world.row(ball), 1] == 2.0
+
+
+@pytest.mark.parametrize("checked", [False, True])
+def test_a_step_leaves_nothing_to_the_garbage_collector(checked: bool) -> None:
+    """Which would halt a game for as long as it takes to look through all objects there are, 40 ms and more."""
+    simulation = thrown(checked=checked)
+    box = {"collider": {"box": {"size": (1.0, 1.0, 1.0)}}, "body": {}}
+    for k in range(3):
+        simulation.add(name=f"box{k}", transform={"position": (3.0, 0.5 + k, 0.0)}, **box)
+    simulation.add(collider={"sphere": {"radius": 1.0}, "sensor": True})
+    simulation.add(joint={"ball": {"b": "box2", "at": (3.0, 4.0, 0.0)}})
+    simulation.force("wind", velocity=(1.0, 0.0, 0.0))
+    simulation.force("quadratic_drag", area=0.1)
+    simulation.step(120)  # by then all kernels are loaded, which does leave something
+    gc.collect()
+    gc.disable()
+    try:
+        simulation.step(60)
+        assert gc.collect() == 0
+    finally:
+        gc.enable()

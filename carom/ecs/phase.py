@@ -1,0 +1,116 @@
+"""Phases: systems in order under one name, and a frame on its way through them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from time import perf_counter_ns
+from typing import TYPE_CHECKING, Final
+
+from carom.ecs.commands import apply_commands
+from carom.ecs.errors import DeclarationError
+from carom.ecs.system import Condition, Question, System
+from carom.ecs.timings import COMMANDS
+
+if TYPE_CHECKING:
+    from carom.ecs.world import World
+
+Repeat = Callable[["World"], int]
+AfterSystem = Callable[[System], None]
+
+
+class Phase:
+    """Systems in order under one name, run ``repeat(world)`` times with the time step divided among the repeats.
+
+    ``when`` is asked before each repeat, and where it does not hold that was the last; it reads what the systems of the
+    phase declare. A phase may stand within another, between systems: it is run in each repeat of that one.
+    """
+
+    def __init__(
+        self, name: str, *parts: System | Phase, repeat: Repeat | None = None, when: Condition | None = None
+    ) -> None:
+        for stray in parts:
+            if not isinstance(stray, System | Phase):
+                raise DeclarationError(
+                    f"phase '{name}' takes systems, received {getattr(stray, '__name__', repr(stray))}; "
+                    f"write @system(reads=..., writes=...) above the function"
+                )
+        self.name: Final = name
+        self.parts: Final = tuple((part, part.name) for part in parts)
+        self.repeat: Final = repeat
+        self.when: Final = when
+        systems = tuple(system for _, system in self)
+        self.question: Final = (
+            None if when is None else Question(when, f"phase '{name}'", "one of its systems", systems)
+        )
+
+    def __iter__(self) -> Iterator[tuple[Phase, System]]:
+        for part, _ in self.parts:
+            if isinstance(part, Phase):
+                yield from part
+            else:
+                yield self, part
+
+    def exchanged(self, exchange: Callable[[System], tuple[System, ...]]) -> Phase:
+        """Return this phase with each system exchanged for others."""
+        parts: list[System | Phase] = []
+        for part, _ in self.parts:
+            parts += (part.exchanged(exchange),) if isinstance(part, Phase) else exchange(part)
+        return Phase(self.name, *parts, repeat=self.repeat, when=self.when)
+
+
+class Frame:
+    """One frame on its way through phases; ``began`` is when (ns) the system that runs did.
+
+    One reading of the clock ends a system and begins the next, so that nothing is left out. An object and not a
+    function within another that calls itself: a frame leaves nothing behind for the garbage collector, which would halt
+    a game for 40 ms once in a while.
+    """
+
+    __slots__ = "after", "began", "calls", "checked", "spent", "world"
+
+    def __init__(
+        self, world: World, checked: bool, after: AfterSystem | None, spent: dict[str, int], calls: dict[str, int]
+    ) -> None:
+        self.world, self.checked, self.after, self.spent, self.calls = world, checked, after, spent, calls
+        self.began = perf_counter_ns()
+
+    def go_through(self, phases: tuple[Phase, ...], dt: float) -> None:
+        """Run phases, and the commands asked for in each behind it."""
+        world = self.world
+        for phase in phases:
+            if self.run(phase, dt):
+                world.running = None
+                apply_commands(world)
+                self._note(COMMANDS)
+
+    def run(self, phase: Phase, dt: float) -> bool:
+        """Run a phase of ``dt`` seconds; tell whether it has run at all."""
+        world, checked = self.world, self.checked
+        repeats = 1 if phase.repeat is None else phase.repeat(world)
+        share = dt / max(repeats, 1)
+        for done in range(repeats):
+            if phase.question and not phase.question.holds(world, checked=checked):
+                return done > 0
+            for part, name in phase.parts:
+                if isinstance(part, Phase):
+                    world.running = None
+                    self.run(part, share)
+                    continue
+                world.running = part
+                if part.question and not part.question.holds(world, checked=checked):
+                    continue
+                if checked:
+                    part.guarded(world, share)
+                else:
+                    part.function(world, share)
+                self._note(name)
+                if self.after is not None:
+                    self.after(part)
+                    self.began = perf_counter_ns()
+        return True
+
+    def _note(self, name: str) -> None:
+        now = perf_counter_ns()
+        self.spent[name] += now - self.began
+        self.calls[name] += 1
+        self.began = now
