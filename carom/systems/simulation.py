@@ -47,6 +47,7 @@ from carom.systems.particles.fields import Fields
 from carom.systems.places import extended
 from carom.systems.pushes import Pushes, push
 from carom.systems.queries.space import Space
+from carom.systems.rehearsal import Rehearsal
 from carom.systems.resources import resources
 from carom.systems.settings import Settings, settings_of
 from carom.systems.step import STEP, has_strangers
@@ -204,6 +205,8 @@ class Simulation:
         """
         if count < 0:
             raise DeclarationError(f"step takes 0 steps or more, received {count}")
+        if Rehearsal.due:
+            Rehearsal.hold(Simulation(checked=False))
         for _ in range(count):
             before = take_snapshot(self.world) if self.watched or self.breakpoints else None
             stopped = None

@@ -75,6 +75,21 @@ def test_compiling_is_told_once_and_loading_is_silent(program: Program) -> None:
     assert len(program.files) == 4  # one for each type of `twice`, and the kernels
 
 
+def test_where_only_what_is_stored_is_loaded_nothing_is_compiled(program: Program) -> None:
+    """What is not stored is refused, and compiled when it is called again."""
+    words = (
+        "import doubling",
+        "from carom.systems.kernels.stored import Loading, NotStoredError",
+        "load = Loading.only",
+        "exec('with load():\\n try: print(doubling.of_fractions(1))\\n except NotStoredError as e: print(e)')",
+    )
+    assert program.start(*words).communicate() == ("of_fractions\n", "")
+    assert program.files == []
+    call = ("print(doubling.of_fractions(1))",)
+    assert program.start(*words, *call).communicate() == ("of_fractions\n1.0\n", MESSAGE)
+    assert program.start(*words).communicate() == ("1.0\n", "")
+
+
 def test_what_cannot_be_read_is_compiled_anew(program: Program) -> None:
     """A pickle of a class that has moved, and half a file."""
     program.run()

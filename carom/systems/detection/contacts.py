@@ -49,6 +49,9 @@ def find_contacts(world: World, dt: float) -> None:
     """Fill the contact table with every pair that touches or may touch within the step; note those of sensors."""
     contact = world[Contact]
     world[Sensing].forget()
+    if world[Resting].structure != world.structure:  # now, and not where somebody first meets a mesh
+        world[PackedHulls].holding(world)
+        world[PackedMeshes].holding(world)
     if contact.count:
         contact.impulse[: contact.count] = contact.friction_impulse[: contact.count] = 0.0
     detect(world, dt, dt / world[Settings].substeps)

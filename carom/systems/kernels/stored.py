@@ -6,7 +6,8 @@ from __future__ import annotations
 import hashlib
 import pickle
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
@@ -32,6 +33,26 @@ class Announcement:
         if cls.due:
             cls.due = False
             print(MESSAGE, file=sys.stderr, flush=True)
+
+
+class NotStoredError(Exception):
+    """A function was called that would have to be compiled, where only what is stored is to be loaded."""
+
+
+class Loading:
+    """Whether all that is called must be ``stored`` already, so that nothing is compiled."""
+
+    stored = False
+
+    @classmethod
+    @contextmanager
+    def only(cls) -> Iterator[None]:
+        """Refuse to compile: what would be raises NotStoredError."""
+        cls.stored = True
+        try:
+            yield
+        finally:
+            cls.stored = False
 
 
 class Files:
@@ -104,5 +125,7 @@ class Stored(FunctionCache):
         except Exception:  # what another version left: unpickling calls whatever that names
             found = None
         if found is None:
+            if Loading.stored:
+                raise NotStoredError(self._function.__qualname__)
             Announcement.make()
         return found
