@@ -7,19 +7,20 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APPROACH, BLOW_SWEEPS, PATIENCE, REST_SPEED_FACTOR, SOLVED, TOUCH
+from carom.systems.constants import APPROACH, BLOW_SWEEPS, IMMOVABLE, PATIENCE, REST_SPEED_FACTOR, SOLVED, TOUCH
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.bodies import (
     hardness,
+    movable_of,
     pressed_by_forces,
     pressing_of,
     push_at,
     pushed,
     stop_pressing,
     surface_velocity,
-    yielding,
 )
 from carom.systems.kernels.kernel import inlined, making
+from carom.systems.kernels.point_coupling import couple_points, part_points, parted, yields_at
 from carom.systems.kernels.spatial import cross
 
 
@@ -117,23 +118,26 @@ def blow(
         pressing = max(pressing, pressing_of(b, a, nx, ny, nz, acceleration))
     n = end - first
     ease, least, given, aside = np.zeros(n), np.zeros(n), np.zeros((n, 4)), np.zeros(n)
-    speed = 0.0
+    coupling, slips = np.zeros((n, n, 9)), np.zeros((n, 3))
     for m in range(n):
         c = first + m
-        if -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned) > TOUCH:
-            continue
-        meet(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned, share)
-        k = yielding_of_pair(
-            c, a, b, nx, ny, nz, offset_a, offset_b, inverse_mass, inverse_inertia, principal, freedom, rotation
+        if -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned) <= TOUCH:
+            meet(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned, share)
+            ease[m] = 1.0  # it touches
+    for body, offset in ((a, offset_a), (b, offset_b)):
+        couple_points(
+            body, first, n, offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling
         )  # fmt: skip
-        ease[m] = hardness(k, a, b, inverse_mass)
-        if ease[m] == 0.0:
-            continue
-        sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
-        speed = max(speed, -(nx * sx + ny * sy + nz * sz))
+    speed = 0.0
+    for m in range(n):
+        ease[m] *= hardness(yields_at(m, nx, ny, nz, coupling), a, b, inverse_mass)
+        slips[m, 0], slips[m, 1], slips[m, 2] = slip_of_pair(first + m, a, b, offset_a, offset_b, linear, angular)
+        if ease[m] > 0.0:
+            speed = max(speed, -(nx * slips[m, 0] + ny * slips[m, 1] + nz * slips[m, 2]))
     if speed <= APPROACH:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, True
     bounce = restitution[first] if speed > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
+    movable, solved = movable_of(a, b, inverse_mass), SOLVED * max(1.0, speed)
     for restoring in (False, True):  # until no point closes, then with what the bodies give back
         if restoring:
             if bounce == 0.0:
@@ -141,56 +145,40 @@ def blow(
             for m in range(n):
                 least[m] = (1.0 + bounce) * given[m, 0]
         for sweep in range(BLOW_SWEEPS):
-            change = 0.0
+            going = False
             for m in range(n):
                 if ease[m] == 0.0:
                     continue
                 c = first + m
-                sx, sy, sz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
+                sx, sy, sz = slips[m, 0], slips[m, 1], slips[m, 2]
                 before = given[m, 0]
                 step = ease[m]
                 if sweep >= BLOW_SWEEPS // 2:
                     step /= 1.0 + friction[first] * aside[m] * step
                 given[m, 0] = max(least[m], before - step * (nx * sx + ny * sy + nz * sz))
                 j = given[m, 0] - before
-                change = max(change, abs(j) / ease[m])
-                push_pair(
-                    c, a, b, j * nx, j * ny, j * nz, offset_a, offset_b,
-                    linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
-                )  # fmt: skip
-                if friction[first] == 0.0:
-                    continue
-                ux, uy, uz = slip_of_pair(c, a, b, offset_a, offset_b, linear, angular)
-                if sweep == 0 and j != 0.0:  # how fast it slips for a unit impulse along the normal
-                    dx, dy, dz = cross(nx, ny, nz, ux - sx, uy - sy, uz - sz)
-                    aside[m] = sqrt(dx * dx + dy * dy + dz * dz) / abs(j)
-                sx, sy, sz = ux + surface[c, 0], uy + surface[c, 1], uz + surface[c, 2]
-                along = nx * sx + ny * sy + nz * sz
-                sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
-                size = sqrt(sx * sx + sy * sy + sz * sz)
-                if size <= SOLVED:
-                    continue
-                k = yielding_of_pair(
-                    c, a, b, sx / size, sy / size, sz / size, offset_a, offset_b,
-                    inverse_mass, inverse_inertia, principal, freedom, rotation,
-                )  # fmt: skip
-                if hardness(k, a, b, inverse_mass) == 0.0:  # what rubs there moves neither
-                    continue
-                px, py, pz = given[m, 1], given[m, 2], given[m, 3]
-                fx, fy, fz = px - sx / k, py - sy / k, pz - sz / k
-                size = sqrt(fx * fx + fy * fy + fz * fz)
-                most = friction[first] * given[m, 0]
-                if size > most:
-                    fx, fy, fz = fx * (most / size), fy * (most / size), fz * (most / size)
-                given[m, 1], given[m, 2], given[m, 3] = fx, fy, fz
-                jx, jy, jz = fx - px, fy - py, fz - pz
-                change = max(change, sqrt(jx * jx + jy * jy + jz * jz) * k)
-                push_pair(
-                    c, a, b, jx, jy, jz, offset_a, offset_b,
-                    linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
-                )  # fmt: skip
-            if change <= SOLVED * max(1.0, speed):
+                going |= abs(j) > solved * ease[m]
+                jx, jy, jz = j * nx, j * ny, j * nz
+                if friction[first] > 0.0:
+                    ux, uy, uz = parted(m, m, jx, jy, jz, coupling)
+                    if sweep == 0 and j != 0.0:  # how fast it slips for a unit impulse along the normal
+                        dx, dy, dz = cross(nx, ny, nz, ux, uy, uz)
+                        aside[m] = sqrt(dx * dx + dy * dy + dz * dz) / abs(j)
+                    fx, fy, fz, k = rub_point(
+                        m, nx, ny, nz, sx + ux + surface[c, 0], sy + uy + surface[c, 1], sz + uz + surface[c, 2],
+                        friction[first], movable, coupling, given,
+                    )  # fmt: skip
+                    going |= fx * fx + fy * fy + fz * fz > (solved * k) ** 2
+                    jx, jy, jz = jx + fx, jy + fy, jz + fz
+                part_points(m, jx, jy, jz, coupling, slips)
+            if not going:
                 break
+    for m in range(n):
+        j = given[m, 0]
+        push_pair(
+            first + m, a, b, j * nx + given[m, 1], j * ny + given[m, 2], j * nz + given[m, 3], offset_a, offset_b,
+            linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
+        )  # fmt: skip
     if bounce == 0.0:  # what presses them is taken out of their arcs, as a contact force would
         if b >= 0:
             stop_pressing(b, a, nx, ny, nz, inverse_mass, freedom, acceleration)
@@ -209,6 +197,29 @@ def blow(
     if total > 0.0:
         px, py, pz = px / total, py / total, pz / total
     return speed, total, px, py, pz, fx, fy, fz, bounce == 0.0
+
+
+@inlined
+def rub_point(m, nx, ny, nz, sx, sy, sz, friction, movable, coupling, given):
+    """Change the friction ``given`` at point m, which slips at s, so that it holds, within Coulomb's cone.
+
+    Return by how much, and which impulse changes by 1 m/s how fast it slips; 0 where it does not, or locks forbid it.
+    """
+    along = nx * sx + ny * sy + nz * sz
+    sx, sy, sz = sx - along * nx, sy - along * ny, sz - along * nz
+    squared = sx * sx + sy * sy + sz * sz
+    yields = yields_at(m, sx, sy, sz, coupling)
+    if squared <= SOLVED * SOLVED or yields <= IMMOVABLE * movable * squared:
+        return 0.0, 0.0, 0.0, 0.0
+    ease = squared / yields
+    px, py, pz = given[m, 1], given[m, 2], given[m, 3]
+    fx, fy, fz = px - ease * sx, py - ease * sy, pz - ease * sz
+    size, most = fx * fx + fy * fy + fz * fz, friction * given[m, 0]
+    if size > most * most:
+        share = most / sqrt(size)
+        fx, fy, fz = share * fx, share * fy, share * fz
+    given[m, 1], given[m, 2], given[m, 3] = fx, fy, fz
+    return fx - px, fy - py, fz - pz, ease
 
 
 @inlined
@@ -236,19 +247,6 @@ def slip_of_pair(c, a, b, offset_a, offset_b, linear, angular):
     ax, ay, az = surface_velocity(a, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2], linear, angular)
     bx, by, bz = surface_velocity(b, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2], linear, angular)
     return bx - ax, by - ay, bz - az
-
-
-@inlined
-def yielding_of_pair(c, a, b, x, y, z, offset_a, offset_b, inverse_mass, inverse_inertia, principal, freedom, rotation):
-    """Return by how much contact c parts along a unit vector for a unit impulse along it."""
-    of_a = yielding(
-        a, x, y, z, x, y, z, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2],
-        inverse_mass, inverse_inertia, principal, freedom, rotation,
-    )  # fmt: skip
-    return of_a + yielding(
-        b, x, y, z, x, y, z, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2],
-        inverse_mass, inverse_inertia, principal, freedom, rotation,
-    )  # fmt: skip
 
 
 @inlined

@@ -74,20 +74,13 @@ def inverse_mass_along(i, nx, ny, nz, inverse_mass, freedom):
 @inlined
 def hardness(yields, a, b, inverse_mass):
     """Return 1 / yields: which impulse parts two bodies by 1 m/s along a direction; 0 where locks all but forbid it."""
-    movable = (inverse_mass[a] if a >= 0 else 0.0) + (inverse_mass[b] if b >= 0 else 0.0)
-    return 1.0 / yields if yields > IMMOVABLE * movable else 0.0
+    return 1.0 / yields if yields > IMMOVABLE * movable_of(a, b, inverse_mass) else 0.0
 
 
 @inlined
-def yielding(i, dx, dy, dz, ex, ey, ez, rx, ry, rz, inverse_mass, inverse_inertia, principal, freedom, rotation):
-    """Return d . K e of body i: the velocity along d at r that a unit impulse along e there causes."""
-    if i < 0:
-        return 0.0
-    tx, ty, tz = cross(rx, ry, rz, ex, ey, ez)
-    wx, wy, wz = turned_by(i, tx, ty, tz, inverse_inertia, principal, freedom, rotation)
-    vx, vy, vz = cross(wx, wy, wz, rx, ry, rz)
-    along = dx * ex * freedom[i, 0] + dy * ey * freedom[i, 1] + dz * ez * freedom[i, 2]
-    return inverse_mass[i] * along + dx * vx + dy * vy + dz * vz
+def movable_of(a, b, inverse_mass):
+    """Return the inverse mass of two bodies against each other; -1 is none."""
+    return (inverse_mass[a] if a >= 0 else 0.0) + (inverse_mass[b] if b >= 0 else 0.0)
 
 
 @inlined
