@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator, Sequence
 from importlib.util import find_spec
 from math import inf
-from statistics import median
+from statistics import fmean, median
 
 from carom.tools.bench.contact_scenes import Scene
 from carom.tools.bench.engines import ENGINES, Engine
@@ -20,29 +20,44 @@ def race(
 ) -> Generator[Figure, None, dict[str, Engine]]:
     """Yield what a step takes each engine that is installed, and us by each; return the engines as they are then.
 
-    Time by that of ``peers`` is at most ``ratio``: of the processor, of more threads than one on the wall.
+    Once all has settled, and from the start. Settled time by that of ``peers`` is at most ``ratio``: of the processor,
+    of more threads than one on the wall.
     """
     there = {engine: make for engine, make in ENGINES.items() if engine == OURS or find_spec(engine)}
     found = {engine: make(scene, threads) for engine, make in there.items()}
     taken = dict(zip(found, stepped(list(found.values()), scene.steps), strict=True))
-    ours = taken[OURS]
     by: By = "cpu" if threads == 1 else "wall"
-    for engine, theirs in taken.items():
-        yield Figure(
-            f"{name}, {engine}", "ms a step", 1e3 * theirs.wall, 1e3 * theirs.cpu, inf, by, repeats=theirs.repeats
-        )
-        if engine != OURS:
-            wall, cpu = ours.wall / theirs.wall, ours.cpu / theirs.cpu
-            bound = ratio if engine in peers else inf
-            yield Figure(f"{name}, {OURS} by {engine}", "x", wall, cpu, bound, by, repeats=ours.repeats)
+    for told, sum_up in (("", settled), (", from the start", whole)):
+        times = {engine: sum_up(timings) for engine, timings in taken.items()}
+        ours = times[OURS]
+        for engine, theirs in times.items():
+            yield Figure(
+                f"{name}, {engine}{told}", "ms a step", 1e3 * theirs.wall, 1e3 * theirs.cpu, inf, by,
+                repeats=theirs.repeats,
+            )  # fmt: skip
+            if engine != OURS:
+                wall, cpu = ours.wall / theirs.wall, ours.cpu / theirs.cpu
+                bound = ratio if engine in peers and sum_up is settled else inf
+                yield Figure(f"{name}, {OURS} by {engine}{told}", "x", wall, cpu, bound, by, repeats=ours.repeats)
     return found
 
 
-def stepped(engines: list[Engine], steps: int) -> list[Timing]:
-    """Step all, in turns; return the median of each over the last third of its steps, when what falls has settled."""
+def stepped(engines: list[Engine], steps: int) -> list[list[Timing]]:
+    """Step all, in turns; return what each step took each."""
     taken: list[list[Timing]] = [[] for _ in engines]
     for first in range(0, steps, TURN):
         for engine, timings in zip(engines, taken, strict=True):
             timings.extend(timed(engine.step, 1) for _ in range(min(TURN, steps - first)))
-    kept = [timings[-(steps // 3) :] for timings in taken]
-    return [Timing(median(t.wall for t in tail), median(t.cpu for t in tail), len(tail)) for tail in kept]
+    return taken
+
+
+def settled(timings: list[Timing]) -> Timing:
+    """Return the median of the last third of the steps, when what falls has settled."""
+    tail = timings[-(len(timings) // 3) :]
+    return Timing(median(t.wall for t in tail), median(t.cpu for t in tail), len(tail))
+
+
+def whole(timings: list[Timing]) -> Timing:
+    """Return the mean of all steps but the first, in which much is loaded: what falls meets all at once."""
+    rest = timings[1:]
+    return Timing(fmean(t.wall for t in rest), fmean(t.cpu for t in rest), len(rest))
