@@ -9,13 +9,11 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
-from carom.ecs.spatial import quaternion
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.narrow import Found
-from carom.systems.kernels.fast_pairs import NUMBERS, find_agreeing, find_fast
+from carom.systems.kernels.fast_pairs import NUMBERS, find_agreeing, find_fast, place_fast
 from carom.systems.kernels.meeting import foresee_meetings
-from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
 
 
 class Fast(Resource):
@@ -41,23 +39,16 @@ class Fast(Resource):
         if not count:
             return
         given, reaches = self.pairs.copy(), self.numbers.copy()
-        swapped = np.isin(collider.shape[self.pairs[:, 1]], (MESH_SHAPE, FIELD_SHAPE))
-        self.pairs[swapped] = self.pairs[swapped, ::-1]
-        self.numbers[swapped, :2] = self.numbers[swapped, 1::-1]
-        bodies = pose.body_row[self.pairs]
-        carried, place, turn = (bodies >= 0)[..., None], pose.position[self.pairs], pose.rotation[self.pairs]
-        back = quaternion.conjugate(world[Transform].rotation[bodies])
-        self.position = np.where(carried, quaternion.rotate(back, place - center[bodies]), place)
-        self.rotation = np.where(carried, quaternion.multiply(back, turn), turn)
+        self.position, self.rotation, self._limited = np.empty((count, 2, 3)), np.empty((count, 2, 4)), True
+        place_fast(
+            self.pairs, self.numbers, collider.shape, pose.body_row, pose.position, pose.rotation,
+            center, world[Transform].rotation, self.position, self.rotation, self.turns,
+        )  # fmt: skip
         times, agrees = self._times(world, center, span, first_only=False), np.empty(count, np.bool_)
         find_agreeing(
             given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
             pose.body_row, center, motion.linear, motion.angular, agrees,
         )  # fmt: skip
-        turning = (bodies >= 0) & (self.numbers[:, :2] > 0.0)  # a ball about its body's centre turns without effect
-        trusted = np.broadcast_to(self.numbers[:, 3:], bodies.shape)[turning] / self.numbers[:, :2][turning]
-        np.minimum.at(self.turns, bodies[turning], trusted)
-        self._limited = True
         self.pairs, self.numbers = self.pairs[~agrees], self.numbers[~agrees]
         self.position, self.rotation = self.position[~agrees], self.rotation[~agrees]
 

@@ -9,7 +9,8 @@ from carom.systems.constants import FAST, LEAST_FAST, TRUST
 from carom.systems.kernels.contacts import is_centred, is_free_ball
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE
-from carom.systems.kernels.spatial import cross
+from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
+from carom.systems.kernels.spatial import cross, product, turn
 
 NEVER = 1e300
 #: Numbers of a pair: how far either core reaches from the centre of its body, which is the smaller, and how far a
@@ -108,6 +109,35 @@ def find_fast(
         numbers[count, 2], numbers[count, 3] = smaller, TRUST * smallest
         count += 1
     return count
+
+
+@kernel("pairs", "numbers", "position", "rotation", "turns")
+def place_fast(
+    pairs, numbers, shape, body_row, pose_position, pose_rotation, center, body_rotation, position, rotation, turns
+):  # fmt: skip
+    """Put the mesh of a pair first, and write where both shapes are: in the frames of their bodies, or in the world.
+
+    Each body is looked at again before it has ``turns`` (rad) by more than what a contact is trusted; a ball about its
+    body's centre turns without effect.
+    """
+    for p in range(len(pairs)):
+        if shape[pairs[p, 1]] == MESH_SHAPE or shape[pairs[p, 1]] == FIELD_SHAPE:
+            pairs[p, 0], pairs[p, 1] = pairs[p, 1], pairs[p, 0]
+            numbers[p, 0], numbers[p, 1] = numbers[p, 1], numbers[p, 0]
+        for side in range(2):
+            c = pairs[p, side]
+            i = body_row[c]
+            x, y, z = pose_position[c, 0], pose_position[c, 1], pose_position[c, 2]
+            q = (pose_rotation[c, 0], pose_rotation[c, 1], pose_rotation[c, 2], pose_rotation[c, 3])
+            if i >= 0:
+                bx, by, bz, bw = -body_rotation[i, 0], -body_rotation[i, 1], -body_rotation[i, 2], body_rotation[i, 3]
+                x, y, z = turn(bx, by, bz, bw, x - center[i, 0], y - center[i, 1], z - center[i, 2])
+                q = product(bx, by, bz, bw, q[0], q[1], q[2], q[3])
+                if numbers[p, side] > 0.0:
+                    turns[i] = min(turns[i], numbers[p, 3] / numbers[p, side])
+            position[p, side, 0], position[p, side, 1], position[p, side, 2] = x, y, z
+            for k in range(4):
+                rotation[p, side, k] = q[k]
 
 
 @kernel("agrees")
