@@ -10,9 +10,7 @@ from carom.systems.kernels.spatial import cross, product
 
 @inlined
 def inverse_inertia_of(i, inverse_inertia, principal, freedom, rotation):
-    """Return the upper half of the inverse inertia of body i in the world, as its locks leave it; of none, zeros."""
-    if i < 0:
-        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    """Return the upper half of the inverse inertia of body i in the world, as its locks leave it."""
     qx, qy, qz, qw = product(
         rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
         principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
