@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import accumulate, pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -137,24 +136,23 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
     counts = np.zeros((2, threads_of(crew), len(FUNCTIONS) + 1), np.int64)
     table = FUNCTION_OF if (collision or world[Settings].collision) == "auto" else NO_STAND_INS
     sort_by_function(crew, pairs, collider.shape, table, SWAPS, side, order, first, second, *counts)
-    begins = [0, *accumulate(counts[0].sum(axis=0).tolist())]
-    by_fcl = begins[1]
-    answered.fcl += by_fcl
-    answered.kernels += n - by_fcl
-    points = Points(n, sum(room * (end - begin) for room, (begin, end) in zip(ROOMS, pairwise(begins), strict=True)))
-    taken = measure_by_fcl(world, order[:by_fcl], pairs, reaches, points) if by_fcl else 0
-    hulls = world[PackedHulls].holding(world)
-    meshes = world[PackedMeshes].holding(world)
-    for number, function in enumerate(FUNCTIONS, 1):
-        bucket = slice(begins[number], begins[number + 1])
-        if bucket.stop > bucket.start:
-            count, room = bucket.stop - bucket.start, ROOMS[number]
-            function(
-                crew_for(world, count), order[bucket], first[bucket], second[bucket], reaches, taken, room,
-                collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls, meshes,
-                points.start, points.count, points.feature, points.normal, points.depth, points.point,
-            )  # fmt: skip
-            taken += room * count
+    buckets = [(number, count) for number, count in enumerate(counts[0].sum(axis=0).tolist()) if count]
+    points = Points(n, sum(ROOMS[number] * count for number, count in buckets))
+    hulls, meshes = world[PackedHulls].holding(world), world[PackedMeshes].holding(world)
+    begin = taken = 0
+    for number, count in buckets:
+        bucket, begin = slice(begin, begin + count), begin + count
+        if number == BY_FCL:
+            answered.fcl += count
+            taken = measure_by_fcl(world, order[bucket], pairs, reaches, points)
+            continue
+        answered.kernels += count
+        FUNCTIONS[number - 1](
+            crew_for(world, count), order[bucket], first[bucket], second[bucket], reaches, taken, ROOMS[number],
+            collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls, meshes,
+            points.start, points.count, points.feature, points.normal, points.depth, points.point,
+        )  # fmt: skip
+        taken += ROOMS[number] * count
     kept = keep_sound(world, pairs, reaches, points)
     found = Found.room(kept)
     collect_points(
