@@ -39,7 +39,8 @@ class Fast(Resource):
         if not count:
             return
         given, reaches = self.pairs.copy(), self.numbers.copy()
-        self.position, self.rotation, self._limited = np.empty((count, 2, 3)), np.empty((count, 2, 4)), True
+        self.position, self.rotation = np.empty((count, 2, 3)), np.empty((count, 2, 4))
+        self._limited = True
         place_fast(
             self.pairs, self.numbers, collider.shape, pose.body_row, pose.position, pose.rotation,
             center, world[Transform].rotation, self.position, self.rotation, self.turns,

@@ -10,7 +10,7 @@ import numba
 from carom.ecs import Motion
 from carom.systems.constants import SLEEP_TIME
 from carom.systems.detection.leaving import detection_holds
-from carom.systems.kernels.stored import Loading, NotStoredError
+from carom.systems.kernels.stored import NotStoredError, only_stored
 from carom.systems.step import STEP
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Rehearsal:
                         transform={"position": (4.0 * place, 0.5 + above, 4.0 * across)},
                         motion={"linear": (0.1, speed, 0.0)},
                     )  # fmt: skip
-        with Loading.only(), suppress(NotStoredError):
+        with only_stored(), suppress(NotStoredError):
             simulation.step(3)
             simulation.step(3, after=lambda system: None)  # system by system, as where somebody looks on
             with simulation.world.faces(None):

@@ -79,15 +79,26 @@ def test_where_only_what_is_stored_is_loaded_nothing_is_compiled(program: Progra
     """What is not stored is refused, and compiled when it is called again."""
     words = (
         "import doubling",
-        "from carom.systems.kernels.stored import Loading, NotStoredError",
-        "load = Loading.only",
-        "exec('with load():\\n try: print(doubling.of_fractions(1))\\n except NotStoredError as e: print(e)')",
+        "from carom.systems.kernels.stored import NotStoredError, only_stored",
+        "exec('with only_stored():\\n try: print(doubling.of_fractions(1))\\n except NotStoredError as e: print(e)')",
     )
     assert program.start(*words).communicate() == ("of_fractions\n", "")
     assert program.files == []
     call = ("print(doubling.of_fractions(1))",)
     assert program.start(*words, *call).communicate() == ("of_fractions\n1.0\n", MESSAGE)
     assert program.start(*words).communicate() == ("1.0\n", "")
+
+
+def test_other_threads_compile_meanwhile(program: Program) -> None:
+    """A world may take its first step where another one already needs a kernel that is not stored."""
+    words = (
+        "import doubling",
+        "from threading import Thread",
+        "from carom.systems.kernels.stored import only_stored",
+        "other = Thread(target=lambda: print(doubling.of_fractions(1)))",
+        "exec('with only_stored():\\n other.start()\\n other.join()')",
+    )
+    assert program.start(*words).communicate() == ("1.0\n", MESSAGE)
 
 
 def test_what_cannot_be_read_is_compiled_anew(program: Program) -> None:

@@ -15,7 +15,7 @@ from carom.tools.bench.contacts import ROWS, Row, compare, quality
 from carom.tools.bench.engines import Carom, rotation_vector
 from carom.tools.bench.measure import Timing
 from carom.tools.bench.overlap import box_overlap, lost, mean_overlap
-from carom.tools.bench.race import settled, stepped, whole
+from carom.tools.bench.race import settled, stepped
 
 
 @pytest.mark.parametrize(
@@ -119,11 +119,18 @@ def test_engines_take_turns() -> None:
     assert [len(each) for each in timings] == [24, 24]
 
 
-def test_the_last_third_counts_and_the_whole_is_told() -> None:
-    """The median of the one, and the mean of all but the first step, which loads what is needed."""
+@pytest.mark.parametrize(("threads", "factor"), [(1, 2.0), (2, 1.0)])
+def test_the_last_third_counts_and_the_whole_is_told(
+    monkeypatch: pytest.MonkeyPatch, threads: int, factor: float
+) -> None:
+    """The median of the one, and the mean of all but the first step: of the processor, or on the wall."""
     timings = [Timing(float(k), 2.0 * k, 1) for k in (100, 7, 7, 7, 1, 4, 3, 5, 2)]
     assert settled(timings) == Timing(3.0, 6.0, 3)
-    assert whole(timings) == Timing(4.5, 9.0, 8)
+    monkeypatch.setattr(race, "ENGINES", {"carom": Carom})
+    monkeypatch.setattr(race, "stepped", lambda engines, steps: [timings])
+    one, mean = race.race("one", at_rest(1, np.zeros((1, 3)), 0.5), (), 1.0, threads)
+    assert (one.wall, one.cpu) == (3e3, 6e3)
+    assert mean.wall == mean.cpu == factor * 4.5e3
 
 
 def test_a_scene_is_told_with_its_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -142,9 +149,8 @@ def test_a_scene_is_told_with_its_bounds(monkeypatch: pytest.MonkeyPatch) -> Non
         ("two, carom", "ms a step", math.inf),
         ("two, json", "ms a step", math.inf),
         ("two, carom by json", "x", 4.0),
-        ("two, carom, from the start", "ms a step", math.inf),
-        ("two, json, from the start", "ms a step", math.inf),
-        ("two, carom by json, from the start", "x", math.inf),
+        ("two, carom, mean from the start", "ms a step", math.inf),
+        ("two, json, mean from the start", "ms a step", math.inf),
         ("two, carom, mean overlap", "mm", 3.0),
         ("two, carom, farthest from its start", "m", 0.1),
         ("two, carom, lost", "bodies", 0.0),
@@ -152,8 +158,8 @@ def test_a_scene_is_told_with_its_bounds(monkeypatch: pytest.MonkeyPatch) -> Non
         ("two, json, farthest from its start", "m", math.inf),
         ("two, json, lost", "bodies", math.inf),
     ]
-    assert figures[6].wall == figures[9].wall
-    assert all(figure.holds for figure in figures[6:])
+    assert figures[5].wall == figures[8].wall
+    assert all(figure.holds for figure in figures[5:])
 
 
 def test_a_lost_body_fails_the_bench() -> None:

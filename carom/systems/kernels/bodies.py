@@ -6,7 +6,7 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import IMMOVABLE
-from carom.systems.kernels.freedom import held_inverse, held_turned
+from carom.systems.kernels.freedom import held_turned, inverse_inertia_of
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product, spun
 
@@ -53,13 +53,13 @@ def turned_by(i, tx, ty, tz, inverse_inertia, principal, freedom, rotation):
     fx, fy, fz = freedom[i, 3], freedom[i, 4], freedom[i, 5]
     if ix == iy and iy == iz:
         return fx * ix * tx, fy * ix * ty, fz * ix * tz
-    qx, qy, qz, qw = product(
-        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-        principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
-    )  # fmt: skip
     if fx + fy + fz == 3.0:
+        qx, qy, qz, qw = product(
+            rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
+            principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
+        )  # fmt: skip
         return inverse_inertia_times(qx, qy, qz, qw, ix, iy, iz, tx, ty, tz)
-    xx, xy, xz, yy, yz, zz = held_inverse(qx, qy, qz, qw, ix, iy, iz, fx, fy, fz)
+    xx, xy, xz, yy, yz, zz = inverse_inertia_of(i, inverse_inertia, principal, freedom, rotation)
     return xx * tx + xy * ty + xz * tz, xy * tx + yy * ty + yz * tz, xz * tx + yz * ty + zz * tz
 
 

@@ -36,6 +36,17 @@ def held_inverse(qx, qy, qz, qw, ix, iy, iz, fx, fy, fz):
 
 
 @inlined
+def inverse_inertia_of(i, inverse_inertia, principal, freedom, rotation):
+    """Return the upper half of the inverse inertia of body i in the world, as its locks leave it."""
+    qx, qy, qz, qw = product(
+        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
+        principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
+    )  # fmt: skip
+    ix, iy, iz = inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2]
+    return held_inverse(qx, qy, qz, qw, ix, iy, iz, freedom[i, 3], freedom[i, 4], freedom[i, 5])
+
+
+@inlined
 def held_turned(qx, qy, qz, qw, ax, ay, az, aw, wx, wy, wz, ix, iy, iz, fx, fy, fz, t):
     """Return (q, w) of a body with locked axes of rotation after t seconds; q from body to world, a principal axes.
 

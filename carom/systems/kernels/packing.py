@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.systems.kernels.crew import eights_of, shared
-from carom.systems.kernels.freedom import held_inverse
+from carom.systems.kernels.freedom import inverse_inertia_of
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_columns import are_all, in_a_row, take_four, take_freedom, take_one, take_three
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
@@ -104,12 +104,7 @@ def inverse_of(q, axes, ix, iy, iz, uneven, even):
 @inlined
 def pack_held(i, inverse_inertia, principal, freedom, rotation, bodies):
     """Write the inverse inertia of a body with locked axes of rotation."""
-    qx, qy, qz, qw = product(
-        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-        principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
-    )  # fmt: skip
-    ix, iy, iz = inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2]
-    inverse = held_inverse(qx, qy, qz, qw, ix, iy, iz, freedom[i, 3], freedom[i, 4], freedom[i, 5])
+    inverse = inverse_inertia_of(i, inverse_inertia, principal, freedom, rotation)
     for k, value in enumerate(inverse):
         bodies[INVERSE, i, k] = value
 

@@ -3,22 +3,9 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.kernels.freedom import held_inverse
+from carom.systems.kernels.freedom import inverse_inertia_of
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.spatial import cross, product
-
-
-@inlined
-def inverse_inertia_of(i, inverse_inertia, principal, freedom, rotation):
-    """Return the upper half of the inverse inertia of body i in the world, as its locks leave it."""
-    qx, qy, qz, qw = product(
-        rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3],
-        principal[i, 0], principal[i, 1], principal[i, 2], principal[i, 3],
-    )  # fmt: skip
-    return held_inverse(
-        qx, qy, qz, qw, inverse_inertia[i, 0], inverse_inertia[i, 1], inverse_inertia[i, 2],
-        freedom[i, 3], freedom[i, 4], freedom[i, 5],
-    )  # fmt: skip
+from carom.systems.kernels.spatial import cross
 
 
 @inlined

@@ -8,6 +8,7 @@ import pickle
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
@@ -39,20 +40,18 @@ class NotStoredError(Exception):
     """A function was called that would have to be compiled, where only what is stored is to be loaded."""
 
 
-class Loading:
-    """Whether all that is called must be ``stored`` already, so that nothing is compiled."""
+#: Set where nothing is to be compiled; of each thread by itself.
+STORED_ONLY: ContextVar[bool] = ContextVar("stored_only", default=False)
 
-    stored = False
 
-    @classmethod
-    @contextmanager
-    def only(cls) -> Iterator[None]:
-        """Refuse to compile: what would be raises NotStoredError."""
-        cls.stored = True
-        try:
-            yield
-        finally:
-            cls.stored = False
+@contextmanager
+def only_stored() -> Iterator[None]:
+    """Load what is stored, and compile nothing in this thread: what would have to be raises NotStoredError."""
+    token = STORED_ONLY.set(True)
+    try:
+        yield
+    finally:
+        STORED_ONLY.reset(token)
 
 
 class Files:
@@ -125,7 +124,7 @@ class Stored(FunctionCache):
         except Exception:  # what another version left: unpickling calls whatever that names
             found = None
         if found is None:
-            if Loading.stored:
+            if STORED_ONLY.get():
                 raise NotStoredError(self._function.__qualname__)
             Announcement.make()
         return found

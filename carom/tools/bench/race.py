@@ -20,25 +20,26 @@ def race(
 ) -> Generator[Figure, None, dict[str, Engine]]:
     """Yield what a step takes each engine that is installed, and us by each; return the engines as they are then.
 
-    Once all has settled, and from the start. Settled time by that of ``peers`` is at most ``ratio``: of the processor,
-    of more threads than one on the wall.
+    Time by that of ``peers``, once all has settled, is at most ``ratio``: of the processor, of more threads than one on
+    the wall. What falls meets all at once before that, which the mean from the start tells.
     """
     there = {engine: make for engine, make in ENGINES.items() if engine == OURS or find_spec(engine)}
     found = {engine: make(scene, threads) for engine, make in there.items()}
     taken = dict(zip(found, stepped(list(found.values()), scene.steps), strict=True))
+    times = {engine: settled(timings) for engine, timings in taken.items()}
+    ours = times[OURS]
     by: By = "cpu" if threads == 1 else "wall"
-    for told, sum_up in (("", settled), (", from the start", whole)):
-        times = {engine: sum_up(timings) for engine, timings in taken.items()}
-        ours = times[OURS]
-        for engine, theirs in times.items():
-            yield Figure(
-                f"{name}, {engine}{told}", "ms a step", 1e3 * theirs.wall, 1e3 * theirs.cpu, inf, by,
-                repeats=theirs.repeats,
-            )  # fmt: skip
-            if engine != OURS:
-                wall, cpu = ours.wall / theirs.wall, ours.cpu / theirs.cpu
-                bound = ratio if engine in peers and sum_up is settled else inf
-                yield Figure(f"{name}, {OURS} by {engine}{told}", "x", wall, cpu, bound, by, repeats=ours.repeats)
+    for engine, theirs in times.items():
+        yield Figure(
+            f"{name}, {engine}", "ms a step", 1e3 * theirs.wall, 1e3 * theirs.cpu, inf, by, repeats=theirs.repeats
+        )
+        if engine != OURS:
+            wall, cpu = ours.wall / theirs.wall, ours.cpu / theirs.cpu
+            bound = ratio if engine in peers else inf
+            yield Figure(f"{name}, {OURS} by {engine}", "x", wall, cpu, bound, by, repeats=ours.repeats)
+    for engine, timings in taken.items():  # all steps but the first, in which much is loaded
+        mean = 1e3 * fmean(timing.cpu if by == "cpu" else timing.wall for timing in timings[1:])
+        yield Figure(f"{name}, {engine}, mean from the start", "ms a step", mean, mean, inf, "value")
     return found
 
 
@@ -55,9 +56,3 @@ def settled(timings: list[Timing]) -> Timing:
     """Return the median of the last third of the steps, when what falls has settled."""
     tail = timings[-(len(timings) // 3) :]
     return Timing(median(t.wall for t in tail), median(t.cpu for t in tail), len(tail))
-
-
-def whole(timings: list[Timing]) -> Timing:
-    """Return the mean of all steps but the first, in which much is loaded: what falls meets all at once."""
-    rest = timings[1:]
-    return Timing(fmean(t.wall for t in rest), fmean(t.cpu for t in rest), len(rest))
