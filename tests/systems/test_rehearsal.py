@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-
 import numpy as np
 import pytest
+from processes import run
 
 from carom.ecs.relations.contact import Contact
 from carom.systems.detection import meshes
@@ -38,15 +35,19 @@ print(at_first > 50, loaded[at_first:])
 """
 
 
+COMPILING = """
+from contextlib import nullcontext
+from carom.systems import rehearsal
+
+rehearsal.only_stored = nullcontext
+"""
+
+
 def test_little_is_loaded_where_bodies_meet() -> None:
-    """Only what measures their shapes, of which there are many; the first of two processes compiles what is missing."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    environment.pop("NUMBA_DISABLE_JIT", None)
-    for _ in range(2):
-        run = subprocess.run(
-            [sys.executable, "-c", FALLING], env=environment, capture_output=True, text=True, check=True
-        )
-    assert run.stdout == "True ['measure_boxes_on_planes']\n"
+    """Only what measures their shapes, of which there are many; a process before that compiles what is not stored."""
+    run("-c", COMPILING + FALLING, NUMBA_DISABLE_JIT="0")
+    said, _ = run("-c", FALLING, NUMBA_DISABLE_JIT="0")
+    assert said == "True ['measure_boxes_on_planes']\n"
 
 
 def test_meshes_are_packed_before_anybody_meets_them(monkeypatch: pytest.MonkeyPatch) -> None:

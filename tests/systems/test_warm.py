@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from processes import run
 
 WITHOUT_JIT = """
 import sys
@@ -41,13 +39,6 @@ for ground in ({"plane": {}}, {"shape": Mesh(hull_of(corners))}):
     simulation.force("linear_drag", coefficient=1.0)
     simulation.step(60)
 """
-
-
-def run(*words: str, **variables: str) -> tuple[str, str]:
-    """Return what Python says on stdout and stderr, given these words."""
-    environment = {**os.environ, "CAROM_CHECK": "", "PYTHONPATH": os.pathsep.join(sys.path), **variables}
-    done = subprocess.run([sys.executable, *words], env=environment, capture_output=True, text=True, check=True)
-    return done.stdout, done.stderr
 
 
 def test_every_kernel_is_called() -> None:
