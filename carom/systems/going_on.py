@@ -40,18 +40,19 @@ DONE_AT_ONCE = (
 def nobody_looks_on(world: World) -> bool:
     """Tell whether what is left of a step may be done at once: forces stay, and nobody is told of single systems.
 
-    Joints, sensors and those who are fast ask for more than `take_substeps` does.
+    Joints and sensors ask for more than `take_substeps` does.
     """
     standing, linkage = world[Standing], world[Linkage]
     if GUARDED.get() or not standing.stay or standing.heard or world[Awake].strangers or world[Resting].hearers:
         return False
     joined = linkage.groups or linkage.holds or len(world[Ties].now(world).rows)
-    return not (joined or len(world[Fast].pairs) or len(world[Sensing].pairs) or world[Inside].count)
+    return not (joined or len(world[Sensing].pairs) or world[Inside].count)
 
 
 @system(
     reads=(
-        RigidBody, Force, Settings, Awake, BroadPhase, Fast, Inside, Ledger, Linkage, Sensing, Standing, Threads, Ties,
+        RigidBody, Force, Settings, Awake, BroadPhase, Fast, Inside, Ledger, Linkage, Sensing,
+        Standing, Threads, Ties,
     ),
     writes=(Transform, Motion, Flight, Contact, Impact, Answered, Progress, Resting, Timings),
     when=nobody_looks_on,
@@ -84,7 +85,8 @@ def go_on(world: World, dt: float) -> None:
         contact.offset_b, contact.share, contact.kind, contact.ball, contact.other, contact.sign, contact.radius,
         contact.extent, contact.other_position, contact.other_rotation, contact.surface, contact.friction,
         contact.restitution, contact.resting, contact.impulse, contact.friction_impulse, contact.strikes,
-        contact.plastic, world[Fast].turns, ledger.pull, ledger.arc, *room_for_log(), spent,
+        contact.plastic, *world[Fast].looked, *world[Fast].land, world[Fast].turns,
+        ledger.pull, ledger.arc, *room_for_log(), spent,
     )  # fmt: skip
     log_impacts(world, cut, count, pair, log)
     resting.forget_poses()

@@ -9,7 +9,12 @@ import pytest
 
 from carom.ecs import Timings, World, state_hash, system
 from carom.ecs.relations.impact import Impact
+from carom.systems import going_on
+from carom.systems.continuous import Fast
 from carom.systems.going_on import DONE_AT_ONCE
+from carom.systems.kernels.substeps import take_substeps
+from carom.systems.shapes.geometry import hull_of
+from carom.systems.shapes.mesh import Mesh
 from carom.systems.simulation import Simulation
 from carom.worlds import load_world
 
@@ -69,6 +74,39 @@ def test_the_same_comes_out_where_others_are_met_whom_nobody_foresaw(integrator:
     in_flight, begun = timings["sense"].calls, timings["begin_substep"].calls
     assert in_flight > 0, "no flight was stopped"
     assert begun - 60 - in_flight > 0, "no substep was begun anew between two"
+
+
+def spun() -> Simulation:
+    """Return a box, a hull and a capsule that turn fast on a mesh, and a box that does on another box."""
+    simulation = Simulation(checked=False)
+    slab = np.array([(x, y, z) for x in (-9.0, 9.0) for y in (-1.0, 0.0) for z in (-9.0, 9.0)])
+    simulation.add(collider={"shape": Mesh(hull_of(slab))}, material={"friction": 0.0})
+    simulation.add(collider={"box": {"size": (2.0, 1.0, 2.0)}}, transform={"position": (20.0, -0.5, 0.0)})
+    box = {"box": {"size": (0.4, 0.4, 0.4)}}
+    hull = {"convex": {"points": [(x, y, z) for x in (-0.2, 0.2) for y in (-0.2, 0.2) for z in (-0.1, 0.1)]}}
+    for x, shape in ((0.0, box), (2.0, hull), (4.0, {"capsule": {"radius": 0.1, "length": 0.4}}), (20.0, box)):
+        simulation.add(
+            collider=shape, body={}, transform={"position": (x, 0.3, 0.0)}, motion={"angular": (9.0, 30.0, 0.0)}
+        )
+    return simulation
+
+
+def test_the_same_comes_out_where_somebody_fast_is_looked_after(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a mesh and on a solid; who turns fast near others is looked at again in the middle of a flight."""
+    alone, seen, looked_after = spun(), looked_on(spun()), 0
+
+    def counted(*arguments: object) -> object:
+        nonlocal looked_after
+        looked_after += len(alone.world[Fast].pairs)
+        return take_substeps(*arguments)
+
+    monkeypatch.setattr(going_on, "take_substeps", counted)
+    for _ in range(60):
+        for simulation in (alone, seen):
+            simulation.step()
+        assert state_hash(alone.world) == state_hash(seen.world)
+    assert looked_after > 60
+    assert alone.world[Timings]["go_on"].calls > 60, "no flight was stopped to look"
 
 
 def test_what_each_system_took_is_told() -> None:

@@ -22,7 +22,7 @@ from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.hulls_narrow import measure_hulls, measure_hulls_on_planes
 from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.mesh_points import MOST_MESH_POINTS
-from carom.systems.kernels.narrow import collect_points, sort_by_function
+from carom.systems.kernels.narrow import collect_points, leave_out, sort_by_function
 from carom.systems.kernels.planes_narrow import measure_boxes_on_planes, measure_capsules_on_planes
 from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.kernels.rounds_on_meshes import measure_rounds_on_meshes
@@ -88,6 +88,10 @@ class Found(NamedTuple):
     def take(self, which: Any) -> Found:
         """Return some of the contacts."""
         return Found(*(column[which] for column in self))
+
+    def without(self, some: Booleans) -> Found:
+        """Return the other contacts, which take the places of those."""
+        return self.take(slice(leave_out(some, *self)))
 
 
 class Points:

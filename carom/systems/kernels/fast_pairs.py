@@ -7,6 +7,7 @@ from math import sqrt
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import FAST, LEAST_FAST, TRUST
 from carom.systems.kernels.contacts import is_centred, is_free_ball
+from carom.systems.kernels.cores import AROUND, BEGIN, END, FIRST, HULL, KIND, SECOND, write_core
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE
 from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
@@ -16,6 +17,7 @@ NEVER = 1e300
 #: Numbers of a pair: how far either core reaches from the centre of its body, which is the smaller, and how far a
 #: contact is trusted.
 NUMBERS = 4
+TRIANGLE_CORNERS = 3
 
 
 @woven
@@ -111,22 +113,32 @@ def find_fast(
     return count
 
 
-@kernel("pairs", "numbers", "position", "rotation", "turns")
+@kernel("pairs", "bodies", "numbers", "cores", "roots", "position", "rotation", "turns")
 def place_fast(
-    pairs, numbers, shape, body_row, pose_position, pose_rotation, center, body_rotation, position, rotation, turns
+    pairs, shape, size, geometry, body_row, pose_position, pose_rotation, center, body_rotation, hulls, root,
+    bodies, numbers, cores, roots, position, rotation, turns,
 ):  # fmt: skip
-    """Put the mesh of a pair first, and write where both shapes are: in the frames of their bodies, or in the world.
+    """Put the mesh of a pair first, and write what both shapes are around, and where they are.
 
-    Each body is looked at again before it has ``turns`` (rad) by more than what a contact is trusted; a ball about its
-    body's centre turns without effect.
+    They are in the frames of their ``bodies``, or in the world. Of a mesh there is where its tree begins, and the room
+    behind the vertices of all hulls for those of one triangle at a time. Each body is looked at again before it has
+    ``turns`` (rad) by more than what a contact is trusted; a ball about its body's centre turns without effect.
     """
     for p in range(len(pairs)):
         if shape[pairs[p, 1]] == MESH_SHAPE or shape[pairs[p, 1]] == FIELD_SHAPE:
             pairs[p, 0], pairs[p, 1] = pairs[p, 1], pairs[p, 0]
             numbers[p, 0], numbers[p, 1] = numbers[p, 1], numbers[p, 0]
+        a, core = pairs[p, 0], cores[p]
+        roots[p] = root[geometry[a]] if shape[a] == MESH_SHAPE or shape[a] == FIELD_SHAPE else -1
+        write_core(shape, size, geometry, pairs[p, 1], hulls, core, SECOND)
+        if roots[p] < 0:
+            write_core(shape, size, geometry, a, hulls, core, FIRST)
+        else:
+            free = len(hulls.vertices)
+            core[KIND], core[BEGIN], core[END], core[AROUND] = HULL, free, free + TRIANGLE_CORNERS, 0.0
         for side in range(2):
             c = pairs[p, side]
-            i = body_row[c]
+            i = bodies[p, side] = body_row[c]
             x, y, z = pose_position[c, 0], pose_position[c, 1], pose_position[c, 2]
             q = (pose_rotation[c, 0], pose_rotation[c, 1], pose_rotation[c, 2], pose_rotation[c, 3])
             if i >= 0:
@@ -178,3 +190,43 @@ def find_agreeing(
             agrees[p] = turning * span <= numbers[p, 3]
         else:
             agrees[p] = abs(straight - times[p]) * most <= numbers[p, 3] or straight == times[p]
+
+
+@woven
+def first_of_pairs(p, pairs, a, b):
+    """Return the first of the pairs from p on that is of the rows a and b, the lower one first, or of a later pair."""
+    while p < len(pairs):
+        low, high = min(pairs[p, 0], pairs[p, 1]), max(pairs[p, 0], pairs[p, 1])
+        if low > a or (low == a and high >= b):
+            break
+        p += 1
+    return p
+
+
+@woven
+def is_of_pair(p, pairs, a, b):
+    """Tell whether the p-th of the pairs is of the rows a and b."""
+    return p < len(pairs) and min(pairs[p, 0], pairs[p, 1]) == a and max(pairs[p, 0], pairs[p, 1]) == b
+
+
+@kernel("far")
+def find_far(pairs, numbers, row_a, row_b, depth, far):
+    """Say which contacts are of these pairs, which are looked after, and too ``far`` to be trusted; count them.
+
+    Contacts are in order of pair, as pairs are.
+    """
+    p, count = 0, 0
+    for c in range(len(row_a)):
+        p = first_of_pairs(p, pairs, row_a[c], row_b[c])
+        far[c] = is_of_pair(p, pairs, row_a[c], row_b[c]) and -depth[c] > numbers[p, 3]
+        count += far[c]
+    return count
+
+
+@kernel("resting")
+def let_go(pairs, count, row_a, row_b, resting):
+    """Say that no contact of these pairs rests."""
+    p = 0
+    for c in range(count):
+        p = first_of_pairs(p, pairs, row_a[c], row_b[c])
+        resting[c] = resting[c] and not is_of_pair(p, pairs, row_a[c], row_b[c])

@@ -12,26 +12,13 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import CAST_GAP, MEET, MOST_LOOKS
-from carom.systems.kernels.cores import (
-    AROUND,
-    BEGIN,
-    CORE,
-    END,
-    FIRST,
-    HULL,
-    KIND,
-    PLACE,
-    SECOND,
-    write_core,
-    write_place,
-)
+from carom.systems.kernels.cores import AROUND, CORE, PLACE, write_place
 from carom.systems.kernels.distance import FAR, MEETING
 from carom.systems.kernels.fast_pairs import NEVER, speed_of
 from carom.systems.kernels.frames import turned, turned_back
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles
 from carom.systems.kernels.nearing import MOST_STEPS, near
-from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
 from carom.systems.kernels.spatial import cross, product, spun, turn
 
 
@@ -105,35 +92,31 @@ def meet(
     return time
 
 
-@kernel("times", makes_arrays=True)
+@kernel("room", "times", makes_arrays=True, within=True)
 def foresee_meetings(
-    fast, numbers, span, first_only, shape, size, geometry, body_row, center, turns, linear, angular, felt,
-    local_position, local_rotation, hulls, meshes, room, times,
+    span, first_only, center, turns, linear, angular, felt,
+    bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room, times,
 ):  # fmt: skip
-    """Write when (s) each of the ``fast`` pairs is to be detected anew as bodies move now, NEVER if not in ``span``.
+    """Write when (s) each pair of ``bodies`` is to be detected anew as they move now, NEVER if not in ``span``.
 
     Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both shapes about the centres
-    of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and three more for a triangle.
+    of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and three more for a triangle
+    of a mesh, which is the first of a pair that has one of ``roots``.
     """
-    core, place = np.zeros(2 * CORE), np.empty(PLACE)
+    place = np.empty(PLACE)
     corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
     position, rotation, found = np.empty((2, 3)), np.empty((2, 4)), np.empty(FEW, np.uint32)
-    root, bounds, nodes, triangles = meshes.root, meshes.bounds, meshes.nodes, meshes.triangles
     sooner = span
-    for p in range(len(fast)):
-        a, b = fast[p, 0], fast[p, 1]  # a mesh comes first
-        i, o = body_row[a], body_row[b]
+    for p in range(len(bodies)):
+        i, o, core = bodies[p, 0], bodies[p, 1], cores[p]
         limit, soonest = sooner if first_only else span, NEVER
-        write_core(shape, size, geometry, b, hulls, core, SECOND)
-        if shape[a] not in (MESH_SHAPE, FIELD_SHAPE):
-            write_core(shape, size, geometry, a, hulls, core, FIRST)
+        if roots[p] < 0:
             times[p] = meet(
                 p, i, o, limit, numbers, core, room, center, turns, linear, angular, felt,
                 local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
             )  # fmt: skip
             sooner = min(sooner, times[p])
             continue
-        core[KIND], core[BEGIN], core[END], core[AROUND] = HULL, len(room) - 3, len(room), 0.0
         put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
         lx, ly, lz = center[o, 0] - position[0, 0], center[o, 1] - position[0, 1], center[o, 2] - position[0, 2]
         lx, ly, lz = turned_back(rotation, 0, lx, ly, lz)
@@ -141,7 +124,7 @@ def foresee_meetings(
         for body in (i, o):  # turning is in the reach, or, of the mesh, in how far any of it comes
             wide += speed_of(body, limit, linear, angular, numbers[p, 0] if body == i else 0.0)
         count, found = all_triangles(
-            root[geometry[a]], bounds, nodes, triangles,
+            roots[p], bounds, nodes, triangles,
             lx - wide, ly - wide, lz - wide, lx + wide, ly + wide, lz + wide, found,
         )  # fmt: skip
         for c in range(count):

@@ -16,6 +16,7 @@ from carom.systems.kernels.flight import predict_middle
 from carom.systems.kernels.impacts import DONE, fly
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.kicking import VERLET, kick_bodies
+from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.packing import pack_bodies
 from carom.systems.kernels.reach import find_leaving
 from carom.systems.kernels.resting import press_groups
@@ -28,6 +29,7 @@ kick, press, bend, close = kick_bodies.within, press_groups.within, bend_arcs.wi
 advance, finish, sink, leave, soar = (
     advance_bodies.within, finish_drift.within, sink_contacts.within, find_leaving.within, fly.within
 )  # fmt: skip
+look = foresee_meetings.within
 
 #: The systems whose work is done here, in the order of the frame.
 LOOK_AHEAD, PREDICT, SORT, KICK, HOLD, DRIFT, SETTLE, RELAX, SYSTEMS = range(9)
@@ -40,7 +42,7 @@ HARD = (0.0, 1.0)
     "center", "time", "acceleration", "angular_acceleration", "decay", "angular_decay", "flow", "touching",
     "start_position", "start_rotation", "start_linear", "start_angular", "start_center", "turned",
     "normal", "depth", "point", "offset_a", "offset_b", "resting", "impulse", "friction_impulse", "strikes", "plastic",
-    "arc", "log", "log_pair", "spent",
+    "arc", "room", "log", "log_pair", "spent",
     makes_arrays=True,
 )  # fmt: skip
 def take_substeps(
@@ -54,7 +56,8 @@ def take_substeps(
     start_position, start_rotation, start_linear, start_angular, start_center, turned, detected_center, reach,
     body_a, body_b, normal, depth, point, offset_a, offset_b, share_of_b, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
-    strikes, plastic, turns, pull, arc, log_pair, log, spent,
+    strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
+    turns, pull, arc, log_pair, log, spent,
 ):  # fmt: skip
     """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
 
@@ -62,8 +65,8 @@ def take_substeps(
     flight ended, when, events, how many manifolds rest in it, cut, impacts logged, pair of each, log); it is over where
     that is `DONE`.
 
-    Forces are those of the first substep, and there are no joints, no sensors and no pairs of the fast. What is done
-    for each of `SYSTEMS` is what that does; ``spent`` is how long it took (ns).
+    Forces are those of the first substep, and there are no joints and no sensors. What is done for each of `SYSTEMS` is
+    what that does; ``spent`` is how long it took (ns).
     """
     for_rows = crew if len(rows) >= fewest else alone  # as `crew_for` does
     for_bound = crew if len(bound) >= fewest else alone
@@ -72,6 +75,7 @@ def take_substeps(
     bends, leaving = 0.5 if scheme == VERLET else 0.0, np.empty(1, np.int64)
     apart, rests = np.zeros(len(crew) // ROOM, np.bool_), np.zeros(len(crew) // ROOM, np.int64)
     soon, cut, begins = np.empty((len(crew) // ROOM, 2)), 0, number
+    times = np.empty(len(fast))
     none = logged = np.int64(0)  # a bare 0 has a type of its own, for which `fly` would be compiled once more
     now = nanoseconds()
     for k in range(number, substeps + 1):
@@ -127,8 +131,16 @@ def take_substeps(
             now = note(HOLD, now, spent)
         for c in range(contacts):
             strikes[c] = plastic[c] = 0
-        at, reason, events = h, DONE, none
-        if count or len(watched):
+        at, reason, events, until = h, DONE, none, np.inf
+        if len(fast):
+            look(
+                h, True, center, rotation, linear, angular, felt,
+                fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room, times,
+            )  # fmt: skip
+            for time_of_pair in times:
+                until = min(until, time_of_pair)
+            until = until if until < h else np.inf
+        if count or len(watched) or until < h:
             for part in range(len(soon)):
                 soon[part, 0], soon[part, 1] = h, 0.0
             share(describe(close, for_closing, (
@@ -139,14 +151,14 @@ def take_substeps(
             within, some = h, False
             for part in range(len(soon)):
                 within, some = min(within, soon[part, 0]), some or soon[part, 1] > 0.0
-            if some or within < h:
+            if some or within < h or until < h:
                 at, reason, events, passed, logged, log_pair, log = soar(
                     0.0, h, bends, clock, center, start_center, rotation, turned, linear, angular, time, acceleration,
                     angular_acceleration, felt, detected_center, reach, inverse_mass, inertia, inverse_inertia,
                     principal_axes, freedom, count, start, group_of, stale, body_a, body_b, normal, depth,
                     offset_a, offset_b, share_of_b, kind, ball, other, extent, radius, other_position, other_rotation,
                     sign, surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic,
-                    closes, within, np.inf, turns, none, pull, arc, logged, log_pair, log,
+                    closes, within, until, turns, none, pull, arc, logged, log_pair, log,
                 )  # fmt: skip
                 cut += passed
         share(describe(advance, for_rows, (

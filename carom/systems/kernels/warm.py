@@ -60,6 +60,7 @@ def compile_measuring() -> None:
     from carom.systems.detection.narrow import measure_pairs
     from carom.systems.detection.seams import without_seams
     from carom.systems.kernels.broad_pairs import renew_pairs
+    from carom.systems.kernels.fast_pairs import NUMBERS, find_far, let_go
     from carom.systems.kernels.recycling import merge_contacts
     from carom.systems.shapes.geometry import hull_of
     from carom.systems.shapes.mesh import Mesh
@@ -86,6 +87,10 @@ def compile_measuring() -> None:
         detection_holds(world, 1.0)  # with everybody leaving
     count = len(found.row_a)
     merge_contacts(count, *found[:-1], *found[:-1], *found.room(2 * count))
+    far = np.zeros(count, np.bool_)  # of somebody fast
+    find_far(pairs, np.ones((len(pairs), NUMBERS)), found.row_a, found.row_b, found.depth, far)
+    let_go(pairs, count, found.row_a, found.row_b, far)
+    found.without(far)
     reduce_points([(np.zeros(3), np.ones(3), 0.0)])  # of shapes that only FCL measures
     room = np.empty((2 * len(pairs), 2), np.int64)
     simulation.space.cast_ray((0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
