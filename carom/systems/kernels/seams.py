@@ -24,37 +24,29 @@ def hide_at_seams(
     """
     count, rows = len(row_a), len(shape)
     glides, gliding = np.empty(rows, np.bool_), 0
+    compound = np.zeros(rows, np.bool_)
     for i in range(rows):
         glides[i] = body_row[i] >= 0 and shape[i] != SPHERE_SHAPE and shape[i] != POINT_SHAPE
         gliding += glides[i]
-    if gliding == 0:
-        return 0
-    beginning, pairs = np.empty(count, np.int64), 0
-    compound = np.zeros(rows, np.bool_)
-    for c in range(count):
-        hidden[c] = False
-        a, b = row_a[c], row_b[c]
-        if c > 0 and a == row_a[c - 1] and b == row_b[c - 1]:
-            continue
-        beginning[pairs] = c
-        pairs += 1
-        i, o = body_row[a], body_row[b]
-        if i >= 0 and i != a:
-            compound[i] = True
-        if o >= 0 and o != b:
-            compound[o] = True
-
+        if body_row[i] >= 0 and body_row[i] != i:
+            compound[body_row[i]] = True
     lies, lying = np.empty(rows, np.bool_), 0
     for i in range(rows):
         lies[i] = shape[i] == BOX_SHAPE and (body_row[i] < 0 or compound[body_row[i]])
         lying += lies[i]
-    if lying < 2:
+    if gliding == 0 or lying < 2:
         return 0
 
     # The manifolds that what glides has with boxes that may hide each other, as slices of one array.
+    beginning, pairs = np.empty(count, np.int64), 0
     first = np.zeros(rows + 1, np.int64)
-    for m in range(pairs):
-        a, b = row_a[beginning[m]], row_b[beginning[m]]
+    for c in range(count):
+        hidden[c] = False
+        a, b = row_a[c], row_b[c]
+        if not (lies[a] or lies[b]) or (c > 0 and a == row_a[c - 1] and b == row_b[c - 1]):
+            continue
+        beginning[pairs] = c
+        pairs += 1
         first[a + 1] += glides[a] and lies[b]
         first[b + 1] += glides[b] and lies[a]
     for i in range(rows):
