@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from carom.ecs.relations.contact import Contact
+from carom.ecs.spatial import quaternion
 from carom.systems.simulation import Simulation
 
 G = 9.81
@@ -56,6 +58,50 @@ def test_a_rolling_ball_without_resistance_keeps_rolling() -> None:
     simulation.step(480)
     assert simulation[ball].motion.linear == pytest.approx([speed, 0.0, 0.0], abs=1e-12)
     assert simulation[ball].transform.position == pytest.approx([2.0 * speed, 0.0, 0.0], abs=1e-10)
+
+
+LYING = tuple(quaternion.from_axis_angle((1.0, 0.0, 0.0), 0.5 * np.pi))
+
+
+@pytest.mark.parametrize(
+    ("shape", "rotation"),
+    [
+        ({"sphere": {"radius": 0.5}}, quaternion.IDENTITY),
+        ({"capsule": {"radius": 0.5, "length": 1.0}}, LYING),
+        ({"cylinder": {"radius": 0.5, "length": 0.4}}, LYING),
+        ({"ellipsoid": {"radii": (0.5, 0.5, 0.5)}}, quaternion.IDENTITY),
+    ],
+    ids=["sphere", "capsule", "cylinder", "ellipsoid"],
+)
+def test_all_that_rolls_is_slowed_by_the_torque_stated(shape: object, rotation: object) -> None:
+    """The torque c m g R slows a wheel by c g / (1 + I / (m R^2)), with friction turning it on."""
+    speed, slowing, radius = 2.0, 0.02, 0.5
+    simulation = Simulation(sleeping=False)
+    simulation.add(collider={"plane": {"offset": -radius}})
+    wheel = simulation.add(
+        collider=shape, body={}, material={"rolling_friction": slowing}, transform={"rotation": rotation},
+        motion={"linear": (speed, 0.0, 0.0), "angular": (0.0, 0.0, -speed / radius)},
+    )  # fmt: skip
+    simulation.step(60)
+    body = simulation[wheel].rigid_body
+    about = body.inertia[2] if rotation is quaternion.IDENTITY else body.inertia[1]
+    expected = speed - slowing * 9.81 / (1.0 + float(about) / (float(body.mass) * radius**2))
+    assert simulation[wheel].motion.linear == pytest.approx([expected, 0.0, 0.0], abs=2e-6)
+    assert simulation[wheel].motion.angular == pytest.approx([0.0, 0.0, -expected / radius], abs=2e-6)
+
+
+def test_the_smaller_of_two_that_roll_on_each_other_says_how_long_the_lever_is() -> None:
+    """A marble on a planet is slowed as on a plane."""
+    simulation = Simulation()
+    simulation.add(collider={"sphere": {"radius": 50.0}}, transform={"position": (0.0, -50.0, 0.0)})
+    simulation.add(
+        collider={"sphere": {"radius": 0.1}}, body={}, material={"rolling_friction": 0.02, "spinning_friction": 0.01},
+        transform={"position": (0.0, 0.1, 0.0)},
+    )  # fmt: skip
+    simulation.step()
+    contact = simulation.world[Contact]
+    assert contact.rolling[: contact.count].tolist() == [0.02 * 0.1]
+    assert contact.spinning[: contact.count].tolist() == [0.01 * 0.1]
 
 
 def ball_on_cloth(

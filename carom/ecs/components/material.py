@@ -22,7 +22,11 @@ class Combine(IntEnum):
 
 
 class Material(Component):
-    """Surface and substance of an entity."""
+    """Surface and substance of an entity.
+
+    Rolling and spinning friction are of what is round, with the smaller radius of two: that of balls, capsules,
+    cylinders and cones, of ellipsoids and hulls the mean of their half extents. Boxes, planes and meshes have none.
+    """
 
     friction: Floats = column(unit="1", doc="Coulomb friction", default=0.5, least=0.0)
     restitution: Floats = column(unit="1", doc="parting over closing speed of an impact", least=0.0, most=1.0)

@@ -126,7 +126,8 @@ def fill(world: World, found: Found, old_count: int, count: int) -> None:
     )  # fmt: skip
     complete_contacts(
         crew, count, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,
-        pose.body_row, collider.shape, collider.size, collider.bound_radius, pose.position, pose.rotation,
+        pose.body_row, collider.shape, collider.size, collider.bound_half, collider.bound_radius,
+        pose.position, pose.rotation,
         world[Flight].detected_center, world[Transform].rotation, world[RigidBody].inverse_mass,
         material.friction, material.restitution, material.rolling_friction, material.spinning_friction,
         material.friction_combine, material.restitution_combine, collider.surface_velocity,

@@ -8,6 +8,7 @@ import numpy as np
 from carom.ecs.components.material import Combine
 from carom.systems.constants import LEANING
 from carom.systems.kernels.balls import BOX, HALF_SPACE
+from carom.systems.kernels.cores import CONE_SHAPE, CONVEX_SHAPE, CYLINDER_SHAPE, ELLIPSOID_SHAPE
 from carom.systems.kernels.crew import runs_of, shared
 from carom.systems.kernels.frames import turned_back
 from carom.systems.kernels.kernel import woven
@@ -41,7 +42,7 @@ def combined(x, y, rule_x, rule_y, default):
 )  # fmt: skip
 def complete_contacts(
     crew, count, normal, depth, point, row_a, row_b,
-    body_row, shape, size, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
+    body_row, shape, size, bound_half, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
     material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
     surface_velocity, friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b,
     share, kind, ball, other, sign, radius, extent, other_position, other_rotation,
@@ -62,7 +63,9 @@ def complete_contacts(
         bounces = combined(
             material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
         )
-        lever = max(bound_radius[a], bound_radius[b])
+        lever = smaller_lever(
+            roll_radius(a, shape, size, bound_half, bound_radius), roll_radius(b, shape, size, bound_half, bound_radius)
+        )
         # Never more than friction can carry, else resistance to rolling would make the body slide.
         rolls = min(max(material_rolling[a], material_rolling[b]), rubs) * lever
         spins = max(material_spinning[a], material_spinning[b]) * lever
@@ -99,6 +102,22 @@ def complete_contacts(
                     other_position[c, k] += size[o, 3] * extent[c, k]
             for k in range(4):
                 other_rotation[c, k] = pose_rotation[o, k]
+
+
+@woven
+def roll_radius(i, shape, size, bound_half, bound_radius):
+    """Return how far (m) from its middle a collider rolls, on average where that varies; 0 where it has flat sides."""
+    if shape[i] == CYLINDER_SHAPE or shape[i] == CONE_SHAPE:
+        return size[i, 0]
+    if shape[i] == ELLIPSOID_SHAPE or shape[i] == CONVEX_SHAPE:
+        return (bound_half[i, 0] + bound_half[i, 1] + bound_half[i, 2]) / 3.0
+    return bound_radius[i]
+
+
+@woven
+def smaller_lever(x, y):
+    """Return the smaller of two radii, of which one that is 0 says nothing."""
+    return max(x, y) if x == 0.0 or y == 0.0 else min(x, y)
 
 
 @woven
