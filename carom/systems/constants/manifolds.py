@@ -30,6 +30,11 @@ FLAT_COSINE = 0.995
 # hang in the air beside rods that cross; smaller: rods that lie along each other all but exactly rock on one point.
 ASKEW = 1e-3
 
+# Part of the radii of round sides by which lines on them may be beside each other where they count as touching: as far
+# apart there as two arcs are, which is a hundredth of it. Larger: the normal is off by as much; smaller: the points of
+# rods that lie along each other jump from end to end with the least turn, and rods on rods never come to rest.
+ASKEW_ROUND = 0.02
+
 # m. Polyhedra nearer than this are parted along their faces' and edges' normals; their distance has no direction that
 # rounding leaves alone.
 APART_LEAST = 1e-7

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, FLAT_COSINE
-from carom.systems.kernels.cores import CORE, HALF_SPACE, KIND
+from carom.systems.kernels.cores import AROUND, CONE, CORE, CYLINDER, EXTENT, HALF_SPACE, KIND
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.outlines import outline
 from carom.systems.kernels.overlays import beside_line, over_face
@@ -20,7 +20,7 @@ def points_between(
 
     A face turned to the normal has what the other turns to it clipped by its sides, a half space all of it, and lines
     and edges side by side have two points. All others have one, the point x; it is added where rounding has cut away
-    the deepest.
+    the deepest, and where round sides lie across each other between their ends.
     """
     corners, others, cosine, other_cosine = NONE, NONE, 0.0, 0.0
     half_space = core[CORE + KIND] == HALF_SPACE
@@ -36,7 +36,7 @@ def points_between(
             others, other_cosine = count, turned
     flat = corners > 2 and cosine >= FLAT_COSINE
     other_flat = others > 2 and other_cosine >= FLAT_COSINE
-    found, lines = 0, False
+    found, lines, radius = 0, False, 0.0
     if half_space:
         found = over_half_space(gap, nx, ny, nz, px, py, pz, reach, one, one_tag, corners, spot, gaps, names)
     elif (flat and others > 1) or (other_flat and corners > 1):
@@ -52,19 +52,29 @@ def points_between(
         keep_foremost_edge(one, corners, nx, ny, nz)
         keep_foremost_edge(two, others, -nx, -ny, -nz)
         lines = True
-        found = beside_line(one, two, gap, nx, ny, nz, reach, spot, gaps, names)
+        radius = (radius_of(core, 0) if corners == 2 else 0.0) + (radius_of(core, CORE) if others == 2 else 0.0)
+        found = beside_line(one, two, radius, gap, nx, ny, nz, reach, spot, gaps, names)
     least = 1e300
     for c in range(found):
         least = min(least, gaps[c])
     if least > gap + 2.0 * BIAS:
-        if lines:
-            found = 0  # those that cross touch at one point
+        if lines and radius == 0.0:
+            found = 0  # sharp ones that cross touch at one point
         gaps[found], names[found] = gap, 0
         spot[3 * found], spot[3 * found + 1], spot[3 * found + 2] = px, py, pz
         return found + 1
     for c in range(found):
         gaps[c] -= least - gap  # rounding: the deepest is as deep as the pair
     return found
+
+
+@inlined
+def radius_of(core, at):
+    """Return how round a core is across its sides, with what is around it; of a cone half way up."""
+    kind = core[at + KIND]
+    if kind == CYLINDER:
+        return core[at + EXTENT]
+    return 0.5 * core[at + EXTENT] if kind == CONE else core[at + AROUND]
 
 
 @inlined

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import ALONG, ASKEW, OVER_EDGE
+from carom.systems.constants import ALONG, ASKEW, ASKEW_ROUND, OVER_EDGE
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.outlines import LABELS
 from carom.systems.kernels.spatial import cross
@@ -75,10 +75,11 @@ def over_face(
 
 
 @inlined
-def beside_line(line, other, gap, nx, ny, nz, reach, place, gaps, names):
+def beside_line(line, other, radius, gap, nx, ny, nz, reach, place, gaps, names):
     """Write the ends of what of two lines, first and second body's, is side by side; return 0 where they miss.
 
-    Seen along n that is where they are within ASKEW of the length beside each other.
+    Seen along n that is where they are within ASKEW of the length beside each other. Lines on round sides, of this
+    ``radius`` both together, may be farther, since the sides fall away from each other as slowly as arcs.
     """
     ux, uy, uz = line[3] - line[0], line[4] - line[1], line[5] - line[2]
     vx, vy, vz = other[3] - other[0], other[4] - other[1], other[5] - other[2]
@@ -94,7 +95,8 @@ def beside_line(line, other, gap, nx, ny, nz, reach, place, gaps, names):
         low, high = high, low
     low, high = max(low, 0.0), min(high, 1.0)
     sx, sy, sz = cross(nx, ny, nz, ux, uy, uz)
-    slack = ASKEW * (sx * sx + sy * sy + sz * sz)
+    squared = sx * sx + sy * sy + sz * sz
+    slack = max(ASKEW * squared, ASKEW_ROUND * radius * sqrt(squared))
     turned = (sx * vx + sy * vy + sz * vz) * length / along  # how far the other line moves aside along the first
     beside = sx * ox + sy * oy + sz * oz - begin * turned
     if abs(turned) > slack:
@@ -110,6 +112,8 @@ def beside_line(line, other, gap, nx, ny, nz, reach, place, gaps, names):
         t = (s - begin) * length / along
         x, y, z = line[0] + s * ux, line[1] + s * uy, line[2] + s * uz
         apart = nx * (other[0] + t * vx - x) + ny * (other[1] + t * vy - y) + nz * (other[2] + t * vz - z)
+        if radius > 0.0:
+            apart += (beside + s * turned) ** 2 / (2.0 * radius * squared)
         if apart <= reach:
             gaps[found], names[found] = max(apart, gap), 1 + k if ahead else 2 - k
             place[3 * found], place[3 * found + 1], place[3 * found + 2] = x, y, z
