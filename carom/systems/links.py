@@ -30,11 +30,28 @@ def links(world: World, *kinds: type[Contact]) -> tuple[Integers, Integers]:
     return np.concatenate(a), np.concatenate(b)
 
 
+def nearby(world: World) -> tuple[Integers, Integers]:
+    """Return the bodies (n,), -1 for what stands, of each two that are not linked but may touch within the step."""
+    contact = world[Contact]
+    which = np.nonzero(~joins_islands(contact))[0]
+    return contact.body_a[which], contact.body_b[which]
+
+
 def islands(world: World, rows: Integers, *kinds: type[Contact]) -> Integers:
     """Return for each row, of those among ``rows`` (bodies), the lowest row of its island; 0 for others."""
+    return _joined(world, rows, *links(world, *kinds))
+
+
+def companies(world: World) -> Integers:
+    """Return for each row that is a body the lowest row of all islands near each other, who fall asleep together."""
+    linked, near = links(world, Contact, SleepingContact), nearby(world)
+    return _joined(world, world.row_numbers(RigidBody), *map(np.concatenate, zip(linked, near, strict=True)))
+
+
+def _joined(world: World, rows: Integers, body_a: Integers, body_b: Integers) -> Integers:
     inverse_mass = world[RigidBody].inverse_mass
     island: Integers = np.zeros(len(inverse_mass), np.int64)
-    find_islands(rows, *links(world, *kinds), inverse_mass, island)
+    find_islands(rows, body_a, body_b, inverse_mass, island)
     return island
 
 

@@ -34,7 +34,7 @@ from carom.systems.forces.law import Forces
 from carom.systems.forces.reach import NOBODY
 from carom.systems.forces.springs import bodies_on_springs
 from carom.systems.kernels.islands import find_sleepers, time_stillness
-from carom.systems.links import islands, joins_islands, links
+from carom.systems.links import islands, joins_islands, links, nearby
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.sleeping_contacts import left_alone, locate_contacts, move_contacts
@@ -109,7 +109,7 @@ def fall_asleep(world: World, dt: float) -> None:
     if not (motion.still[awake.rows] >= SLEEP_TIME).any():
         return
     if find_sleepers(
-        awake.rows, *links(world, Contact), body.inverse_mass, world[Forces].borne(world),
+        awake.rows, *links(world, Contact), *nearby(world), body.inverse_mass, world[Forces].borne(world),
         motion.linear, motion.angular, world[Flight].felt, motion.still, falls,
     ):  # fmt: skip
         rows = np.nonzero(falls)[0]

@@ -47,6 +47,13 @@ def lowest_of(i, island):
 
 
 @inlined
+def unite(i, o, island):
+    """Make one island of those of bodies i and o."""
+    i, o = lowest_of(i, island), lowest_of(o, island)
+    island[max(i, o)] = min(i, o)
+
+
+@inlined
 def join(rows, body_a, body_b, inverse_mass, island):
     """Join the islands of every two linked bodies that can be pushed; at first each body is one of its own."""
     for i in rows:
@@ -54,8 +61,7 @@ def join(rows, body_a, body_b, inverse_mass, island):
     for c in range(len(body_a)):
         a, b = body_a[c], body_b[c]
         if a >= 0 and b >= 0 and inverse_mass[a] > 0.0 and inverse_mass[b] > 0.0:
-            a, b = lowest_of(a, island), lowest_of(b, island)
-            island[max(a, b)] = min(a, b)
+            unite(a, b, island)
 
 
 @kernel("island")
@@ -67,14 +73,14 @@ def find_islands(rows, body_a, body_b, inverse_mass, island):
 
 
 @kernel("falls", makes_arrays=True)
-def find_sleepers(rows, body_a, body_b, inverse_mass, borne, linear, angular, felt, still, falls):
+def find_sleepers(rows, body_a, body_b, near_a, near_b, inverse_mass, borne, linear, angular, felt, still, falls):
     """Tell who falls asleep: all bodies of an island that has been still for SLEEP_TIME and is held.
 
     Held is an island that is linked to what stands, or each body of which is ``borne`` or neither moves nor feels any
-    force: what only drifts slowly goes on doing so. What is linked to a moving kinematic body stays awake. Returns how
-    many fall asleep.
+    force: what only drifts slowly goes on doing so. What is linked to a moving kinematic body stays awake. Islands that
+    are ``near`` each other, who would wake each other in the next step, fall asleep together. Returns how many do.
     """
-    island = np.empty(len(falls), np.int64)
+    island, beside = np.arange(len(falls)), np.arange(len(falls))
     join(rows, body_a, body_b, inverse_mass, island)
     stays, held, drifts = np.zeros(len(falls), np.bool_), np.zeros(len(falls), np.bool_), np.zeros(len(falls), np.bool_)
     for i in rows:
@@ -87,10 +93,23 @@ def find_sleepers(rows, body_a, body_b, inverse_mass, borne, linear, angular, fe
                 low = lowest_of(i, island)
                 held[low] = True
                 stays[low] |= o >= 0 and moves(o, linear, angular)
-    number = 0
+    for c in range(len(near_a)):
+        for i, o in ((near_a[c], near_b[c]), (near_b[c], near_a[c])):
+            if i >= 0 and o >= 0 and inverse_mass[i] > 0.0:
+                low = lowest_of(i, island)
+                if inverse_mass[o] == 0.0:
+                    stays[low] |= moves(o, linear, angular)
+                else:
+                    unite(low, lowest_of(o, island), beside)
+    disturbed = np.zeros(len(falls), np.bool_)
     for i in rows:
         low = lowest_of(i, island)
-        falls[i] = inverse_mass[i] > 0.0 and not stays[low] and (held[low] or not drifts[low])
+        disturbed[lowest_of(low, beside)] |= inverse_mass[i] > 0.0 and (
+            stays[low] or (drifts[low] and not held[low])
+        )
+    number = 0
+    for i in rows:
+        falls[i] = inverse_mass[i] > 0.0 and not disturbed[lowest_of(lowest_of(i, island), beside)]
         number += falls[i]
     return number
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from carom.ecs import Motion
 from carom.ecs.column import Column
-from carom.systems.links import all_islands
+from carom.systems.links import all_islands, companies
 from carom.systems.simulation import Simulation
 from carom.systems.sleep_state import STATES, most_restless, pushed_bodies, sleep_states
 from carom.tools.recorder.block import Columns
@@ -29,7 +29,7 @@ class States(RowTrack):
         "state": text("awake, eligible (slow enough to fall asleep) or asleep"),
         "still": Motion.columns["still"],
         "island": handle("the first body of its island"),
-        "kept_awake_by": handle("who of its island has been still for the shortest time; -1 where it sleeps"),
+        "kept_awake_by": handle("who of its island, or of one near it, has been still the shortest time; -1 asleep"),
     }
 
     def rows(self, simulation: Simulation) -> Columns:
@@ -37,7 +37,7 @@ class States(RowTrack):
         world = simulation.world
         rows = pushed_bodies(world)
         island, state = all_islands(world)[rows], sleep_states(world, rows)
-        restless = world.entities(most_restless(world, rows, island))
+        restless = world.entities(most_restless(world, rows, companies(world)[rows]))
         return {
             "body": world.entities(rows),
             "state": np.array(STATES)[state],
