@@ -21,7 +21,7 @@ from carom.systems.kernels.filling import fill_groups, hand_over
 from carom.systems.kernels.groups import RUNS, group_manifolds
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, aligned
-from carom.systems.kernels.manifolds import find_manifolds
+from carom.systems.kernels.manifolds import find_manifolds, part_masses
 from carom.systems.kernels.packing import (
     VELOCITY,
     are_placed,
@@ -97,9 +97,10 @@ class Resting(Resource):
             self.count = self.groups = self.levels = 0
             self.solids = False
             return
-        self.count, self.solids, self.balls = find_manifolds(
-            points, contact.row_a, contact.row_b, contact.kind, contact.normal, self.start
-        )
+        self.count, self.solids, self.balls, several = find_manifolds(
+            points, contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.kind, contact.normal,
+            self.start,
+        )  # fmt: skip
         if len(self.group_of) < self.count:
             self._reserve(2 * self.count)
         self.groups, rows, self.levels = group_manifolds(
@@ -120,6 +121,11 @@ class Resting(Resource):
             contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface, contact.resting,
             contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
         )  # fmt: skip
+        if several:
+            part_masses(
+                self.count, self.start, contact.body_a, contact.body_b, contact.normal, body.inverse_mass,
+                self.group_of, self.lane_of, self.row, self.lanes,
+            )  # fmt: skip
 
     def rows(self, world: World) -> Integers:
         """Return the rows of bodies that are awake and have contacts or joints: the only ones that are packed."""

@@ -6,7 +6,7 @@ import numpy as np
 
 from carom.ecs.column import Floats
 from carom.systems.constants import SAME_NORMAL, SAME_SPOT
-from carom.systems.kernels.reduction import choose_of_area
+from carom.systems.kernels.reduction import LATER, choose_of_area
 
 Points = list[tuple[Floats, Floats, float]]
 
@@ -26,7 +26,7 @@ def reduce_points(points: Points) -> Points:
     place = np.array([p for p, _, _ in points]).ravel()
     names = np.arange(len(points))
     kept = choose_of_area(place, -np.array([d for _, _, d in points]), names, *points[0][1])
-    return [points[k] for k in sorted(names[:kept].tolist())]
+    return [points[k] for k in sorted((names[:kept] % LATER).tolist())]
 
 
 def merge_triangles(points: Points) -> Points:

@@ -15,6 +15,7 @@ from carom.systems.kernels.groups import (
     MIDDLE_A,
     MIDDLE_B,
     NORMAL,
+    PART,
     POINT_ROWS,
     RESTITUTION,
     RESTS,
@@ -74,6 +75,7 @@ def fill_groups(
             store(rows, r + BALL, spread(3.0))
             continue
         rolls, spins = pick_one(rolling, at, sizes), pick_one(spinning, at, sizes)
+        store(rows, r + PART, one)
         store(rows, r + ROLLING, rolls)
         store(rows, r + SPINNING, spins)
         x, y, z = pick_three(surface, at, sizes)

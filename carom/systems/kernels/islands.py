@@ -104,9 +104,7 @@ def find_sleepers(rows, body_a, body_b, near_a, near_b, inverse_mass, borne, lin
     disturbed = np.zeros(len(falls), np.bool_)
     for i in rows:
         low = lowest_of(i, island)
-        disturbed[lowest_of(low, beside)] |= inverse_mass[i] > 0.0 and (
-            stays[low] or (drifts[low] and not held[low])
-        )
+        disturbed[lowest_of(low, beside)] |= inverse_mass[i] > 0.0 and (stays[low] or (drifts[low] and not held[low]))
     number = 0
     for i in rows:
         falls[i] = inverse_mass[i] > 0.0 and not disturbed[lowest_of(lowest_of(i, island), beside)]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
+import numpy as np
+
 from carom.systems.constants import IMMOVABLE, MANIFOLD_POINTS, SAME_NORMAL, SINGULAR
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import BALL
@@ -16,25 +18,62 @@ from carom.systems.kernels.rubbing import ROLLING, TWISTING
 
 
 @kernel("start")
-def find_manifolds(count, row_a, row_b, kind, normal, start):
+def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, start):
     """Write where each manifold begins, and one past the last.
 
-    Return how many there are, whether some are not of balls on exact arcs, and whether some are of two balls.
+    Return how many there are, whether some are not of balls on exact arcs, whether some are of two balls, and whether
+    bodies may have several side by side: of one pair, or since they have several colliders.
     """
-    number, solids, balls = 0, False, False
+    number, solids, balls, several = 0, False, False, False
     for c in range(count):
         solids |= kind[c] < 0
         balls |= kind[c] == BALL
+        several |= (body_a[c] >= 0 and body_a[c] != row_a[c]) or (body_b[c] >= 0 and body_b[c] != row_b[c])
         if number:
             first = start[number - 1]
-            if row_a[c] == row_a[first] and row_b[c] == row_b[first] and c - first < MANIFOLD_POINTS:
-                x, y, z = normal[first, 0], normal[first, 1], normal[first, 2]
-                if x * normal[c, 0] + y * normal[c, 1] + z * normal[c, 2] >= SAME_NORMAL:
+            if row_a[c] == row_a[first] and row_b[c] == row_b[first] and are_alike(c, first, normal):
+                if c - first < MANIFOLD_POINTS:
                     continue
+                several = True
         start[number] = c
         number += 1
     start[number] = count
-    return number, solids, balls
+    return number, solids, balls, several
+
+
+@woven
+def are_alike(c, o, normal):
+    """Tell whether two contacts are on one plane, or on planes alike."""
+    return normal[c, 0] * normal[o, 0] + normal[c, 1] * normal[o, 1] + normal[c, 2] * normal[o, 2] >= SAME_NORMAL
+
+
+@kernel("lanes", makes_arrays=True)
+def part_masses(count, start, body_a, body_b, normal, inverse_mass, group_of, lane_of, row, lanes):
+    """Let manifolds that two bodies have side by side, on planes alike, move no more mass than four points would.
+
+    Else the springs of all points would bear a body on another so much more stiffly, as those beyond the fourth of a
+    pair or those of the four legs of a table, and towers would flutter.
+    """
+    begin = np.zeros(len(inverse_mass) + 1, np.int64)  # of the manifolds by one of the two bodies
+    among = np.empty(count, np.int64)
+    for m in range(count):
+        a, b = body_a[start[m]], body_b[start[m]]
+        among[m] = a if a >= 0 and b >= 0 and inverse_mass[a] > 0.0 and inverse_mass[b] > 0.0 else -1
+        begin[among[m] + 1] += among[m] >= 0
+    for i in range(len(inverse_mass)):
+        begin[i + 1] += begin[i]
+    ordered, place = np.empty(begin[len(inverse_mass)], np.int64), begin.copy()
+    for m in range(count):
+        if among[m] >= 0:
+            ordered[place[among[m]]] = m
+            place[among[m]] += 1
+    for m in ordered:
+        c, points = start[m], 0
+        for k in ordered[begin[among[m]] : begin[among[m] + 1]]:
+            o = start[k]
+            points += start[k + 1] - o if body_b[c] == body_b[o] and are_alike(c, o, normal) else 0
+        if points > MANIFOLD_POINTS:
+            lanes[row[group_of[m]] + of.PART, lane_of[m]] = MANIFOLD_POINTS / points
 
 
 @woven
@@ -59,14 +98,14 @@ def prepare(g, r, points, asks, rests, index_a, index_b, masses_a, masses_b, lan
     a_t, a_u = q_a * inertia_a[0] - s_a * inertia_a[1], q_a * inertia_a[1] - s_a * inertia_a[2]
     b_t, b_u = q_b * inertia_b[0] - s_b * inertia_b[1], q_b * inertia_b[1] - s_b * inertia_b[2]
     along = (masses_a[5] + (q_a * a_t - s_a * a_u)) + (masses_b[5] + (q_b * b_t - s_b * b_u))
-    by_t, by_u = a_t + b_t, a_u + b_u
+    by_t, by_u, part = a_t + b_t, a_u + b_u, rests * load(lanes, r + of.PART)
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         for o in range(p):
             to = r + MANIFOLD_ROWS + POINT_ROWS * o
             store(lanes, couplings(r, points) + pair(p, o), coupled(lanes, q, to, along, by_t, by_u, (tt, tu, uu)))
         yields = coupled(lanes, q, q, along, by_t, by_u, (tt, tu, uu))
-        held = choose(yields - IMMOVABLE * movable, rests, zero)  # no impulse where locks all but forbid to part
+        held = choose(yields - IMMOVABLE * movable, part, zero)  # no impulse where locks all but forbid to part
         store(lanes, q + of.MASS, inverse_or_none(held, yields))
         x, y = load(lanes, q + of.AT), load(lanes, q + of.AT + 1)
         store(lanes, q + of.AWAY, root(x * x + y * y) if asks >= TWISTING else zero)

@@ -10,6 +10,7 @@ from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.spatial import cross
 
 SPANNING, MOST_POINTS = 4, 8
+LATER = 1 << 40  # more than any name
 
 
 @kernel("place", "gaps", "names")
@@ -27,7 +28,24 @@ def reduce_area(place, gaps, names, count, nx, ny, nz):
     for k in range(1, count):  # chosen, not branched on: which it is is past foreseeing
         deepest, least = (k, gaps[k]) if gaps[k] < least - BIAS else (deepest, least)
     swap(0, deepest, place, gaps, names)
-    return span_area(place, gaps, names, count, nx, ny, nz, BIAS)
+    kept = span_area(place, gaps, names, count, nx, ny, nz, BIAS)
+    if kept > SPANNING:
+        alternate(names, kept)
+    return kept
+
+
+@woven
+def alternate(names, kept):
+    """Let every other point around an area come after the rest, as contacts are sorted by their names.
+
+    A manifold takes four of them, the next what is left: were these side by side, each would bear one half of the area,
+    one after the other, and towers would sway for ever.
+    """
+    first = 0
+    for k in range(1, kept):
+        first = k if names[k] < names[first] else first
+    for k in range(kept):
+        names[k] += LATER * ((k - first) % kept % 2)
 
 
 @woven
