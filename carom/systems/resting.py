@@ -123,8 +123,8 @@ class Resting(Resource):
         )  # fmt: skip
         if several:
             part_masses(
-                self.count, self.start, contact.body_a, contact.body_b, contact.normal, body.inverse_mass,
-                self.group_of, self.lane_of, self.row, self.lanes,
+                self.count, self.start, contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.normal,
+                body.inverse_mass, self.group_of, self.lane_of, self.row, self.lanes,
             )  # fmt: skip
 
     def rows(self, world: World) -> Integers:

@@ -48,7 +48,9 @@ def are_alike(c, o, normal):
 
 
 @kernel("lanes", makes_arrays=True)
-def part_masses(count, start, body_a, body_b, normal, inverse_mass, group_of, lane_of, row, lanes):
+def part_masses(
+    count, start, row_a, row_b, body_a, body_b, normal, inverse_mass, group_of, lane_of, row, lanes
+):  # fmt: skip
     """Let manifolds that two bodies have side by side, on planes alike, move no more mass than four points would.
 
     Else the springs of all points would bear a body on another so much more stiffly, as those beyond the fourth of a
@@ -57,9 +59,15 @@ def part_masses(count, start, body_a, body_b, normal, inverse_mass, group_of, la
     begin = np.zeros(len(inverse_mass) + 1, np.int64)  # of the manifolds by one of the two bodies
     among = np.empty(count, np.int64)
     for m in range(count):
-        a, b = body_a[start[m]], body_b[start[m]]
-        among[m] = a if a >= 0 and b >= 0 and inverse_mass[a] > 0.0 and inverse_mass[b] > 0.0 else -1
-        begin[among[m] + 1] += among[m] >= 0
+        c, before, after = start[m], start[max(m - 1, 0)], start[min(m + 1, count - 1)]
+        a, b, among[m] = body_a[c], body_b[c], -1
+        if a < 0 or b < 0 or inverse_mass[a] == 0.0 or inverse_mass[b] == 0.0:
+            continue
+        alone = m == 0 or body_a[before] != a or body_b[before] != b
+        alone = alone and (m == count - 1 or body_a[after] != a or body_b[after] != b)
+        if not alone or a != row_a[c] or b != row_b[c]:  # those of several colliders may be anywhere
+            among[m] = a
+            begin[a + 1] += 1
     for i in range(len(inverse_mass)):
         begin[i + 1] += begin[i]
     ordered, place = np.empty(begin[len(inverse_mass)], np.int64), begin.copy()

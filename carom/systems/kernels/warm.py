@@ -94,7 +94,7 @@ def compile_measuring() -> None:
     let_go(pairs, count, found.row_a, found.row_b, far)
     found.without(far)
     none, place = np.zeros(1, np.int64), np.zeros((1, 3))  # manifolds that bodies have side by side
-    part_masses(0, none, none, none, place, place[0, :1], none, none, none, aligned(1, WIDTH))
+    part_masses(0, none, none, none, none, none, place, place[0, :1], none, none, none, aligned(1, WIDTH))
     reduce_points([(np.zeros(3), np.ones(3), 0.0)])  # of shapes that only FCL measures
     room = np.empty((2 * len(pairs), 2), np.int64)
     simulation.space.cast_ray((0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
