@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BIAS, FLAT_COSINE
-from carom.systems.kernels.cores import AROUND, CONE, CORE, CYLINDER, EXTENT, HALF_SPACE, KIND
+from carom.systems.kernels.cores import AROUND, CORE, CYLINDER, EXTENT, HALF_SPACE, KIND
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.outlines import outline
 from carom.systems.kernels.overlays import beside_line, over_face
@@ -36,7 +36,7 @@ def points_between(
             others, other_cosine = count, turned
     flat = corners > 2 and cosine >= FLAT_COSINE
     other_flat = others > 2 and other_cosine >= FLAT_COSINE
-    found, lines, radius = 0, False, 0.0
+    found, lines, round_one, round_other = 0, False, 0.0, 0.0
     if half_space:
         found = over_half_space(gap, nx, ny, nz, px, py, pz, reach, one, one_tag, corners, spot, gaps, names)
     elif (flat and others > 1) or (other_flat and corners > 1):
@@ -52,13 +52,13 @@ def points_between(
         keep_foremost_edge(one, corners, nx, ny, nz)
         keep_foremost_edge(two, others, -nx, -ny, -nz)
         lines = True
-        radius = (radius_of(core, 0) if corners == 2 else 0.0) + (radius_of(core, CORE) if others == 2 else 0.0)
-        found = beside_line(one, two, radius, gap, nx, ny, nz, reach, spot, gaps, names)
+        round_one, round_other = radius_of(core, 0, corners), radius_of(core, CORE, others)
+        found = beside_line(one, two, round_one, round_other, gap, nx, ny, nz, reach, spot, gaps, names)
     least = 1e300
     for c in range(found):
         least = min(least, gaps[c])
     if least > gap + 2.0 * BIAS:
-        if lines and radius == 0.0:
+        if lines and round_one + round_other == 0.0:
             found = 0  # sharp ones that cross touch at one point
         gaps[found], names[found] = gap, 0
         spot[3 * found], spot[3 * found + 1], spot[3 * found + 2] = px, py, pz
@@ -69,12 +69,11 @@ def points_between(
 
 
 @inlined
-def radius_of(core, at):
-    """Return how round a core is across its sides, with what is around it; of a cone half way up."""
-    kind = core[at + KIND]
-    if kind == CYLINDER:
-        return core[at + EXTENT]
-    return 0.5 * core[at + EXTENT] if kind == CONE else core[at + AROUND]
+def radius_of(core, at, count):
+    """Return how round a core is across the line it turns to another; an edge is sharp, and a cone is at its apex."""
+    if count > 2:
+        return 0.0
+    return core[at + EXTENT] if core[at + KIND] == CYLINDER else core[at + AROUND]
 
 
 @inlined

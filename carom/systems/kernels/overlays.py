@@ -75,11 +75,11 @@ def over_face(
 
 
 @inlined
-def beside_line(line, other, radius, gap, nx, ny, nz, reach, place, gaps, names):
+def beside_line(line, other, round_one, round_other, gap, nx, ny, nz, reach, place, gaps, names):
     """Write the ends of what of two lines, first and second body's, is side by side; return 0 where they miss.
 
-    Seen along n that is where they are within ASKEW of the length beside each other. Lines on round sides, of this
-    ``radius`` both together, may be farther, since the sides fall away from each other as slowly as arcs.
+    Seen along n that is where they are within ASKEW of the length beside each other. Lines on round sides, of these
+    radii, may be farther, since the sides fall away from each other as slowly as arcs, and meet between the lines.
     """
     ux, uy, uz = line[3] - line[0], line[4] - line[1], line[5] - line[2]
     vx, vy, vz = other[3] - other[0], other[4] - other[1], other[5] - other[2]
@@ -95,7 +95,7 @@ def beside_line(line, other, radius, gap, nx, ny, nz, reach, place, gaps, names)
         low, high = high, low
     low, high = max(low, 0.0), min(high, 1.0)
     sx, sy, sz = cross(nx, ny, nz, ux, uy, uz)
-    squared = sx * sx + sy * sy + sz * sz
+    squared, radius, share = sx * sx + sy * sy + sz * sz, round_one + round_other, 0.0
     slack = max(ASKEW * squared, ASKEW_ROUND * radius * sqrt(squared))
     turned = (sx * vx + sy * vy + sz * vz) * length / along  # how far the other line moves aside along the first
     beside = sx * ox + sy * oy + sz * oz - begin * turned
@@ -113,9 +113,11 @@ def beside_line(line, other, radius, gap, nx, ny, nz, reach, place, gaps, names)
         x, y, z = line[0] + s * ux, line[1] + s * uy, line[2] + s * uz
         apart = nx * (other[0] + t * vx - x) + ny * (other[1] + t * vy - y) + nz * (other[2] + t * vz - z)
         if radius > 0.0:
-            apart += (beside + s * turned) ** 2 / (2.0 * radius * squared)
+            aside = (beside + s * turned) / squared
+            apart, share = apart + 0.5 * aside * aside * squared / radius, aside * round_one / radius
         if apart <= reach:
             gaps[found], names[found] = max(apart, gap), 1 + k if ahead else 2 - k
-            place[3 * found], place[3 * found + 1], place[3 * found + 2] = x, y, z
+            place[3 * found], place[3 * found + 1] = x + share * sx, y + share * sy
+            place[3 * found + 2] = z + share * sz
             found += 1
     return found
