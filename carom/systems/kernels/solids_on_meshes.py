@@ -7,7 +7,7 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import SAME_PLACE
+from carom.systems.constants import FLAT_COSINE, SAME_PLACE
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.hulls_narrow import most_of
 from carom.systems.kernels.mesh_areas import MOST_CORNERS, points_over_face, points_over_triangle
@@ -17,6 +17,7 @@ from carom.systems.kernels.mesh_points import (
     MOST_MESH_POINTS,
     WIDTH,
     add_point,
+    as_deep_as,
     choose_points,
     write_chosen,
 )
@@ -119,11 +120,28 @@ def measure_solids_on_meshes(
                 names, points = grown(names), grown(points)
             before = touching
             if kind == ON_POINT:
-                half = 0.5 * (gap + radius)
-                touching = add_point(
-                    points, names, touching, nx, ny, nz, px - half * nx, py - half * ny, pz - half * nz, gap - radius,
-                    MOST_CORNERS + 16 * MOST_CORNERS * links[8 * t + 7],
-                )  # fmt: skip
+                level, cosine = face_towards(hulls, p, v, 0, end, planes, 0, -nx, -ny, -nz)
+                facing = nx * triangles[a + 9] + ny * triangles[a + 10] + nz * triangles[a + 11]
+                f = hulls.face_start[p] + level
+                # Where edges cross all but level with an area, all of that is as near, and not one end or the other.
+                if level >= 0 and facing >= max(cosine, FLAT_COSINE):
+                    touching = points_over_triangle(
+                        v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links,
+                        t, radius, reach, polygon, tag, room, points, names, touching,
+                    )  # fmt: skip
+                elif cosine >= FLAT_COSINE:
+                    touching = points_over_face(
+                        v, loop_vertex, loop_start[f], loop_start[f + 1],
+                        planes[4 * level], planes[4 * level + 1], planes[4 * level + 2], planes[4 * level + 3],
+                        triangles, links, t, gap, reach, polygon, tag, room, points, names, touching,
+                    )  # fmt: skip
+                as_deep_as(points, before, touching, nx, ny, nz, gap)
+                if touching == before:
+                    half = 0.5 * (gap + radius)
+                    touching = add_point(
+                        points, names, touching, nx, ny, nz, px - half * nx, py - half * ny, pz - half * nz,
+                        gap - radius, MOST_CORNERS + 16 * MOST_CORNERS * links[8 * t + 7],
+                    )  # fmt: skip
             elif kind == ON_FACE:
                 f = hulls.face_start[p] + face
                 touching = points_over_face(
