@@ -61,7 +61,7 @@ class Land(NamedTuple):
 
 
 NOBODY = Looked.room(np.empty((0, NUMBERS)))
-NOWHERE = Land(np.empty(0, np.float32), np.empty(0, np.int32), np.empty(0), np.zeros((3, 3)))
+NOWHERE = Land(np.empty(0, np.float32), np.empty(0, np.int32), np.empty(0), np.zeros((TRIANGLE_CORNERS, 3)))
 
 
 class Fast(Resource):

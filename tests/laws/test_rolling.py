@@ -74,7 +74,10 @@ LYING = tuple(quaternion.from_axis_angle((1.0, 0.0, 0.0), 0.5 * np.pi))
     ids=["sphere", "capsule", "cylinder", "ellipsoid"],
 )
 def test_all_that_rolls_is_slowed_by_the_torque_stated(shape: object, rotation: object) -> None:
-    """The torque c m g R slows a wheel by c g / (1 + I / (m R^2)), with friction turning it on."""
+    """The torque c m g R slows a wheel by c g / (1 + I / (m R^2)), with friction turning it on.
+
+    To 2 um/s: of the two points of a line one is pressed before the other, which turns a cylinder by 1 urad/s.
+    """
     speed, slowing, radius = 2.0, 0.02, 0.5
     simulation = Simulation(sleeping=False)
     simulation.add(collider={"plane": {"offset": -radius}})

@@ -106,7 +106,7 @@ def complete_contacts(
 
 @woven
 def roll_radius(i, shape, size, bound_half, bound_radius):
-    """Return how far (m) from its middle a collider rolls, on average where that varies; 0 where it has flat sides."""
+    """Return how far (m) from its middle a collider rolls, the mean where that varies; 0 of boxes and planes."""
     if shape[i] == CYLINDER_SHAPE or shape[i] == CONE_SHAPE:
         return size[i, 0]
     if shape[i] == ELLIPSOID_SHAPE or shape[i] == CONVEX_SHAPE:
