@@ -189,8 +189,8 @@ class Resting(Resource):
             flight.center, world[Transform].rotation,
             contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
             contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
-            contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, flight.held,
-            flight.touching, self.leans, numbers,
+            contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, contact.strikes,
+            flight.held, flight.touching, self.leans, numbers,
         )  # fmt: skip
         if self.balls and (joined or world[Progress].left == 0.0):  # at last; where there are joints, at once
             write_touches(

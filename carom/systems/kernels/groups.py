@@ -20,7 +20,7 @@ from carom.systems.kernels.lanes import WIDTH
 ROLLING, ROLL, ROLLED, CLOSES, SPINNING, SPIN, SPUN, SURFACE, MASS_A, MASS_B = 0, 1, 2, 5, 6, 7, 8, 9, 12, 15
 TURN_A, TURN_B, TANGENT, MIDDLE_A, MIDDLE_B, PART, SPARED = 18, 27, 36, 42, 45, 48, 49
 # Friction summed over the step; one by its points; restitution; 1 where it is of a ball on an exact arc (2 where the
-# group is of two balls each, 3 where `are_even`); 1 where it rests, and where it did before (2 on a joint).
+# group is of two balls each, 3 where `are_even`); 1 where it rests, and what was before (`RESTED`).
 RUBBED, SHARE, RESTITUTION, BALL, RESTS, TOGETHER = 49, 52, 53, 54, 55, 56
 # The impulse of friction; the normal, which is the cross product of the tangents; the inverse of the inverse mass along
 # the tangents (a symmetric 2 x 2); friction. Even groups have one such mass, and behind it how far along the normal

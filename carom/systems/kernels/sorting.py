@@ -34,6 +34,8 @@ from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
 from carom.systems.kernels.resting_balls import are_even, follow_normals, weigh_balls
 from carom.systems.kernels.rubbing import BALLS, IDLE, RESTING, ROLLING, RUBBING, TWISTING
 
+RESTED = 0.5  # what `TOGETHER` is of those that did; 1 of those that struck, 2 of those on a joint
+
 
 @shared(
     "numbers", "fresh", "stale", "looks", "asks", "lanes", "normal", "depth", "point", "offset_a", "offset_b",
@@ -43,7 +45,7 @@ def sort_groups(
     crew, groups, h, bends, resting_stage, joined, ends, index_a, index_b, first, size, points, row,
     fresh, stale, looks, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
-    normal, depth, point, offset_a, offset_b, resting, on_joint, touching, leans, numbers,
+    normal, depth, point, offset_a, offset_b, resting, strikes, on_joint, touching, leans, numbers,
 ):  # fmt: skip
     """Say which manifolds rest at the start of the substep and prepare them.
 
@@ -91,10 +93,10 @@ def sort_groups(
             if not measured:
                 place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
         before = load(rows, r + of.RESTS)
-        if stale[g] or joined:
-            recall(g, r, index_a, index_b, first, on_joint, resting, lanes)
+        if fresh[g] or stale[g] or joined:
+            recall(g, r, index_a, index_b, first, on_joint, resting, strikes, lanes)
         else:
-            store(rows, r + of.TOGETHER, before)
+            store(rows, r + of.TOGETHER, before * RESTED)
         masses_a, masses_b = gather(packed[MASS_AND_FELT], of_a, g), gather(packed[MASS_AND_FELT], of_b, g)
         rests = find_resting(g, r, points[g], measured, h, of_a, of_b, masses_a, masses_b, rows, packed) * resting_stage
         store(rows, r + of.RESTS, rests)
@@ -130,14 +132,15 @@ def sort_groups(
 
 
 @woven
-def recall(g, r, index_a, index_b, first, on_joint, resting, lanes):
-    """Write which manifolds of a group were pressed together before, and which are on a joint."""
+def recall(g, r, index_a, index_b, first, on_joint, resting, strikes, lanes):
+    """Write which manifolds of a group rested or struck in the substep before, and which are on a joint."""
     for lane in range(WIDTH):
-        c = first[g, lane]
+        c, before = first[g, lane], 0.0
         if c >= 0:
             a, b = index_a[g, lane], index_b[g, lane]
             joined = (a < len(on_joint) and on_joint[a]) or (b < len(on_joint) and on_joint[b])
-            lanes[r + of.TOGETHER, lane] = 2.0 if joined else 1.0 if resting[c] else 0.0
+            before = 2.0 if joined else 1.0 if strikes[c] else RESTED if resting[c] else 0.0
+        lanes[r + of.TOGETHER, lane] = before
 
 
 @woven
@@ -174,7 +177,8 @@ def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, l
 
     One rests when one of its points touches or would by the end of the substep (a ball only once it touches), unless
     one would strike: close faster than the rest speed. What was pressed together before and has no exact arc goes on
-    resting.
+    resting, and so does whatever was, or has struck, and parts no faster than the rest speed: what others press it by
+    would else have it strike in each substep anew, and never be pushed out of those.
     """
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     felt_a, felt_b = masses_a[3:6], masses_b[3:6]
@@ -182,12 +186,17 @@ def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, l
     joined = together - 1.0
     is_ball = choose(joined, zero, load(lanes, r + of.BALL))
     pressing = larger(zero, larger(dot(n, felt_a), -dot(n, felt_b)))
-    # Without restitution there is no bounce to lose by resting, so that all that forces do counts.
+    held = zero
+    for p in range(points):
+        held = larger(held, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.WARM))
+    engaged = choose(choose(joined, zero, together - RESTED), one, choose(together, held, zero))
+    # Without restitution there is no bounce to lose by resting, so that all that forces do counts; and a bounce that
+    # lands again in the next substep was none.
     all_forces = root(larger(dot(felt_a, felt_a), dot(felt_b, felt_b)))
     restitution = load(lanes, r + of.RESTITUTION)
-    slow = choose(restitution, pressing, all_forces)
+    slow = choose(engaged, all_forces, choose(restitution, pressing, all_forces))
     limit = slow * (REST_SPEED_FACTOR * h) + APPROACH
-    near, striking, held = spread(-1.0), spread(-1.0), zero
+    near, striking = spread(-1.0), spread(-1.0)
     parting = (dot(n, minus(b, a)), zero, zero) if balls else parting_of(r, lanes, a, b)
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
@@ -201,9 +210,8 @@ def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, l
         striking = choose(after, striking, choose(bounces, larger(striking, closing - limit), striking))
         touching = smaller(TOUCH - gap, -after)
         near = larger(near, choose(is_ball, touching, choose(gap - SLOP, zero, spread(SLOP)) - after))
-        held = larger(held, load(lanes, q + of.WARM))
-    held = choose(is_ball, zero, held)
-    return choose(-near, zero, choose(held, one, choose(striking, zero, one)))
+    rests = choose(-near, zero, choose(choose(is_ball, zero, held), one, choose(striking, zero, one)))
+    return choose(striking, rests, choose(limit - parting[0], choose(engaged, one, rests), rests))
 
 
 @woven

@@ -103,7 +103,7 @@ def take_substeps(
                 groups, h, scheme == VERLET, resting_stage, False, ends, index_a, index_b, first,
                 size, points, row, fresh, stale, looks, asks, lanes, bodies, center, rotation,
                 kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b, normal,
-                depth, point, offset_a, offset_b, resting, held, touching, leans, rests,
+                depth, point, offset_a, offset_b, resting, strikes, held, touching, leans, rests,
             )))  # fmt: skip
             rest = total(rests)
             if balls and k == substeps:

@@ -1,0 +1,64 @@
+"""Piles of what bounces come to rest: what others press together does not strike for ever."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from carom.ecs import Motion, RigidBody, Transform
+from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.impact import Impact
+from carom.systems.simulation import Simulation
+
+SIDE, HEIGHT = 3.4, 20.0  # m, of a bin
+SHAPES: dict[str, dict[str, Any]] = {
+    "balls": {"sphere": {"radius": 0.5}},
+    "boxes": {"box": {"size": (0.9, 0.9, 0.9)}},
+    "capsules": {"capsule": {"radius": 0.35, "length": 0.3}},
+    "cylinders": {"cylinder": {"radius": 0.4, "length": 0.8}},
+}
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 0.8])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_nothing_strikes_in_a_pile_that_lies(shape: str, restitution: float) -> None:
+    """Twenty-seven bodies dropped into a bin, where walls press them: in the tenth second nobody strikes anybody."""
+    simulation, random = Simulation(checked=False), np.random.default_rng(0)
+    material = {"restitution": restitution}
+    simulation.add(collider={"plane": {}}, material=material)
+    for x, z in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):
+        size = (1.0, HEIGHT, SIDE + 2.0) if x else (SIDE + 2.0, HEIGHT, 1.0)
+        place = {"position": (x * (SIDE + 1.0) / 2.0, HEIGHT / 2.0, z * (SIDE + 1.0) / 2.0)}
+        simulation.add(collider={"box": {"size": size}}, transform=place, material=material)
+    places = 1.1 * np.stack(np.meshgrid([-1, 0, 1], [0, 1, 2], [-1, 0, 1], indexing="ij"), -1).reshape(-1, 3)
+    places += np.array([0.0, 0.6, 0.0]) + random.uniform(-0.04, 0.04, places.shape)
+    simulation.add_many(places, collider=SHAPES[shape], body={"mass": 500.0}, material=material)
+    simulation.step(540)
+    for _ in range(60):
+        simulation.step()
+        assert simulation.world[Impact].count == 0
+    rows, contact = simulation.world.row_numbers(RigidBody), simulation.world[Contact]
+    assert np.abs(simulation.world[Transform].position[rows][:, [0, 2]]).max() < SIDE / 2.0
+    assert np.linalg.norm(simulation.world[Motion].linear[rows], axis=1).max() <= 0.05  # balls roll on
+    assert contact.depth[: contact.count].max() <= 0.005
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.6])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_what_is_thrown_from_where_it_lay_flies_at_once(shape: str, restitution: float) -> None:
+    """It was pressed down a substep ago, and is not held: its way is that of the throw, to rounding."""
+    simulation = Simulation(checked=False)
+    simulation.add(collider={"plane": {}})
+    thrown = simulation.add(
+        collider=SHAPES[shape], body={"mass": 2.0}, material={"restitution": restitution},
+        transform={"position": (0.0, 0.5, 0.0)},
+    )  # fmt: skip
+    simulation.step(240)
+    before = simulation[thrown].transform.position.copy()
+    simulation[thrown].motion.linear = (1.0, 3.0, 0.0)
+    simulation.step(30)
+    flown = simulation[thrown].transform.position - before
+    assert np.abs(flown - (0.5, 1.5 - 9.81 / 8.0, 0.0)).max() <= 1e-12
+    assert np.abs(simulation[thrown].motion.linear - (1.0, 3.0 - 4.905, 0.0)).max() <= 1e-12
