@@ -15,6 +15,7 @@ from carom.ecs.relations.contact import Contact
 from carom.systems.awake import Awake
 from carom.systems.constants import MANIFOLD_POINTS, RELAX_SWEEPS
 from carom.systems.kernels.arcs import bend_arcs
+from carom.systems.kernels.ball_seams import link_boxes
 from carom.systems.kernels.ball_touches import write_touches
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.filling import fill_groups, hand_over
@@ -68,7 +69,7 @@ class Resting(Resource):
         self.packed: tuple[Integers, Integers] | None = None  # the rows of bodies that are packed, and who was awake
         self.centred = False  # whether all of them have their centres of mass at their origins
         self.placed = False  # whether they have not moved since
-        self.start = np.zeros(1, np.int64)
+        self.start, self.beside = np.zeros(1, np.int64), np.zeros(0, np.int64)
         self.bodies, self.lanes, self.scratch = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH), aligned(0, 0, WIDTH)
         self.leans = np.zeros((2, 1), np.bool_)  # who rests on something, as balls on exact arcs do in the second row
         self._reserve(0)
@@ -87,7 +88,7 @@ class Resting(Resource):
         contact, body = world[Contact], world[RigidBody]
         points, nobody = contact.count, len(body.inverse_mass)
         if len(self.start) <= points:
-            self.start = np.empty(2 * points + 1, np.int64)
+            self.start, self.beside = np.empty(2 * points + 1, np.int64), np.empty(2 * points, np.int64)
         if self.bodies.shape[1] != nobody + 1:
             self.bodies, self.packed = aligned(PLANES, nobody + 1, BLOCK), None
             self.leans = np.zeros((2, nobody + 1), np.bool_)
@@ -97,10 +98,12 @@ class Resting(Resource):
             self.count = self.groups = self.levels = 0
             self.solids = False
             return
-        self.count, self.solids, self.balls, several = find_manifolds(
+        self.count, self.solids, self.balls, boxes, several = find_manifolds(
             points, contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.kind, contact.normal,
             self.start,
         )  # fmt: skip
+        if boxes:
+            link_boxes(points, contact.kind, contact.ball, nobody, self.beside)
         if len(self.group_of) < self.count:
             self._reserve(2 * self.count)
         self.groups, rows, self.levels = group_manifolds(
@@ -190,7 +193,7 @@ class Resting(Resource):
             contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
             contact.other_position, contact.other_rotation, contact.body_a, contact.body_b, contact.normal,
             contact.depth, contact.point, contact.offset_a, contact.offset_b, contact.resting, contact.strikes,
-            flight.held, flight.touching, self.leans, numbers,
+            self.beside, flight.held, flight.touching, self.leans, numbers,
         )  # fmt: skip
         if self.balls and (joined or world[Progress].left == 0.0):  # at last; where there are joints, at once
             write_touches(

@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import ROOT_GAP
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.balls import BALL
+from carom.systems.kernels.balls import BALL, BOX
 from carom.systems.kernels.balls_in_lanes import are_balls
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
@@ -53,8 +53,9 @@ def find_closing(
             closing[m] = HELD
         elif resting[p] and restitution[p] == 0.0:
             closing[m] = HELD_BALL
-        elif kind[p] == BALL and are_apart(
-            p, ball[p], other[p], h, center, linear, acceleration, other_position, radius, extent
+        elif (kind[p] == BOX and lanes[row[group_of[m]] + of.BESIDE, lane_of[m]] > 0.0) or (
+            kind[p] == BALL
+            and are_apart(p, ball[p], other[p], h, center, linear, acceleration, other_position, radius, extent)
         ):
             closing[m] = CANNOT
         else:

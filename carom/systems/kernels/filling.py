@@ -9,6 +9,7 @@ from carom.systems.kernels.groups import (
     ABSENT,
     AT,
     BALL,
+    BESIDE,
     DEPTH,
     FRICTION,
     MANIFOLD_ROWS,
@@ -76,6 +77,7 @@ def fill_groups(
             continue
         rolls, spins = pick_one(rolling, at, sizes), pick_one(spinning, at, sizes)
         store(rows, r + PART, one)
+        store(rows, r + BESIDE, zero)
         store(rows, r + ROLLING, rolls)
         store(rows, r + SPINNING, spins)
         x, y, z = pick_three(surface, at, sizes)

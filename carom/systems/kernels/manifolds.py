@@ -7,7 +7,7 @@ import numpy as np
 
 from carom.systems.constants import IMMOVABLE, MANIFOLD_POINTS, SAME_NORMAL, SINGULAR
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.balls import BALL
+from carom.systems.kernels.balls import BALL, BOX
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, couplings, pair
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import TINY, about, dot, keep, three
@@ -21,13 +21,14 @@ from carom.systems.kernels.rubbing import ROLLING, TWISTING
 def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, start):
     """Write where each manifold begins, and one past the last.
 
-    Return how many there are, whether some are not of balls on exact arcs, whether some are of two balls, and whether
-    bodies may have several side by side: of one pair, or since they have several colliders.
+    Return how many there are, whether some are not of balls on exact arcs, whether some are of two balls or of a ball
+    and a box, and whether bodies may have several side by side: of one pair, or since they have several colliders.
     """
-    number, solids, balls, several = 0, False, False, False
+    number, solids, balls, boxes, several = 0, False, False, False, False
     for c in range(count):
         solids |= kind[c] < 0
         balls |= kind[c] == BALL
+        boxes |= kind[c] == BOX
         several |= (body_a[c] >= 0 and body_a[c] != row_a[c]) or (body_b[c] >= 0 and body_b[c] != row_b[c])
         if number:
             first = start[number - 1]
@@ -38,7 +39,7 @@ def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, start):
         start[number] = c
         number += 1
     start[number] = count
-    return number, solids, balls, several
+    return number, solids, balls, boxes, several
 
 
 @woven

@@ -20,20 +20,25 @@ def hide_at_seams(
     A box hides those of another that is a part of the same body, or stands still as it does, where what meets both has
     the other wholly behind the plane in which it meets the first, and would touch it only where the two adjoin: it
     cannot get there but through the first. To FLUSH of its longest half extent, by which what lies on the first may
-    have sunk in. Balls have exact impacts, which know the edges they pass.
+    have sunk in. Balls that are bodies have exact contacts with
+    boxes that are, or stand still, which know the edges they pass (`is_borne_beside`).
     """
     count, rows = len(row_a), len(shape)
-    glides, gliding = np.empty(rows, np.bool_), 0
     compound = np.zeros(rows, np.bool_)
     for i in range(rows):
-        glides[i] = body_row[i] >= 0 and shape[i] != SPHERE_SHAPE and shape[i] != POINT_SHAPE
-        gliding += glides[i]
         if body_row[i] >= 0 and body_row[i] != i:
             compound[body_row[i]] = True
+    rolls, glides, gliding = np.empty(rows, np.bool_), np.empty(rows, np.bool_), 0
+    for i in range(rows):
+        ball = shape[i] == SPHERE_SHAPE or shape[i] == POINT_SHAPE
+        rolls[i] = body_row[i] >= 0 and ball and not compound[body_row[i]]
+        glides[i] = body_row[i] >= 0 and not rolls[i]
+        gliding += glides[i]
     lies, lying = np.empty(rows, np.bool_), 0
     for i in range(rows):
         lies[i] = shape[i] == BOX_SHAPE and (body_row[i] < 0 or compound[body_row[i]])
         lying += lies[i]
+        gliding += lies[i] and body_row[i] >= 0
     if gliding == 0 or lying < 2:
         return 0
 
@@ -47,18 +52,18 @@ def hide_at_seams(
             continue
         beginning[pairs] = c
         pairs += 1
-        first[a + 1] += glides[a] and lies[b]
-        first[b + 1] += glides[b] and lies[a]
+        first[a + 1] += lies[b] and (glides[a] or (rolls[a] and body_row[b] >= 0))
+        first[b + 1] += lies[a] and (glides[b] or (rolls[b] and body_row[a] >= 0))
     for i in range(rows):
         first[i + 1] += first[i]
     met, place = np.empty(first[rows], np.int64), first[:rows].copy()
     for m in range(pairs):
         c = beginning[m]
         a, b = row_a[c], row_b[c]
-        if glides[a] and lies[b]:
+        if lies[b] and (glides[a] or (rolls[a] and body_row[b] >= 0)):
             met[place[a]] = c
             place[a] += 1
-        if glides[b] and lies[a]:
+        if lies[a] and (glides[b] or (rolls[b] and body_row[a] >= 0)):
             met[place[b]] = c
             place[b] += 1
 

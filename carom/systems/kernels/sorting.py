@@ -5,7 +5,8 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.balls import gap_of_ball, pose_of_other
+from carom.systems.kernels.ball_seams import is_borne_beside
+from carom.systems.kernels.balls import BOX, gap_of_ball, pose_of_other
 from carom.systems.kernels.balls_in_lanes import are_balls, measure_balls_in_lanes
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.filling import find_tangents, place_points
@@ -45,7 +46,7 @@ def sort_groups(
     crew, groups, h, bends, resting_stage, joined, ends, index_a, index_b, first, size, points, row,
     fresh, stale, looks, asks, lanes, bodies, center, rotation,
     kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b,
-    normal, depth, point, offset_a, offset_b, resting, strikes, on_joint, touching, leans, numbers,
+    normal, depth, point, offset_a, offset_b, resting, strikes, beside, on_joint, touching, leans, numbers,
 ):  # fmt: skip
     """Say which manifolds rest at the start of the substep and prepare them.
 
@@ -81,6 +82,11 @@ def sort_groups(
                     )  # fmt: skip
                     for k in range(3):
                         lanes[r + of.NORMAL + k, lane] = normal[c, k]
+                    if kind[c] == BOX:
+                        lanes[r + of.BESIDE, lane] = is_borne_beside(
+                            c, beside, center, rotation, ball, other, sign, radius, extent,
+                            other_position, other_rotation, normal, depth,
+                        )  # fmt: skip
                 if g >= ends[0] and body_a[c] >= 0 and body_b[c] >= 0:
                     time, a, b = h if bends and moves else 0.5 * h, body_a[c], body_b[c]
                     for k in range(c, c + size[g, lane]):
@@ -211,7 +217,8 @@ def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, l
         touching = smaller(TOUCH - gap, -after)
         near = larger(near, choose(is_ball, touching, choose(gap - SLOP, zero, spread(SLOP)) - after))
     rests = choose(-near, zero, choose(choose(is_ball, zero, held), one, choose(striking, zero, one)))
-    return choose(striking, rests, choose(limit - parting[0], choose(engaged, one, rests), rests))
+    rests = choose(striking, rests, choose(limit - parting[0], choose(engaged, one, rests), rests))
+    return rests if balls else choose(load(lanes, r + of.BESIDE), zero, rests)
 
 
 @woven

@@ -48,8 +48,8 @@ HARD = (0.0, 1.0)
 def take_substeps(
     crew, alone, fewest, number, substeps, h, begun, crowded, scheme, resting_stage, soft, rigid,
     rows, watched, bound, contacts, count, groups, levels, solids, balls,
-    start, group_of, lane_of, index_a, index_b, first, size, points, row, fresh, stale, looks, asks, ends, run_ends,
-    closes, leans, lanes, bodies, scratch,
+    start, beside, group_of, lane_of, index_a, index_b, first, size, points, row, fresh, stale, looks, asks, ends,
+    run_ends, closes, leans, lanes, bodies, scratch,
     center_of_mass, inverse_mass, inertia, inverse_inertia, principal_axes, freedom, drag, drag_flow, angular_drag,
     position, rotation, linear, angular, last_acceleration, last_angular_acceleration,
     center, time, acceleration, angular_acceleration, felt, decay, angular_decay, flow, touching, held,
@@ -103,7 +103,7 @@ def take_substeps(
                 groups, h, scheme == VERLET, resting_stage, False, ends, index_a, index_b, first,
                 size, points, row, fresh, stale, looks, asks, lanes, bodies, center, rotation,
                 kind, ball, other, sign, radius, extent, other_position, other_rotation, body_a, body_b, normal,
-                depth, point, offset_a, offset_b, resting, strikes, held, touching, leans, rests,
+                depth, point, offset_a, offset_b, resting, strikes, beside, held, touching, leans, rests,
             )))  # fmt: skip
             rest = total(rests)
             if balls and k == substeps:

@@ -103,7 +103,7 @@ def compile_measuring() -> None:
 
 
 def compile_frame() -> None:
-    """Step a world in which balls rest and roll in a sensor, one body is on keyframes, and every law of force acts."""
+    """Step a world in which balls rest, roll in a sensor and bear a box, one body is on keyframes, and all laws act."""
     look_for_vectors(there=False)
 
     import numpy as np
@@ -129,7 +129,7 @@ def compile_frame() -> None:
     simulation.force("quadratic_drag", area=1.0)
     simulation.force("gravity_well", strength=1.0, radius=1.0)
     simulation.force("attraction", strength=1.0)
-    simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={}, transform={"position": (0.0, 9.0, 9.0)})
+    simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={}, transform={"position": (0.0, 1.5, 0.0)})
     simulation.force("buoyancy")
     simulation.force("lift", area=1.0)
     simulation.force("magnus", radius=0.5)
