@@ -22,9 +22,14 @@ SHAPES: dict[str, dict[str, Any]] = {
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 0.8])
-@pytest.mark.parametrize("shape", SHAPES)
-def test_nothing_strikes_in_a_pile_that_lies(shape: str, restitution: float) -> None:
-    """Twenty-seven bodies dropped into a bin, where walls press them: in the tenth second nobody strikes anybody."""
+@pytest.mark.parametrize(
+    ("shape", "masses"), [*((shape, (500.0,)) for shape in SHAPES), ("balls", (1.0, 100.0, 10.0))], ids=str
+)
+def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ...], restitution: float) -> None:
+    """Bodies dropped into a bin, where walls press them: in the tenth second nobody strikes anybody.
+
+    Not even light ones that are wedged between heavy ones, which sink into them.
+    """
     simulation, random = Simulation(checked=False), np.random.default_rng(0)
     material = {"restitution": restitution}
     simulation.add(collider={"plane": {}}, material=material)
@@ -34,7 +39,9 @@ def test_nothing_strikes_in_a_pile_that_lies(shape: str, restitution: float) -> 
         simulation.add(collider={"box": {"size": size}}, transform=place, material=material)
     places = 1.1 * np.stack(np.meshgrid([-1, 0, 1], [0, 1, 2], [-1, 0, 1], indexing="ij"), -1).reshape(-1, 3)
     places += np.array([0.0, 0.6, 0.0]) + random.uniform(-0.04, 0.04, places.shape)
-    simulation.add_many(places, collider=SHAPES[shape], body={"mass": 500.0}, material=material)
+    for k, place in enumerate(places):
+        body = {"mass": masses[k % len(masses)]}
+        simulation.add(collider=SHAPES[shape], body=body, transform={"position": tuple(place)}, material=material)
     simulation.step(540)
     for _ in range(60):
         simulation.step()
@@ -42,7 +49,7 @@ def test_nothing_strikes_in_a_pile_that_lies(shape: str, restitution: float) -> 
     rows, contact = simulation.world.row_numbers(RigidBody), simulation.world[Contact]
     assert np.abs(simulation.world[Transform].position[rows][:, [0, 2]]).max() < SIDE / 2.0
     assert np.linalg.norm(simulation.world[Motion].linear[rows], axis=1).max() <= 0.05  # balls roll on
-    assert contact.depth[: contact.count].max() <= 0.005
+    assert contact.depth[: contact.count].max() <= (0.005 if len(masses) == 1 else 0.1)
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.6])

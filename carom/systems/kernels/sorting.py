@@ -31,7 +31,7 @@ from carom.systems.kernels.lanes import (
 )
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.manifolds import prepare
-from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY
+from carom.systems.kernels.packing import INVERSE_MASS, MASS_AND_FELT, VELOCITY
 from carom.systems.kernels.resting_balls import are_even, follow_normals, weigh_balls
 from carom.systems.kernels.rubbing import BALLS, IDLE, RESTING, ROLLING, RUBBING, TWISTING
 
@@ -196,11 +196,12 @@ def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, l
     for p in range(points):
         held = larger(held, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.WARM))
     engaged = choose(choose(joined, zero, together - RESTED), one, choose(together, held, zero))
+    bearing = choose(together, held, zero) * ((a[INVERSE_MASS] + b[INVERSE_MASS]) / h)
     # Without restitution there is no bounce to lose by resting, so that all that forces do counts; and a bounce that
-    # lands again in the next substep was none.
+    # lands again in the next substep, or that what one bears of the other would end within two, was none.
     all_forces = root(larger(dot(felt_a, felt_a), dot(felt_b, felt_b)))
     restitution = load(lanes, r + of.RESTITUTION)
-    slow = choose(engaged, all_forces, choose(restitution, pressing, all_forces))
+    slow = choose(engaged, larger(all_forces, bearing), choose(restitution, pressing, all_forces))
     limit = slow * (REST_SPEED_FACTOR * h) + APPROACH
     near, striking = spread(-1.0), spread(-1.0)
     parting = (dot(n, minus(b, a)), zero, zero) if balls else parting_of(r, lanes, a, b)
