@@ -48,7 +48,7 @@ class Contact(Relation):
         doc="held together in the last substep, at rest or after a plastic impact",
         dtype="bool",
     )
-    strikes: Integers = column(unit="1", doc="impacts in the last substep", dtype="int64")
+    strikes: Integers = column(unit="1", doc="impacts in this substep so far", dtype="int64", role="derived")
     plastic: Integers = column(unit="1", doc="those after which the pair kept together", dtype="int64", role="derived")
     row_a: Integers = column(unit="1", doc="row of a", role="derived", holds="rows")
     row_b: Integers = column(unit="1", doc="row of b", role="derived", holds="rows")

@@ -18,7 +18,7 @@ from carom.systems.constants import (
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
-from carom.systems.kernels.bodies import advance_body, pushed
+from carom.systems.kernels.bodies import advance_body, loaded, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, making, woven
@@ -45,8 +45,8 @@ def fly(
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
     count, beginning, group_of, stale, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
-    surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, within,
-    until, turns, events, pull, arc, log_count, log_pair, log,
+    surface, friction, restitution, resting, impulse, friction_impulse, warm_normal, strikes, plastic, closing, within,
+    on_joint, until, turns, events, pull, arc, log_count, log_pair, log,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts after those ``log_count``.
 
@@ -59,8 +59,9 @@ def fly(
     counted so far goes on: ``events``, and for each pair ``strikes`` and ``plastic``, else to detect in the middle
     would renew the patience with endless rows of impacts. ``cut`` counts impacts beyond the cap, which are let pass.
     Nobody flies on beyond ``until``, nor after an impact by which a body turns more than its ``turns`` (rad). Groups
-    become ``stale`` in which pairs are struck. Blows that go to and fro between bodies that stay together are at one
-    time, and logged as one impact of each pair. An ``arc`` of more than no rows is accounted for (`note_arc`).
+    become ``stale`` in which pairs are struck, or no longer rest. Blows that go to and fro between bodies that stay
+    together are at one time, and logged as one impact of each pair. An ``arc`` of more than no rows is accounted for
+    (`note_arc`).
     """
     pairs, number, held = np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count, np.int64)
     taken, near, holds = 0, 0, 0
@@ -135,12 +136,15 @@ def fly(
                 continue
             limit = sink / (h - now) if now < h else NEVER
             if springs:
-                limit = APPROACH + BLOW_SPEED_FACTOR * h * pushed(ball[p], other[p], felt)
+                load = loaded(ball[p], other[p], warm_normal[p], h, inverse_mass)
+                limit = APPROACH + BLOW_SPEED_FACTOR * h * max(load, pushed(ball[p], other[p], felt))
+            rested = resting[p]
             foreseen = foresee(
                 p, ball[p], other[p], now, h, limit, bend,
                 center, rotation, linear, angular, time, acceleration,
-                kind, radius, extent, other_position, other_rotation, resting,
+                kind, radius, extent, other_position, other_rotation, resting, is_joined(p, body_a, body_b, on_joint),
             )  # fmt: skip
+            stale[group_of[number[m]]] |= rested and not resting[p]
             enter_time(soonest, leaves + m, foreseen)
         seek_count = 0
 
@@ -256,6 +260,13 @@ def fly(
             if spin * (h - now) > turns[body]:
                 end, whirls = now, True
     return now, reason_of(now, h, until, whirls), events, cut, log_count, log_pair, log
+
+
+@woven
+def is_joined(p, body_a, body_b, on_joint):
+    """Tell whether a body of pair p is ``on_joint``, which has no rows for bodies where there are no joints."""
+    a, b = body_a[p], body_b[p]
+    return (0 <= a < len(on_joint) and on_joint[a]) or (0 <= b < len(on_joint) and on_joint[b])
 
 
 @woven

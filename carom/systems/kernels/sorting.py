@@ -35,7 +35,9 @@ from carom.systems.kernels.packing import INVERSE_MASS, MASS_AND_FELT, VELOCITY
 from carom.systems.kernels.resting_balls import are_even, follow_normals, weigh_balls
 from carom.systems.kernels.rubbing import BALLS, IDLE, RESTING, ROLLING, RUBBING, TWISTING
 
-RESTED = 0.5  # what `TOGETHER` is of those that did; 1 of those that struck, 2 of those on a joint
+# What `TOGETHER` is of manifolds that rested in the substep before, and on a joint; of those that struck in it, in how
+# many substeps in a row.
+RESTED, JOINED = 0.5, 1e9
 
 
 @shared(
@@ -99,21 +101,23 @@ def sort_groups(
             if not measured:
                 place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
         before = load(rows, r + of.RESTS)
-        if fresh[g] or stale[g] or joined:
-            recall(g, r, index_a, index_b, first, on_joint, resting, strikes, lanes)
+        if stale[g] or joined:
+            recall(g, r, fresh[g], index_a, index_b, first, on_joint, resting, strikes, lanes)
         else:
             store(rows, r + of.TOGETHER, before * RESTED)
         masses_a, masses_b = gather(packed[MASS_AND_FELT], of_a, g), gather(packed[MASS_AND_FELT], of_b, g)
-        rests = find_resting(g, r, points[g], measured, h, of_a, of_b, masses_a, masses_b, rows, packed) * resting_stage
+        rests, lies = find_resting(g, r, points[g], measured, h, of_a, of_b, masses_a, masses_b, rows, packed)
+        rests = rests * resting_stage
         store(rows, r + of.RESTS, rests)
         others = some(rests - before) or some(before - rests)
         changed |= others
         held = which(rests)
+        lying = held & which(lies)
         if held:
             as_balls = which(load(rows, r + of.BALL))
             for lane in range(WIDTH):
-                if held >> lane & 1:
-                    number += 1
+                number += held >> lane & 1
+                if lying >> lane & 1:
                     as_ball = as_balls >> lane & 1
                     leans[as_ball, index_a[g, lane]] = leans[as_ball, index_b[g, lane]] = True
         if others or stale[g] or joined or (fresh[g] and points[g] > 1):
@@ -138,14 +142,16 @@ def sort_groups(
 
 
 @woven
-def recall(g, r, index_a, index_b, first, on_joint, resting, strikes, lanes):
+def recall(g, r, fresh, index_a, index_b, first, on_joint, resting, strikes, lanes):
     """Write which manifolds of a group rested or struck in the substep before, and which are on a joint."""
     for lane in range(WIDTH):
         c, before = first[g, lane], 0.0
         if c >= 0:
-            a, b = index_a[g, lane], index_b[g, lane]
-            joined = (a < len(on_joint) and on_joint[a]) or (b < len(on_joint) and on_joint[b])
-            before = 2.0 if joined else 1.0 if strikes[c] else RESTED if resting[c] else 0.0
+            a, b, before = index_a[g, lane], index_b[g, lane], RESTED if resting[c] else 0.0
+            if strikes[c] and not fresh:
+                before = 1.0 + lanes[r + of.TOGETHER, lane] // 1.0 % JOINED
+            if (a < len(on_joint) and on_joint[a]) or (b < len(on_joint) and on_joint[b]):
+                before = JOINED
         lanes[r + of.TOGETHER, lane] = before
 
 
@@ -179,26 +185,26 @@ def forget(r, points, rests, even, lanes):
 
 @woven
 def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, lanes, bodies):
-    """Return 1 for each manifold that rests, else 0.
+    """Return 1 for each manifold that rests, else 0, and for each that lies: of which its bodies feel that they touch.
 
     One rests when one of its points touches or would by the end of the substep (a ball only once it touches), unless
     one would strike: close faster than the rest speed. What was pressed together before and has no exact arc goes on
-    resting, and so does whatever was, or has struck, and parts no faster than the rest speed: what others press it by
-    would else have it strike in each substep anew, and never be pushed out of those.
+    resting. So does whatever was, or has struck in two substeps, and parts no faster than the rest speed: what others
+    press it by would else have it strike in each substep anew, and never be pushed out of those. But it does not lie.
     """
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     felt_a, felt_b = masses_a[3:6], masses_b[3:6]
     n, together, zero, one = three(lanes, r + of.NORMAL), load(lanes, r + of.TOGETHER), spread(0.0), spread(1.0)
-    joined = together - 1.0
+    joined = together - 0.5 * JOINED
     is_ball = choose(joined, zero, load(lanes, r + of.BALL))
     pressing = larger(zero, larger(dot(n, felt_a), -dot(n, felt_b)))
     held = zero
     for p in range(points):
         held = larger(held, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.WARM))
-    engaged = choose(choose(joined, zero, together - RESTED), one, choose(together, held, zero))
-    bearing = choose(together, held, zero) * ((a[INVERSE_MASS] + b[INVERSE_MASS]) / h)
-    # Without restitution there is no bounce to lose by resting, so that all that forces do counts; and a bounce that
-    # lands again in the next substep, or that what one bears of the other would end within two, was none.
+    engaged = choose(choose(joined, zero, together - 1.5), one, choose(is_ball, held, zero))
+    bearing = held * ((a[INVERSE_MASS] + b[INVERSE_MASS]) / h)
+    # Without restitution there is no bounce to lose by resting, so that all that forces do counts; and bounces that
+    # land again in the next substep, or that what one bears of the other would end within two, are none.
     all_forces = root(larger(dot(felt_a, felt_a), dot(felt_b, felt_b)))
     restitution = load(lanes, r + of.RESTITUTION)
     slow = choose(engaged, larger(all_forces, bearing), choose(restitution, pressing, all_forces))
@@ -217,9 +223,9 @@ def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, l
         striking = choose(after, striking, choose(bounces, larger(striking, closing - limit), striking))
         touching = smaller(TOUCH - gap, -after)
         near = larger(near, choose(is_ball, touching, choose(gap - SLOP, zero, spread(SLOP)) - after))
-    rests = choose(-near, zero, choose(choose(is_ball, zero, held), one, choose(striking, zero, one)))
-    rests = choose(striking, rests, choose(limit - parting[0], choose(engaged, one, rests), rests))
-    return rests if balls else choose(load(lanes, r + of.BESIDE), zero, rests)
+    lies = choose(-near, zero, choose(choose(is_ball, zero, held), one, choose(striking, zero, one)))
+    rests = choose(limit - larger(parting[0], -parting[0]), choose(engaged, one, lies), lies)
+    return (rests if balls else choose(load(lanes, r + of.BESIDE), zero, rests)), lies
 
 
 @woven

@@ -28,12 +28,12 @@ from carom.systems.kernels.spatial import cross, spun
 @inlined
 def foresee(
     p, i, o, now, h, limit, bend, center, rotation, linear, angular, time, acceleration,
-    kind, radius, extent, other_position, other_rotation, resting,
+    kind, radius, extent, other_position, other_rotation, resting, joined,
 ):  # fmt: skip
     """Return when the bodies of pair p strike each other within the substep, NEVER if they do not.
 
     A resting pair is held by the solver; only a blow on one of its bodies makes it an impact, by which they close
-    faster than ``limit`` (m/s).
+    faster than ``limit`` (m/s), or a gap, unless one is ``joined`` to another body and lands while it rests.
     """
     t = now - time[i]
     c, g = bend * t * t, 2.0 * bend * t
@@ -60,7 +60,7 @@ def foresee(
     if resting[p]:
         gap, nx, ny, nz = gap_of_ball(kind[p], x, y, z, radius[p], ox, oy, oz, qx, qy, qz, qw, ex, ey, ez)
         closing = -(nx * (vx - ux) + ny * (vy - uy) + nz * (vz - uz))
-        if gap > TOUCH or closing <= limit:
+        if joined if gap > TOUCH else closing <= limit:
             return NEVER
         resting[p] = False
     return now + first_touch(
