@@ -13,13 +13,22 @@ from carom.ecs.relations.impact import Impact
 from carom.systems.energy import total_energy
 from carom.systems.simulation import Simulation
 
-SIDE, HEIGHT = 3.4, 20.0  # m, of a bin
+SIDE, HEIGHT = 3.4, 20.0  # m, of bins
 SHAPES: dict[str, dict[str, Any]] = {
     "balls": {"sphere": {"radius": 0.5}},
     "boxes": {"box": {"size": (0.9, 0.9, 0.9)}},
     "capsules": {"capsule": {"radius": 0.35, "length": 0.3}},
     "cylinders": {"cylinder": {"radius": 0.4, "length": 0.8}},
 }
+
+
+def add_bin(simulation: Simulation, side: float, material: dict[str, float]) -> None:
+    """Add a floor and four walls, with so many metres between them."""
+    simulation.add(collider={"plane": {}}, material=material)
+    for x, z in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):
+        size = (1.0, HEIGHT, side + 2.0) if x else (side + 2.0, HEIGHT, 1.0)
+        place = {"position": (x * (side + 1.0) / 2.0, HEIGHT / 2.0, z * (side + 1.0) / 2.0)}
+        simulation.add(collider={"box": {"size": size}}, transform=place, material=material)
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.3, 0.8])
@@ -33,11 +42,7 @@ def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ..
     """
     simulation, random = Simulation(checked=False), np.random.default_rng(0)
     material = {"restitution": restitution}
-    simulation.add(collider={"plane": {}}, material=material)
-    for x, z in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)):
-        size = (1.0, HEIGHT, SIDE + 2.0) if x else (SIDE + 2.0, HEIGHT, 1.0)
-        place = {"position": (x * (SIDE + 1.0) / 2.0, HEIGHT / 2.0, z * (SIDE + 1.0) / 2.0)}
-        simulation.add(collider={"box": {"size": size}}, transform=place, material=material)
+    add_bin(simulation, SIDE, material)
     places = 1.1 * np.stack(np.meshgrid([-1, 0, 1], [0, 1, 2], [-1, 0, 1], indexing="ij"), -1).reshape(-1, 3)
     places += np.array([0.0, 0.6, 0.0]) + random.uniform(-0.04, 0.04, places.shape)
     for k, place in enumerate(places):
@@ -53,6 +58,19 @@ def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ..
     assert np.abs(simulation.world[Transform].position[rows][:, [0, 2]]).max() < SIDE / 2.0
     assert np.linalg.norm(simulation.world[Motion].linear[rows], axis=1).max() <= 0.05  # balls roll on
     assert contact.depth[: contact.count].max() <= (0.005 if len(masses) == 1 else 0.2)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 0.9])
+def test_a_pile_of_balls_falls_asleep(restitution: float) -> None:
+    """A hundred in a bin, which roll with resistance, within 10 s."""
+    simulation, random = Simulation(checked=False, sleeping=True), np.random.default_rng(3)
+    material = {"restitution": restitution, "rolling_friction": 0.02, "spinning_friction": 0.02}
+    add_bin(simulation, 4.6, material)
+    places = 1.1 * np.stack(np.meshgrid(range(4), range(7), range(4), indexing="ij"), -1).reshape(-1, 3)
+    places += np.array([-1.65, 0.6, -1.65]) + random.uniform(-0.04, 0.04, places.shape)
+    simulation.add_many(places, collider=SHAPES["balls"], body={}, material=material)
+    simulation.step(600)
+    assert simulation.world[Motion].asleep[simulation.world.row_numbers(RigidBody)].all()
 
 
 def test_an_elastic_gas_keeps_its_energy() -> None:
