@@ -40,6 +40,12 @@ def deck(simulation: Simulation, turn: Any, material: dict[str, float]) -> None:
         simulation.add(collider=CUBE, transform=pose, parent={"entity": deck, "position": place}, material=material)
 
 
+def slab(simulation: Simulation, turn: Any, material: dict[str, float]) -> None:
+    """Lay one box of their extent."""
+    box = {"box": {"size": (10.0, 1.0, 2.0)}}
+    simulation.add(collider=box, transform={"position": (0.0, -0.5, 0.0), "rotation": turn}, material=material)
+
+
 @pytest.mark.parametrize("ground", [tiles, movable_tiles, deck])
 @pytest.mark.parametrize("turn", [quaternion.IDENTITY, TURNED], ids=["straight", "turned"])
 @pytest.mark.parametrize("speed", [0.06, 0.3, 1.0, 4.0])
@@ -97,3 +103,37 @@ def test_a_ball_strikes_a_kerb() -> None:
         impact = simulation.world[Impact]
     assert impact.time[0] == pytest.approx((0.3 - aside) / speed, abs=1e-12)
     assert impact.speed[0] == pytest.approx(speed * aside / 0.5, abs=1e-12)
+
+
+def test_a_ball_that_has_sunk_in_does_not_strike_the_next_box() -> None:
+    """A tenth of a millimetre deep, whose push out of the first is all that it feels at the seam."""
+    seen = []
+    for ground in (tiles, slab):
+        simulation = Simulation(checked=False)
+        ground(simulation, quaternion.IDENTITY, {"friction": 0.0})
+        ball = simulation.add(
+            collider={"sphere": {"radius": 0.5}}, body={"mass": 1.0}, material={"friction": 0.0},
+            transform={"position": (-0.02, 0.4999, -0.3)}, motion={"linear": (1.0, 0.0, 0.0)},
+        )  # fmt: skip
+        simulation.step(30)
+        assert simulation.world[Impact].count == 0
+        seen.append(np.concatenate([simulation[ball].transform.position, simulation[ball].motion.linear]))
+    assert np.abs(seen[0] - seen[1]).max() <= 1e-9
+
+
+@pytest.mark.parametrize("before", [0.005, 0.02, 0.035])
+def test_a_ball_lands_on_the_box_it_comes_to_within_a_substep(before: float) -> None:
+    """It flies over the seam at 20 m/s each way: an impact as on one piece, wherever it was when the substep began."""
+    times = []
+    for ground in (tiles, slab):
+        simulation = Simulation(checked=False, gravity=(0.0, 0.0, 0.0))
+        ground(simulation, quaternion.IDENTITY, {"friction": 0.0})
+        simulation.add(
+            collider={"sphere": {"radius": 0.5}}, body={"mass": 1.0}, material={"friction": 0.0},
+            transform={"position": (-before, 0.54, -0.3)}, motion={"linear": (20.0, -20.0, 0.0)},
+        )  # fmt: skip
+        simulation.step()
+        impact = simulation.world[Impact]
+        assert impact.count == 1
+        times.append(float(impact.time[0]))
+    assert times == pytest.approx([0.002, 0.002], abs=1e-12)

@@ -20,8 +20,8 @@ def hide_at_seams(
     A box hides those of another that is a part of the same body, or stands still as it does, where what meets both has
     the other wholly behind the plane in which it meets the first, and would touch it only where the two adjoin: it
     cannot get there but through the first. To FLUSH of its longest half extent, by which what lies on the first may
-    have sunk in. Balls that are bodies have exact contacts with
-    boxes that are, or stand still, which know the edges they pass (`is_borne_beside`).
+    have sunk in. A ball that is a body of its own has exact contacts with boxes that stand or are bodies of their own,
+    which know the edges it passes (`is_borne_beside`).
     """
     count, rows = len(row_a), len(shape)
     compound = np.zeros(rows, np.bool_)

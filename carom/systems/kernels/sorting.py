@@ -189,8 +189,9 @@ def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, l
 
     One rests when one of its points touches or would by the end of the substep (a ball only once it touches), unless
     one would strike: close faster than the rest speed. What was pressed together before and has no exact arc goes on
-    resting. So does whatever was, or has struck in two substeps, and parts no faster than the rest speed: what others
-    press it by would else have it strike in each substep anew, and never be pushed out of those. But it does not lie.
+    resting. So does a ball that was, and whatever has struck in two substeps in a row, if it neither parts nor closes
+    faster than the rest speed: what others press it by would else have it strike in each substep anew, and never be
+    pushed out of those. But it does not lie.
     """
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     felt_a, felt_b = masses_a[3:6], masses_b[3:6]

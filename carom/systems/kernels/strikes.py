@@ -33,7 +33,7 @@ def foresee(
     """Return when the bodies of pair p strike each other within the substep, NEVER if they do not.
 
     A resting pair is held by the solver; only a blow on one of its bodies makes it an impact, by which they close
-    faster than ``limit`` (m/s), or a gap, unless one is ``joined`` to another body and lands while it rests.
+    faster than ``limit`` (m/s), or across a gap: but who is ``joined`` to somebody rests before he lands.
     """
     t = now - time[i]
     c, g = bend * t * t, 2.0 * bend * t
@@ -60,7 +60,7 @@ def foresee(
     if resting[p]:
         gap, nx, ny, nz = gap_of_ball(kind[p], x, y, z, radius[p], ox, oy, oz, qx, qy, qz, qw, ex, ey, ez)
         closing = -(nx * (vx - ux) + ny * (vy - uy) + nz * (vz - uz))
-        if joined if gap > TOUCH else closing <= limit:
+        if (gap > TOUCH and joined) or (gap <= TOUCH and closing <= limit):
             return NEVER
         resting[p] = False
     return now + first_touch(
