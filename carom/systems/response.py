@@ -187,8 +187,8 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
         contact.share, contact.kind, contact.ball, contact.other,
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
-        contact.impulse, contact.friction_impulse, contact.warm_normal, contact.strikes, contact.plastic,
-        closes, within, flight.held, until, world[Fast].turns, events, ledger.pull, ledger.arc, 0, *room_for_log(),
+        contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, closes, within,
+        flight.held, until, world[Fast].turns, events, ledger.pull, ledger.arc, 0, *room_for_log(),
     )  # fmt: skip
     log_impacts(world, cut, count, pair, log)
     return now, reason, events

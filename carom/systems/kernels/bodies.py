@@ -109,13 +109,6 @@ def pushed(a, b, felt):
 
 
 @inlined
-def loaded(i, o, impulse, h, inverse_mass):
-    """Return how fast (m/s2) two bodies would part by what one bears of the other, an ``impulse`` in h seconds."""
-    gives = (inverse_mass[i] if i >= 0 else 0.0) + (inverse_mass[o] if o >= 0 else 0.0)
-    return impulse * gives / h
-
-
-@inlined
 def pressing_of(i, o, nx, ny, nz, acceleration):
     """Return how fast two bodies accelerate towards each other along the normal n from o to i."""
     pressing = -(nx * acceleration[i, 0] + ny * acceleration[i, 1] + nz * acceleration[i, 2])

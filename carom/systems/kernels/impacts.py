@@ -18,7 +18,7 @@ from carom.systems.constants import (
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
-from carom.systems.kernels.bodies import advance_body, loaded, pushed
+from carom.systems.kernels.bodies import advance_body, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, making, woven
@@ -45,7 +45,7 @@ def fly(
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
     count, beginning, group_of, stale, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
-    surface, friction, restitution, resting, impulse, friction_impulse, warm_normal, strikes, plastic, closing, within,
+    surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, within,
     on_joint, until, turns, events, pull, arc, log_count, log_pair, log,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts after those ``log_count``.
@@ -136,8 +136,7 @@ def fly(
                 continue
             limit = sink / (h - now) if now < h else NEVER
             if springs:
-                load = loaded(ball[p], other[p], warm_normal[p], h, inverse_mass)
-                limit = APPROACH + BLOW_SPEED_FACTOR * h * max(load, pushed(ball[p], other[p], felt))
+                limit = APPROACH + BLOW_SPEED_FACTOR * h * pushed(ball[p], other[p], felt)
             rested = resting[p]
             foreseen = foresee(
                 p, ball[p], other[p], now, h, limit, bend,

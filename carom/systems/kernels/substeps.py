@@ -56,8 +56,8 @@ def take_substeps(
     start_position, start_rotation, start_linear, start_angular, start_center, turned, detected_center, reach,
     body_a, body_b, normal, depth, point, offset_a, offset_b, share_of_b, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
-    warm_normal, strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes,
-    triangles, room, turns, pull, arc, log_pair, log, spent,
+    strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
+    turns, pull, arc, log_pair, log, spent,
 ):  # fmt: skip
     """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
 
@@ -157,8 +157,8 @@ def take_substeps(
                     angular_acceleration, felt, detected_center, reach, inverse_mass, inertia, inverse_inertia,
                     principal_axes, freedom, count, start, group_of, stale, body_a, body_b, normal, depth,
                     offset_a, offset_b, share_of_b, kind, ball, other, extent, radius, other_position, other_rotation,
-                    sign, surface, friction, restitution, resting, impulse, friction_impulse, warm_normal, strikes,
-                    plastic, closes, within, held, until, turns, none, pull, arc, logged, log_pair, log,
+                    sign, surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic,
+                    closes, within, held, until, turns, none, pull, arc, logged, log_pair, log,
                 )  # fmt: skip
                 cut += passed
         share(describe(advance, for_rows, (
