@@ -38,7 +38,7 @@ def add_bin(simulation: Simulation, side: float, material: dict[str, float]) -> 
 def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ...], restitution: float) -> None:
     """Bodies dropped into a bin, where walls press them: in the tenth second hardly anybody strikes.
 
-    Not even light ones that are wedged between heavy ones, which sink into them. What rolls may meet somebody once.
+    Not even light ones that are wedged between heavy ones, which sink into them.
     """
     simulation, random = Simulation(checked=False), np.random.default_rng(0)
     material = {"restitution": restitution}
@@ -53,11 +53,11 @@ def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ..
     for _ in range(60):
         simulation.step()
         strikes += simulation.world[Impact].count
-    assert strikes <= 3
+    assert strikes <= 1  # what rolls may meet somebody
     rows, contact = simulation.world.row_numbers(RigidBody), simulation.world[Contact]
     assert np.abs(simulation.world[Transform].position[rows][:, [0, 2]]).max() < SIDE / 2.0
     assert np.linalg.norm(simulation.world[Motion].linear[rows], axis=1).max() <= 0.05  # balls roll on
-    assert contact.depth[: contact.count].max() <= (0.005 if len(masses) == 1 else 0.2)
+    assert contact.depth[: contact.count].max() <= (0.005 if len(masses) == 1 else 0.1)
 
 
 @pytest.mark.parametrize("masses", [(1.0,), (1.0, 100.0, 10.0)], ids=str)

@@ -107,13 +107,12 @@ def test_a_cube_leans_on_any_corner_of_the_octagon_it_shares_with_another(below:
 
 
 @pytest.mark.parametrize(
-    ("substeps", "aside", "speed"), [(1, 0.02, 3e-3), (2, 2e-3, 1e-3), (4, 1e-3, 1e-4), (8, 2e-4, 1e-6)]
+    ("substeps", "aside", "speed"), [(1, 0.02, 1e-3), (2, 2e-3, 1e-3), (4, 1e-3, 1e-4), (8, 2e-4, 1e-6)]
 )
 def test_a_pyramid_of_55_cubes_stands(substeps: int, aside: float, speed: float) -> None:
     """Ten at the base, 5 cm apart: none moves sideways by more than 1 mm in 10 s; by more in coarse substeps.
 
-    Springs are softer then, and it rests: stiffer than substeps can follow, they made it flutter at 10 cm/s. In a
-    single one it settles for 20 s, by then at 1 or 2 mm/s.
+    Springs are softer then, and it rests: stiffer than substeps can follow, they made it flutter at 10 cm/s.
     """
     simulation = on_ground(substeps=substeps)
     placed = [((j - i) * 1.05 + 0.525 * i - 4.725, 0.5 + i, 0.0) for i in range(10) for j in range(i, 10)]

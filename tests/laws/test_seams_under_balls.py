@@ -34,10 +34,10 @@ def movable_tiles(simulation: Simulation, turn: Any, material: dict[str, float])
 
 def deck(simulation: Simulation, turn: Any, material: dict[str, float]) -> None:
     """Lay them as parts of one kinematic body."""
-    deck = simulation.add(body={"type": "kinematic"}, transform={"rotation": turn})
+    raft = simulation.add(body={"type": "kinematic"}, transform={"rotation": turn})
     for place in PLACES:
         pose = {"position": quaternion.rotate(turn, place), "rotation": turn}
-        simulation.add(collider=CUBE, transform=pose, parent={"entity": deck, "position": place}, material=material)
+        simulation.add(collider=CUBE, transform=pose, parent={"entity": raft, "position": place}, material=material)
 
 
 def slab(simulation: Simulation, turn: Any, material: dict[str, float]) -> None:
@@ -96,7 +96,7 @@ def test_a_ball_strikes_a_kerb() -> None:
         collider={"sphere": {"radius": 0.5}}, body={"mass": 1.0},
         transform={"position": (-0.3, 0.5, 0.0)}, motion={"linear": (speed, 0.0, 0.0), "angular": (0.0, 0.0, -4.0)},
     )  # fmt: skip
-    aside = math.sqrt(0.25 - (0.5 - rise) ** 2)  # is the edge when they meet
+    aside = math.sqrt(0.25 - (0.5 - rise) ** 2)  # of the ball's centre is the edge when they meet
     impact = simulation.world[Impact]
     while not impact.count:
         simulation.step()

@@ -108,6 +108,12 @@ def pushed(a, b, felt):
     return sqrt(squared)
 
 
+@woven
+def is_on_joint(i, on_joint):
+    """Tell whether body i, or nobody, is ``on_joint``, which has no rows where there are no joints."""
+    return 0 <= i < len(on_joint) and on_joint[i]
+
+
 @inlined
 def pressing_of(i, o, nx, ny, nz, acceleration):
     """Return how fast two bodies accelerate towards each other along the normal n from o to i."""

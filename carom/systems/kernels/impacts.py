@@ -18,7 +18,7 @@ from carom.systems.constants import (
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
-from carom.systems.kernels.bodies import advance_body, pushed
+from carom.systems.kernels.bodies import advance_body, is_on_joint, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, making, woven
@@ -137,11 +137,11 @@ def fly(
             limit = sink / (h - now) if now < h else NEVER
             if springs:
                 limit = APPROACH + BLOW_SPEED_FACTOR * h * pushed(ball[p], other[p], felt)
-            rested = resting[p]
+            rested, joined = resting[p], is_on_joint(body_a[p], on_joint) or is_on_joint(body_b[p], on_joint)
             foreseen = foresee(
                 p, ball[p], other[p], now, h, limit, bend,
                 center, rotation, linear, angular, time, acceleration,
-                kind, radius, extent, other_position, other_rotation, resting, is_joined(p, body_a, body_b, on_joint),
+                kind, radius, extent, other_position, other_rotation, resting, joined,
             )  # fmt: skip
             stale[group_of[number[m]]] |= rested and not resting[p]
             enter_time(soonest, leaves + m, foreseen)
@@ -259,13 +259,6 @@ def fly(
             if spin * (h - now) > turns[body]:
                 end, whirls = now, True
     return now, reason_of(now, h, until, whirls), events, cut, log_count, log_pair, log
-
-
-@woven
-def is_joined(p, body_a, body_b, on_joint):
-    """Tell whether a body of pair p is ``on_joint``, which has no rows for bodies where there are no joints."""
-    a, b = body_a[p], body_b[p]
-    return (0 <= a < len(on_joint) and on_joint[a]) or (0 <= b < len(on_joint) and on_joint[b])
 
 
 @woven

@@ -7,7 +7,7 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import FLUSH, LEANING
 from carom.systems.kernels.frames import turned_back
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, POINT_SHAPE, SPHERE_SHAPE
 
 
@@ -52,18 +52,18 @@ def hide_at_seams(
             continue
         beginning[pairs] = c
         pairs += 1
-        first[a + 1] += lies[b] and (glides[a] or (rolls[a] and body_row[b] >= 0))
-        first[b + 1] += lies[a] and (glides[b] or (rolls[b] and body_row[a] >= 0))
+        first[a + 1] += is_over(a, b, glides, rolls, lies, body_row)
+        first[b + 1] += is_over(b, a, glides, rolls, lies, body_row)
     for i in range(rows):
         first[i + 1] += first[i]
     met, place = np.empty(first[rows], np.int64), first[:rows].copy()
     for m in range(pairs):
         c = beginning[m]
         a, b = row_a[c], row_b[c]
-        if lies[b] and (glides[a] or (rolls[a] and body_row[b] >= 0)):
+        if is_over(a, b, glides, rolls, lies, body_row):
             met[place[a]] = c
             place[a] += 1
-        if lies[a] and (glides[b] or (rolls[b] and body_row[a] >= 0)):
+        if is_over(b, a, glides, rolls, lies, body_row):
             met[place[b]] = c
             place[b] += 1
 
@@ -92,6 +92,12 @@ def hide_at_seams(
                     number += end - c
                     break
     return number
+
+
+@woven
+def is_over(one, box, glides, rolls, lies, body_row):
+    """Tell whether a collider glides over a box, or is a ball that rolls over one that is a part of a body."""
+    return lies[box] and (glides[one] or (rolls[one] and body_row[box] >= 0))
 
 
 @inlined

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, SLOP, TOUCH
+from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, ROOT_GAP, SLOP, TOUCH
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.ball_seams import is_borne_beside
 from carom.systems.kernels.balls import BOX, gap_of_ball, pose_of_other
 from carom.systems.kernels.balls_in_lanes import are_balls, measure_balls_in_lanes
+from carom.systems.kernels.bodies import is_on_joint
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.filling import find_tangents, place_points
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
@@ -100,6 +101,8 @@ def sort_groups(
             find_tangents(r, rows)
             if not measured:
                 place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
+        if moved_on:
+            let_touch(r, rows)
         before = load(rows, r + of.RESTS)
         if stale[g] or joined:
             recall(g, r, fresh[g], index_a, index_b, first, on_joint, resting, strikes, lanes)
@@ -142,6 +145,14 @@ def sort_groups(
 
 
 @woven
+def let_touch(r, lanes):
+    """Let balls of a group touch that do to rounding: which side of that they lie on after an impact is chance."""
+    depth, zero = load(lanes, r + MANIFOLD_ROWS + of.DEPTH), spread(0.0)
+    exact = choose(larger(depth, -depth) - ROOT_GAP, depth, zero)
+    store(lanes, r + MANIFOLD_ROWS + of.DEPTH, choose(load(lanes, r + of.BALL), exact, depth))
+
+
+@woven
 def recall(g, r, fresh, index_a, index_b, first, on_joint, resting, strikes, lanes):
     """Write which manifolds of a group rested or struck in the substep before, and which are on a joint."""
     for lane in range(WIDTH):
@@ -150,7 +161,7 @@ def recall(g, r, fresh, index_a, index_b, first, on_joint, resting, strikes, lan
             a, b, before = index_a[g, lane], index_b[g, lane], RESTED if resting[c] else 0.0
             if strikes[c] and not fresh:
                 before = 1.0 + lanes[r + of.TOGETHER, lane] // 1.0 % JOINED
-            if (a < len(on_joint) and on_joint[a]) or (b < len(on_joint) and on_joint[b]):
+            if is_on_joint(a, on_joint) or is_on_joint(b, on_joint):
                 before = JOINED
         lanes[r + of.TOGETHER, lane] = before
 
