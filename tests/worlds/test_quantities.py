@@ -51,6 +51,7 @@ IMMATERIAL = {
         bowling materials.ball.restitution
         mirror_room entities.ball.material.restitution""",
     "no ball comes to it": "billiards materials.wood.restitution.value",
+    "boulders lie against it, none strikes it": "trap entities.gate.material.restitution",
     "those who are pushed on strike again until they go together": """
         dominoes prefabs.domino.material.restitution
         dominoes entities.floor.material.restitution""",
