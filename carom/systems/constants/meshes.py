@@ -29,6 +29,15 @@ SAME_PLACE = 1e-3
 # noise changes the choice.
 BETTER = 1e-3
 
+# Part of a body's width by which what lies in the ground may be beyond a flat or hollow edge of a triangle and still be
+# over it. Larger: a ledge narrower than that holds bodies up beyond its end. Smaller: corners in the bottom of valleys
+# that have sunk in by more fall between their sides.
+SUNK = 1e-2
+
+# Part of SAME_PLACE by which a point within a manifold is to be lower than what the others span to be one of it too.
+# Larger: bodies sink onto ridges that are left out, and rock; smaller: noise in vertices gives points of its own.
+LOWER = 1e-2
+
 # Contacts that FCL may return for a pair with a mesh, one or more for each triangle. Fewer: sides of a body go unseen.
 TRIANGLE_CONTACTS = 32
 

@@ -56,21 +56,27 @@ def cut(polygon, tag, here, there, count, x, y, z, offset, bit):
 
 @woven
 def points_over_triangle(
-    v, loop_vertex, begin, stop, triangles, links, t, radius, reach, polygon, tag, room, points, names, found
+    v, loop_vertex, begin, stop, triangles, links, t, radius, reach, sunk,
+    polygon, tag, room, points, names, found,
 ):  # fmt: skip
     """Add the points of a solid's face (loop entries from ``begin`` on) that are over a triangle; return how many.
 
-    Those on the triangle's inactive edges are left out: the area goes on there.
+    Those on the triangle's inactive edges are left out: the area goes on there. Of a face that is in the ground what is
+    as far beyond such an edge as that is deep, and no farther than ``sunk`` (m), counts as over it too: beneath the
+    bottom of a valley there is a wedge that is over neither of its sides.
     """
     a = TRIANGLE * t
     nx, ny, nz = triangles[a + 9], triangles[a + 10], triangles[a + 11]
     height = nx * triangles[a] + ny * triangles[a + 1] + nz * triangles[a + 2]
-    count = stop - begin
+    count, deep = stop - begin, 0.0
     for k in range(count):
         i = loop_vertex[begin + k]
         for d in range(3):
             polygon[3 * k + d] = v[3 * i + d]
         tag[2 * k], tag[2 * k + 1] = 0, i
+        deep = max(deep, height - nx * polygon[3 * k] - ny * polygon[3 * k + 1] - nz * polygon[3 * k + 2])
+    deep = min(deep, sunk)
+    active, source = links[8 * t + 6], links[8 * t + 7]
     here, there = 0, room
     for k in range(3):
         i, j = a + 3 * k, a + 3 * ((k + 1) % 3)
@@ -81,13 +87,13 @@ def points_over_triangle(
         scale = triangles[a + 12 + k]
         x, y, z = x * scale, y * scale, z * scale
         offset = x * triangles[i] + y * triangles[i + 1] + z * triangles[i + 2] + OVER_EDGE
+        offset += 0.0 if active & (1 << k) else deep
         beyond = corners_beyond(polygon, here, count, x, y, z, offset)
         if beyond == count:
             return found
         if beyond > 0:
             count = cut(polygon, tag, here, there, count, x, y, z, offset, 1 << k)
             here, there = there, here
-    active, source = links[8 * t + 6], links[8 * t + 7]
     for k in range(count):
         bits = tag[2 * (here + k)]
         i = 3 * (here + k)
@@ -112,7 +118,7 @@ def points_over_face(
 ):  # fmt: skip
     """Add the points of a triangle that are over a solid's face with outward normal x; return how many.
 
-    Those on inactive edges are left out, but for the deepest, at ``least``.
+    Those on inactive edges are left out, but for the deepest, at ``least``; the face's corners are not.
     """
     a = TRIANGLE * t
     for k in range(3):
@@ -138,7 +144,7 @@ def points_over_face(
         bits = tag[2 * (here + k)]
         i = 3 * (here + k)
         gap = x * polygon[i] + y * polygon[i + 1] + z * polygon[i + 2] - height
-        if gap > reach or (bits & active == 0 and gap > least + BIAS):
+        if gap > reach or (bits != 0 and bits & active == 0 and gap > least + BIAS):
             continue
         half = 0.5 * gap
         found = add_point(

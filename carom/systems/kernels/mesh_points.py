@@ -5,6 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BETTER, SAME_NORMAL
 from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.low_points import with_low_ones
 from carom.systems.kernels.reduction import MOST_POINTS, span_area, swap
 from carom.systems.kernels.spatial import turn
 
@@ -40,7 +41,7 @@ def choose_points(points, names, count, least, kept, place, gaps, which):
     """Write into ``kept`` which of the points stand for all; return how many.
 
     The deepest point's manifold takes all whose normal is within SAME_NORMAL, then the deepest left begins the next.
-    Of each those stay that `span_area` chooses, and what overlaps within them; points nearer than ``least`` (m) are
+    Of each those stay that `span_area` chooses, and what is lower within them; points nearer than ``least`` (m) are
     one. Names of points that are in a manifold become -1 - name. ``place``, ``gaps`` and ``which`` are for the points
     of one manifold.
     """
@@ -68,35 +69,11 @@ def choose_points(points, names, count, least, kept, place, gaps, which):
                     swap(0, alike, place, gaps, which)
                 alike += 1
         found = span_area(place, gaps, which, alike, nx, ny, nz, least)
-        found = with_deep_ones(place, gaps, which, found, alike, least)
+        found = with_low_ones(place, gaps, which, found, alike, nx, ny, nz, least)
         for k in range(found):
             kept[taken] = which[k]
             taken += 1
     return taken
-
-
-@inlined
-def with_deep_ones(place, gaps, which, found, count, least):
-    """Move points that overlap by more than ``least`` behind those ``found``, up to eight in all; return how many.
-
-    Again and again the one farthest from all before. A ridge within the area has two ends: with the deeper one alone a
-    body would rock from one to the other.
-    """
-    while found < MOST_POINTS:
-        farthest, most = -1, least * least
-        for k in range(found, count):
-            apart = 1e300
-            for o in range(found):
-                i, j = 3 * k, 3 * o
-                x, y, z = place[i] - place[j], place[i + 1] - place[j + 1], place[i + 2] - place[j + 2]
-                apart = min(apart, x * x + y * y + z * z)
-            if gaps[k] < -least and apart > most:
-                farthest, most = k, apart * (1.0 + BETTER)
-        if farthest < 0:
-            break
-        swap(found, farthest, place, gaps, which)
-        found += 1
-    return found
 
 
 @inlined

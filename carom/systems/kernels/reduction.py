@@ -56,8 +56,9 @@ def span_area(place, gaps, names, count, nx, ny, nz, least):
     chosen before: of those that touch up to eight, of others until there are four. A body would lean on a corner that
     is left out, which sinks until it is chosen for its depth, and then on that left out for it, and never come to rest.
 
-    Points touch that are no farther than ``least`` (m), and add nothing where they stick out by less. Of points as good
-    to BETTER the first is taken, so that noise does not change the choice. ``place`` holds three numbers a point.
+    Of what lies on a line both ends stay. Points touch that are no farther than ``least`` (m), and add nothing where
+    they stick out by less. Of points as good to BETTER the first is taken, so that noise does not change the choice.
+    ``place`` holds three numbers a point.
 
     Return how many are chosen.
     """
@@ -83,11 +84,26 @@ def span_area(place, gaps, names, count, nx, ny, nz, least):
                 if area > max(most, slack) and (kept < SPANNING or gaps[k] <= least):
                     widest, before, most = k, e, area * (1.0 + BETTER)
         if widest < 0:
-            break
+            return with_other_end(place, gaps, names, count, least) if kept == 2 else kept
         for k in range(kept, before, -1):
             swap(k, widest if k == kept else k + 1, place, gaps, names)
         kept += 1
     return kept
+
+
+@woven
+def with_other_end(place, gaps, names, count, least):
+    """Move the other end of what lies on a line behind its first two points, the first of which may be within it."""
+    x, y, z = place[3] - place[0], place[4] - place[1], place[5] - place[2]
+    length = sqrt(x * x + y * y + z * z)
+    other, most = -1, least * length
+    for k in range(2, count):
+        back = -(x * (place[3 * k] - place[0]) + y * (place[3 * k + 1] - place[1]) + z * (place[3 * k + 2] - place[2]))
+        other, most = (k, back * (1.0 + BETTER)) if back > most else (other, most)
+    if other < 0:
+        return 2
+    swap(2, other, place, gaps, names)
+    return 3
 
 
 @woven

@@ -7,7 +7,7 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import SAME_PLACE
+from carom.systems.constants import FLAT_COSINE, SAME_PLACE, SUNK
 from carom.systems.kernels.cores import (
     CORE,
     ELLIPSOID,
@@ -24,11 +24,18 @@ from carom.systems.kernels.cores import (
 )
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.mesh_areas import MOST_CORNERS, points_over_triangle
-from carom.systems.kernels.mesh_points import MOST_MESH_POINTS, WIDTH, add_point, choose_points, write_chosen
+from carom.systems.kernels.mesh_points import (
+    MOST_MESH_POINTS,
+    WIDTH,
+    add_point,
+    as_deep_as,
+    choose_points,
+    write_chosen,
+)
 from carom.systems.kernels.mesh_surface import behind_of
 from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles, grown
 from carom.systems.kernels.outlines import outline
-from carom.systems.kernels.rounds_and_triangles import NOTHING, ON_EDGE, ON_FACE, parted_from_triangle
+from carom.systems.kernels.rounds_and_triangles import NOTHING, ON_CORNER, ON_EDGE, ON_FACE, parted_from_triangle
 from carom.systems.kernels.rounds_on_edges import points_on_edge
 from carom.systems.shapes.rim import RIM_NUMBERS, RIM_POINTS
 
@@ -50,6 +57,7 @@ def measure_rounds_on_meshes(
     room = 2 * RIM_POINTS + 8
     v, tag, plane, corners = np.empty(3 * room), np.empty(room, np.int64), np.zeros(4), np.arange(RIM_POINTS)
     polygon, tags = np.empty(6 * room), np.empty(4 * room, np.int64)
+    line, spot, apart, sides = np.empty(6), np.empty(6), np.empty(2), np.empty(2, np.int64)
     found = np.empty(FEW, np.uint32)
     points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
     place, gaps, alike = np.empty(3 * FEW), np.empty(FEW), np.empty(FEW, np.int64)
@@ -107,21 +115,25 @@ def measure_rounds_on_meshes(
                 continue
             while touching + room > len(names):
                 names, points = grown(names), grown(points)
-            if kind == ON_FACE:
+            before = touching
+            # All of an area that n is all but square to is as near, and not one end of it or the other.
+            if nx * triangles[a + 9] + ny * triangles[a + 10] + nz * triangles[a + 11] >= FLAT_COSINE:
                 end, _ = outline(core, SECOND, place, hulls, -nx, -ny, -nz, v, tag, plane)
-                before = touching
                 touching = points_over_triangle(
-                    v, corners, 0, end, triangles, links, t, 0.0, reach, polygon, tags, room, points, names, touching
-                )
+                    v, corners, 0, end, triangles, links, t, 0.0, reach, SUNK * width,
+                    polygon, tags, room, points, names, touching,
+                )  # fmt: skip
                 for i in range(before, touching):
                     corner = names[i] % MOST_CORNERS
                     names[i] += RIM_NUMBERS[corner] - corner
-            elif kind == ON_EDGE:
+                if kind != ON_FACE:
+                    as_deep_as(points, before, touching, nx, ny, nz, gap)
+            if kind == ON_EDGE and touching == before:
                 touching = points_on_edge(
                     core, place, hulls, triangles, links, t, edge, nx, ny, nz, gap, px, py, pz, reach,
-                    v, tag, plane, points, names, touching,
+                    v, tag, plane, line, spot, apart, sides, points, names, touching,
                 )  # fmt: skip
-            else:
+            elif kind == ON_CORNER and touching == before:
                 lx, ly, lz = into(place, nx, ny, nz)
                 half = 0.5 * gap
                 px, py, pz = out_of(place, px - half * lx, py - half * ly, pz - half * lz)

@@ -1,0 +1,61 @@
+"""Low points: of a contact area, those that are lower than what the points that stand for it span."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import BETTER, LOWER
+from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.reduction import MOST_POINTS, swap
+
+
+@inlined
+def with_low_ones(place, gaps, which, found, count, nx, ny, nz, least):
+    """Move points that are lower than what those ``found`` span behind them, up to eight in all; return how many.
+
+    Again and again the lowest. Where all that is found bears, the others are within the ground: left out until they
+    overlap, a body would sink onto them, be lifted off them, and rock for ever.
+    """
+    while found < MOST_POINTS:
+        lowest, most = -1, LOWER * least
+        for k in range(found, count):
+            lower = height_over(place, gaps, found, k, nx, ny, nz, least) - gaps[k]
+            lowest, most = (k, lower * (1.0 + BETTER)) if lower > most else (lowest, most)
+        if lowest < 0:
+            break
+        swap(found, lowest, place, gaps, which)
+        found += 1
+    return found
+
+
+@inlined
+def height_over(place, gaps, found, k, nx, ny, nz, least):
+    """Return the least gap that the points ``found`` leave at the place of point k, seen along n.
+
+    That is the lowest of the lines and triangles between them that it is in, to ``least``; -1e300 where it is in none.
+    """
+    height = -1e300
+    for i in range(found):
+        height = max(height, gaps[i])
+    if gaps[k] >= height:
+        return -1e300
+    height, none = 1e300, True
+    x, y, z = place[3 * k], place[3 * k + 1], place[3 * k + 2]
+    for i in range(found):
+        ax, ay, az = place[3 * i] - x, place[3 * i + 1] - y, place[3 * i + 2] - z
+        for j in range(i + 1, found):
+            bx, by, bz = place[3 * j] - x, place[3 * j + 1] - y, place[3 * j + 2] - z
+            ux, uy, uz = bx - ax, by - ay, bz - az
+            squared = ux * ux + uy * uy + uz * uz
+            along = -(ax * ux + ay * uy + az * uz)
+            third = nx * (ay * bz - az * by) + ny * (az * bx - ax * bz) + nz * (ax * by - ay * bx)
+            if third * third <= least * least * squared and 0.0 <= along <= squared:
+                height, none = min(height, gaps[i] + along / squared * (gaps[j] - gaps[i])), False
+            for o in range(j + 1, found):
+                cx, cy, cz = place[3 * o] - x, place[3 * o + 1] - y, place[3 * o + 2] - z
+                first = nx * (by * cz - bz * cy) + ny * (bz * cx - bx * cz) + nz * (bx * cy - by * cx)
+                second = nx * (cy * az - cz * ay) + ny * (cz * ax - cx * az) + nz * (cx * ay - cy * ax)
+                whole = first + second + third
+                if first * whole > 0.0 and second * whole > 0.0 and third * whole > 0.0:
+                    level = (first * gaps[i] + second * gaps[j] + third * gaps[o]) / whole
+                    height, none = min(height, level), False
+    return -1e300 if none else height
