@@ -66,7 +66,7 @@ def go_on(world: World, dt: float) -> None:
     crew = crew_for(world, max(len(rows), len(watched), resting.count))
     begun, spent = (world.frame - 1) * settings.dt, np.zeros(len(DONE_AT_ONCE), np.int64)
     number, reason, at, events, rests, cut, count, pair, log = take_substeps(
-        crew, ALONE, FEWEST, progress.substep, settings.substeps, dt, begun, progress.crowded,
+        crew, ALONE, FEWEST, progress.substep, settings.substeps, dt, begun,
         SCHEMES[settings.integrator], float(settings.response == "full"), *yielding(dt),
         rows, watched, resting.rows(world), contact.count, resting.count, resting.groups, resting.levels,
         resting.solids, resting.balls, resting.start, resting.beside, resting.group_of, resting.lane_of,

@@ -54,9 +54,7 @@ def look_ahead(world: World, dt: float) -> None:
     So too where commands have brought or taken entities since: rows may be of others now.
     """
     progress = world[Progress]
-    if world[Resting].structure != world.structure or (
-        progress.substep > 1 and not detection_holds(world, dt + progress.foreseen)
-    ):
+    if world[Resting].structure != world.structure or (progress.substep > 1 and not detection_holds(world, dt)):
         world[Resting].hand_over(world)
         detect_again(world, dt)
 
@@ -139,7 +137,7 @@ def drift(world: World, dt: float) -> None:
             return
         _finish(world, dt, ended=False)
         left = dt - at
-        if reason == OUT_OF_REACH and (at, events) != before and detection_holds(world, left + progress.foreseen):
+        if reason == OUT_OF_REACH and (at, events) != before and detection_holds(world, left):
             continue
         world[Landings].tell(world, dt)
         world[Resting].hand_over(world)

@@ -112,3 +112,17 @@ def test_many_are_detected_anew_at_once() -> None:
                 collider=BALL, material={"restitution": 1.0},
             )  # fmt: skip
     assert detections(simulation, 1) == 2
+
+
+def test_what_rests_is_detected_once_a_step_whatever_pulls_at_it() -> None:
+    """Balls lie on a planet whose well pulls four times as hard as gravity: nobody foresees it, and nobody goes."""
+    simulation, random = Simulation(checked=False, gravity=(0.0, 0.0, 0.0), sleeping=False), np.random.default_rng(5)
+    simulation.force("gravity_well", strength=400.0, radius=0.5)
+    simulation.add(collider={"sphere": {"radius": 2.7}})
+    for direction in random.normal(size=(60, 3)):
+        simulation.add(
+            transform={"position": tuple(3.3 * direction / np.linalg.norm(direction))}, body={"mass": 1.0},
+            collider={"sphere": {"radius": 0.5}}, material={"rolling_friction": 0.05, "spinning_friction": 0.05},
+        )  # fmt: skip
+    simulation.step(240)
+    assert detections(simulation, 60) == 60

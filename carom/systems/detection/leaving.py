@@ -18,24 +18,28 @@ from carom.systems.detection.seams import without_seams
 from carom.systems.kernels.broad_pairs import pairs_of
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.reach import find_leaving, find_ways, widen_reach
+from carom.systems.progress import Progress
 from carom.systems.ties import Ties
 
 
-def detection_holds(world: World, left: float) -> bool:
-    """Tell whether the contact table holds for ``left`` seconds more; bodies may come to have more reach by that.
+def detection_holds(world: World, soon: float) -> bool:
+    """Tell whether the contact table holds until the substep ends in ``soon`` seconds; bodies may get more reach by it.
 
     Who was struck goes another way than was foreseen, but most often meets nobody there who is not in the table: to
-    know that costs a tenth of detecting all anew.
+    know that costs a tenth of detecting all anew. As that, it is found out for the rest of the step at once. Who leaves
+    later than this substep may be stopped before, as what rests is, whatever pulls at it: it is asked about then.
     """
     flight, motion, rows = world[Flight], world[Motion], world[BroadPhase].watched(world)
     if not len(rows):
         return True
     leaving: Integers = np.empty(MOST_WIDENED + 1, np.int64)
     count = find_leaving(
-        rows, left, flight.center, flight.detected_center, flight.reach, motion.linear,
+        rows, soon, flight.center, flight.detected_center, flight.reach, motion.linear,
         flight.felt, leaving,
     )  # fmt: skip
-    return count == 0 or (count <= MOST_WIDENED and _meet_nobody_new(world, leaving[:count], left))
+    return count == 0 or (
+        count <= MOST_WIDENED and _meet_nobody_new(world, leaving[:count], soon + world[Progress].foreseen)
+    )
 
 
 def _meet_nobody_new(world: World, leaving: Integers, left: float) -> bool:

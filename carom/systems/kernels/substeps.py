@@ -46,7 +46,7 @@ HARD = (0.0, 1.0)
     makes_arrays=True,
 )  # fmt: skip
 def take_substeps(
-    crew, alone, fewest, number, substeps, h, begun, crowded, scheme, resting_stage, soft, rigid,
+    crew, alone, fewest, number, substeps, h, begun, scheme, resting_stage, soft, rigid,
     rows, watched, bound, contacts, count, groups, levels, solids, balls,
     start, beside, group_of, lane_of, index_a, index_b, first, size, points, row, fresh, stale, looks, asks, ends,
     run_ends, closes, leans, lanes, bodies, scratch,
@@ -79,10 +79,9 @@ def take_substeps(
     none = logged = np.int64(0)  # a bare 0 has a type of its own, for which `fly` would be compiled once more
     now = nanoseconds()
     for k in range(number, substeps + 1):
-        clock, left = begun + (k - 1) * h, (substeps - k) * h
+        clock = begun + (k - 1) * h
         if k > begins:
-            span = h if crowded else h + left
-            leaves = leave(watched, span, center, detected_center, reach, linear, felt, leaving)
+            leaves = leave(watched, h, center, detected_center, reach, linear, felt, leaving)
             now = note(LOOK_AHEAD, now, spent)
             if leaves:
                 return k - 1, DONE, h, 0, 0, cut, logged, log_pair, log
