@@ -45,3 +45,20 @@ def test_bodies_fall_asleep_on_rough_land(bodies: str) -> None:
         assert (simulation.world[Transform].position[rows, 1] > 0.1).all()
         rocking += int((~simulation.world[Motion].asleep[rows]).sum())
     assert rocking <= most
+
+
+def test_large_boxes_fall_asleep_on_small_bumps() -> None:
+    """Boxes of 3 m on squares of 0.3 m, of heights up to 1 cm: among a hundred bumps those that bear are found."""
+    simulation, random = Simulation(checked=False, sleeping=True), np.random.default_rng(1)
+    simulation.add(
+        collider={"height_field": {"heights": random.uniform(0.0, 0.01, (80, 80)), "spacing": 0.3}},
+        material={"friction": 0.6},
+    )
+    for k in range(10):
+        simulation.add(
+            collider={"box": {"size": (3.0, 0.5, 3.0)}}, body={"mass": 1.0},
+            transform={"position": (4.2 * (k % 5) - 8.4, 0.31, 5.0 * (k // 5) - 2.5)},
+        )  # fmt: skip
+    simulation.step(300)
+    rows = simulation.world.row_numbers(RigidBody)
+    assert simulation.world[Motion].asleep[rows].all()

@@ -5,7 +5,25 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BETTER, LOWER
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.reduction import MOST_POINTS, swap
+from carom.systems.kernels.reduction import MOST_POINTS, extend_area, span_roughly, swap
+
+
+@inlined
+def span_low(place, gaps, which, count, nx, ny, nz, least):
+    """Do what `span_area` does, but of eight points those come first that are lower than what four span.
+
+    Those bear. On land whose bumps are many and small all around an area is touched, and all but nothing within it.
+    """
+    kept = span_roughly(place, gaps, which, count, nx, ny, nz, least)
+    found = with_low_ones(place, gaps, which, kept, count, nx, ny, nz, least)
+    low = found - kept
+    if kept > 2 and found < min(MOST_POINTS, count):
+        for k in range(low - 1, -1, -1):
+            swap(kept + k, count - low + k, place, gaps, which)
+        kept = extend_area(place, gaps, which, kept, MOST_POINTS - low, count - low, nx, ny, nz, least)
+        for k in range(low):
+            swap(kept + k, count - low + k, place, gaps, which)
+    return kept + low
 
 
 @inlined

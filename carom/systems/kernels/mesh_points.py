@@ -5,8 +5,8 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import BETTER, SAME_NORMAL
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.low_points import with_low_ones
-from carom.systems.kernels.reduction import MOST_POINTS, span_area, swap
+from carom.systems.kernels.low_points import span_low
+from carom.systems.kernels.reduction import MOST_POINTS, swap
 from carom.systems.kernels.spatial import turn
 
 MOST_MANIFOLDS = 4
@@ -41,7 +41,7 @@ def choose_points(points, names, count, least, kept, place, gaps, which):
     """Write into ``kept`` which of the points stand for all; return how many.
 
     The deepest point's manifold takes all whose normal is within SAME_NORMAL, then the deepest left begins the next.
-    Of each those stay that `span_area` chooses, and what is lower within them; points nearer than ``least`` (m) are
+    Of each those stay that `span_low` chooses; points nearer than ``least`` (m) are
     one. Names of points that are in a manifold become -1 - name. ``place``, ``gaps`` and ``which`` are for the points
     of one manifold.
     """
@@ -68,8 +68,7 @@ def choose_points(points, names, count, least, kept, place, gaps, which):
                 if k == deepest:
                     swap(0, alike, place, gaps, which)
                 alike += 1
-        found = span_area(place, gaps, which, alike, nx, ny, nz, least)
-        found = with_low_ones(place, gaps, which, found, alike, nx, ny, nz, least)
+        found = span_low(place, gaps, which, alike, nx, ny, nz, least)
         for k in range(found):
             kept[taken] = which[k]
             taken += 1

@@ -62,6 +62,13 @@ def span_area(place, gaps, names, count, nx, ny, nz, least):
 
     Return how many are chosen.
     """
+    kept = span_roughly(place, gaps, names, count, nx, ny, nz, least)
+    return extend_area(place, gaps, names, kept, MOST_POINTS, count, nx, ny, nz, least) if kept > 2 else kept
+
+
+@woven
+def span_roughly(place, gaps, names, count, nx, ny, nz, least):
+    """Do what `span_area` does, until there are four."""
     farthest, most = -1, least * least
     for k in range(1, count):
         x, y, z = place[3 * k] - place[0], place[3 * k + 1] - place[1], place[3 * k + 2] - place[2]
@@ -70,8 +77,14 @@ def span_area(place, gaps, names, count, nx, ny, nz, least):
     if farthest < 0:
         return 1
     swap(1, farthest, place, gaps, names)
-    kept = 2
-    while kept < min(MOST_POINTS, count):
+    kept = extend_area(place, gaps, names, 2, SPANNING, count, nx, ny, nz, least)
+    return with_other_end(place, gaps, names, count, least) if kept == 2 else kept
+
+
+@woven
+def extend_area(place, gaps, names, kept, room, count, nx, ny, nz, least):
+    """Move points that add area in among the ``kept`` ones, until there are as many as there is ``room`` for."""
+    while kept < min(room, count):
         widest, before, most = -1, 0, 0.0
         for e in range(kept):
             o = e + 1 if e + 1 < kept else 0
@@ -84,7 +97,7 @@ def span_area(place, gaps, names, count, nx, ny, nz, least):
                 if area > max(most, slack) and (kept < SPANNING or gaps[k] <= least):
                     widest, before, most = k, e, area * (1.0 + BETTER)
         if widest < 0:
-            return with_other_end(place, gaps, names, count, least) if kept == 2 else kept
+            break
         for k in range(kept, before, -1):
             swap(k, widest if k == kept else k + 1, place, gaps, names)
         kept += 1
