@@ -36,7 +36,7 @@ def add_bin(simulation: Simulation, side: float, material: dict[str, float]) -> 
     ("shape", "masses"), [*((shape, (500.0,)) for shape in SHAPES), ("balls", (1.0, 100.0, 10.0))], ids=str
 )
 def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ...], restitution: float) -> None:
-    """Bodies dropped into a bin, where walls press them: in the tenth second hardly anybody strikes.
+    """Bodies dropped into a bin, where walls press them: in the eleventh and twelfth second nobody strikes anybody.
 
     Not even light ones that are wedged between heavy ones, which sink into them.
     """
@@ -48,12 +48,10 @@ def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ..
     for k, place in enumerate(places):
         body = {"mass": masses[k % len(masses)]}
         simulation.add(collider=SHAPES[shape], body=body, transform={"position": tuple(place)}, material=material)
-    simulation.step(540)
-    strikes = 0
-    for _ in range(60):
+    simulation.step(600)  # until then a ball may roll, which nothing slows, and meet somebody
+    for _ in range(120):
         simulation.step()
-        strikes += simulation.world[Impact].count
-    assert strikes <= 1  # what rolls may meet somebody
+        assert simulation.world[Impact].count == 0
     rows, contact = simulation.world.row_numbers(RigidBody), simulation.world[Contact]
     assert np.abs(simulation.world[Transform].position[rows][:, [0, 2]]).max() < SIDE / 2.0
     assert np.linalg.norm(simulation.world[Motion].linear[rows], axis=1).max() <= 0.05  # balls roll on

@@ -6,6 +6,7 @@ from __future__ import annotations
 from carom.systems.constants import BETTER, LOWER
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.reduction import MOST_POINTS, extend_area, span_roughly, swap
+from carom.systems.kernels.spatial import cross
 
 
 @inlined
@@ -17,7 +18,7 @@ def span_low(place, gaps, which, count, nx, ny, nz, least):
     kept = span_roughly(place, gaps, which, count, nx, ny, nz, least)
     found = with_low_ones(place, gaps, which, kept, count, nx, ny, nz, least)
     low = found - kept
-    if kept > 2 and found < min(MOST_POINTS, count):
+    if found < min(MOST_POINTS, count):
         for k in range(low - 1, -1, -1):
             swap(kept + k, count - low + k, place, gaps, which)
         kept = extend_area(place, gaps, which, kept, MOST_POINTS - low, count - low, nx, ny, nz, least)
@@ -51,29 +52,34 @@ def height_over(place, gaps, found, k, nx, ny, nz, least):
 
     That is the lowest of the lines and triangles between them that it is in, to ``least``; -1e300 where it is in none.
     """
-    height = -1e300
+    highest = -1e300
     for i in range(found):
-        height = max(height, gaps[i])
-    if gaps[k] >= height:
+        highest = max(highest, gaps[i])
+    if gaps[k] >= highest:
         return -1e300
-    height, none = 1e300, True
+    height = 1e300
     x, y, z = place[3 * k], place[3 * k + 1], place[3 * k + 2]
     for i in range(found):
         ax, ay, az = place[3 * i] - x, place[3 * i + 1] - y, place[3 * i + 2] - z
         for j in range(i + 1, found):
             bx, by, bz = place[3 * j] - x, place[3 * j + 1] - y, place[3 * j + 2] - z
             ux, uy, uz = bx - ax, by - ay, bz - az
-            squared = ux * ux + uy * uy + uz * uz
-            along = -(ax * ux + ay * uy + az * uz)
-            third = nx * (ay * bz - az * by) + ny * (az * bx - ax * bz) + nz * (ax * by - ay * bx)
+            squared, along = ux * ux + uy * uy + uz * uz, -(ax * ux + ay * uy + az * uz)
+            third = area_between(nx, ny, nz, ax, ay, az, bx, by, bz)
             if third * third <= least * least * squared and 0.0 <= along <= squared:
-                height, none = min(height, gaps[i] + along / squared * (gaps[j] - gaps[i])), False
+                height = min(height, gaps[i] + along / squared * (gaps[j] - gaps[i]))
             for o in range(j + 1, found):
                 cx, cy, cz = place[3 * o] - x, place[3 * o + 1] - y, place[3 * o + 2] - z
-                first = nx * (by * cz - bz * cy) + ny * (bz * cx - bx * cz) + nz * (bx * cy - by * cx)
-                second = nx * (cy * az - cz * ay) + ny * (cz * ax - cx * az) + nz * (cx * ay - cy * ax)
+                first = area_between(nx, ny, nz, bx, by, bz, cx, cy, cz)
+                second = area_between(nx, ny, nz, cx, cy, cz, ax, ay, az)
                 whole = first + second + third
                 if first * whole > 0.0 and second * whole > 0.0 and third * whole > 0.0:
-                    level = (first * gaps[i] + second * gaps[j] + third * gaps[o]) / whole
-                    height, none = min(height, level), False
-    return -1e300 if none else height
+                    height = min(height, (first * gaps[i] + second * gaps[j] + third * gaps[o]) / whole)
+    return height if height < 1e300 else -1e300
+
+
+@inlined
+def area_between(nx, ny, nz, ax, ay, az, bx, by, bz):
+    """Return the area of the parallelogram of a and b seen against n, negative where it turns the other way."""
+    x, y, z = cross(ax, ay, az, bx, by, bz)
+    return nx * x + ny * y + nz * z

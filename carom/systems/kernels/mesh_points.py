@@ -41,9 +41,8 @@ def choose_points(points, names, count, least, kept, place, gaps, which):
     """Write into ``kept`` which of the points stand for all; return how many.
 
     The deepest point's manifold takes all whose normal is within SAME_NORMAL, then the deepest left begins the next.
-    Of each those stay that `span_low` chooses; points nearer than ``least`` (m) are
-    one. Names of points that are in a manifold become -1 - name. ``place``, ``gaps`` and ``which`` are for the points
-    of one manifold.
+    Of each those stay that `span_low` chooses; points nearer than ``least`` (m) are one. Names of points that are in a
+    manifold become -1 - name. ``place``, ``gaps`` and ``which`` are for the points of one manifold.
     """
     if count == 1:
         kept[0], names[0] = 0, -1 - names[0]

@@ -63,7 +63,7 @@ def span_area(place, gaps, names, count, nx, ny, nz, least):
     Return how many are chosen.
     """
     kept = span_roughly(place, gaps, names, count, nx, ny, nz, least)
-    return extend_area(place, gaps, names, kept, MOST_POINTS, count, nx, ny, nz, least) if kept > 2 else kept
+    return extend_area(place, gaps, names, kept, MOST_POINTS, count, nx, ny, nz, least)
 
 
 @woven
