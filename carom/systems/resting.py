@@ -15,14 +15,12 @@ from carom.ecs.relations.contact import Contact
 from carom.systems.awake import Awake
 from carom.systems.constants import MANIFOLD_POINTS, RELAX_SWEEPS
 from carom.systems.kernels.arcs import bend_arcs
-from carom.systems.kernels.ball_seams import link_boxes
 from carom.systems.kernels.ball_touches import write_touches
 from carom.systems.kernels.crew import threads_of
-from carom.systems.kernels.filling import fill_groups, hand_over
-from carom.systems.kernels.groups import RUNS, group_manifolds
+from carom.systems.kernels.filling import hand_over
+from carom.systems.kernels.groups import RUNS
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, aligned
-from carom.systems.kernels.manifolds import find_manifolds, part_masses
 from carom.systems.kernels.packing import (
     VELOCITY,
     are_placed,
@@ -33,8 +31,7 @@ from carom.systems.kernels.packing import (
     unpack_velocities,
 )
 from carom.systems.kernels.resting import SCRATCH_ROWS, press_groups
-from carom.systems.kernels.rubbing import IDLE
-from carom.systems.kernels.settling import sink_contacts
+from carom.systems.kernels.settling import sink_contacts, tell_depths
 from carom.systems.kernels.sorting import sort_groups
 from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
@@ -64,17 +61,20 @@ class Resting(Resource):
         self.count = self.groups = self.levels = 0
         self.solids = self.balls = False  # whether some contacts are not of balls on exact arcs, and some of two balls
         self.structure = -1  # that of the world when contacts were detected
+        self.awake: Integers | None = None  # who was awake then
         self.bound = np.zeros(0, np.int64)  # the rows of bodies that contacts or joints are of
         self.bound_of: tuple[Integers, Integers] | None = None  # who was awake and joined when they were found
         self.packed: tuple[Integers, Integers] | None = None  # the rows of bodies that are packed, and who was awake
         self.centred = False  # whether all of them have their centres of mass at their origins
         self.placed = False  # whether they have not moved since
         self.start, self.beside = np.zeros(1, np.int64), np.zeros(0, np.int64)
+        self.rested = np.zeros(0, np.bool_)  # which manifolds did when they were put into groups
         self.bodies, self.lanes, self.scratch = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH), aligned(0, 0, WIDTH)
         self.leans = np.zeros((2, 1), np.bool_)  # who rests on something, as balls on exact arcs do in the second row
-        self._reserve(0)
+        self.reserve(0)
 
-    def _reserve(self, count: int) -> None:
+    def reserve(self, count: int) -> None:
+        """Make room for so many manifolds in so many groups."""
         self.group_of, self.lane_of = np.empty(count, np.int64), np.empty(count, np.int64)
         self.index_a, self.index_b = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
         self.first, self.size = np.empty((count, WIDTH), np.int64), np.empty((count, WIDTH), np.int64)
@@ -83,52 +83,13 @@ class Resting(Resource):
         self.even, self.fresh, self.stale, self.looks = (np.ones(count, np.bool_) for _ in range(4))
         self.ends = np.zeros(2, np.int64)
 
-    def group(self, world: World) -> None:
-        """Find the manifolds of the contact table, which detection has replaced, and put them into groups."""
-        contact, body = world[Contact], world[RigidBody]
-        points, nobody = contact.count, len(body.inverse_mass)
-        if len(self.start) <= points:
-            self.start, self.beside = np.empty(2 * points + 1, np.int64), np.empty(2 * points, np.int64)
-        if self.bodies.shape[1] != nobody + 1:
-            self.bodies, self.packed = aligned(PLANES, nobody + 1, BLOCK), None
-            self.leans = np.zeros((2, nobody + 1), np.bool_)
-        if not points:
-            if self.count:
-                self.bound_of = None
-            self.count = self.groups = self.levels = 0
-            self.solids = False
-            return
-        self.count, self.solids, self.balls, boxes, several = find_manifolds(
-            points, contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.kind, contact.normal,
-            self.start,
-        )  # fmt: skip
-        if boxes:
-            link_boxes(points, contact.kind, contact.ball, nobody, self.beside)
-        if len(self.group_of) < self.count:
-            self._reserve(2 * self.count)
-        self.groups, rows, self.levels = group_manifolds(
-            self.count, self.start, contact.a, contact.b, contact.body_a, contact.body_b,
-            contact.kind, contact.rolling, contact.spinning, contact.surface, contact.resting,
-            body.inverse_mass, body.inverse_inertia, body.freedom, nobody,
-            self.group_of, self.lane_of, self.index_a, self.index_b, self.first, self.size,
-            self.points, self.row, self.even, self.ends, self.run_ends,
-        )  # fmt: skip
-        now, self.bound_of = slice(self.groups), None
-        self.asks[now], self.fresh[now], self.stale[now] = IDLE, True, False
-        if len(self.lanes) < rows:
-            self.lanes = aligned(2 * rows, WIDTH)
-        fill_groups(
-            crew_for(world, self.count), self.groups, self.first, self.size, self.row, self.points, self.even,
-            contact.normal, contact.depth, contact.offset_a, contact.offset_b,
-            contact.kind, contact.sign, contact.radius, contact.extent,
-            contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface, contact.resting,
-            contact.warm_normal, contact.warm_friction, contact.warm_rolling, self.lanes,
-        )  # fmt: skip
-        if several:
-            part_masses(
-                self.count, self.start, contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.normal,
-                body.inverse_mass, self.group_of, self.lane_of, self.row, self.lanes,
-            )  # fmt: skip
+    def knows(self, world: World) -> bool:
+        """Tell whether contacts were detected since anything was done from outside and anybody woken or put to sleep.
+
+        Who is awake is found anew after each of these.
+        """
+        same = self.structure == world.structure and self.awake is world[Awake].now(world)
+        return same and not world[Awake].strangers
 
     def rows(self, world: World) -> Integers:
         """Return the rows of bodies that are awake and have contacts or joints: the only ones that are packed."""
@@ -229,8 +190,11 @@ class Resting(Resource):
         flight, contact = world[Flight], world[Contact]
         sink_contacts(
             crew_for(world, self.count), self.groups, self.rows(world), flight.start_center, flight.center,
-            flight.turned, self.index_a, self.index_b, self.first, self.size, self.points, self.row, contact.kind,
-            self.bodies, self.lanes, contact.depth,
+            flight.turned, self.index_a, self.index_b, self.points, self.row, self.bodies, self.lanes,
+        )  # fmt: skip
+        tell_depths(
+            crew_for(world, self.count), self.groups, self.first, self.size, self.row, contact.kind, self.lanes,
+            contact.depth,
         )  # fmt: skip
 
     def forget_poses(self) -> None:

@@ -31,6 +31,7 @@ from carom.ecs.relations.touching import Touching
 from carom.ecs.snapshot import held_columns
 from carom.ecs.snapshot_faults import SAVED
 from carom.systems.detection.fcl_objects import FclObjects
+from carom.systems.resting import Resting
 from carom.systems.settings import Random
 from carom.systems.simulation import Simulation
 
@@ -95,11 +96,11 @@ def test_a_heap_restored_into_a_fresh_world_has_the_same_future(frame: int) -> N
 
 
 def test_caches_can_be_dropped_at_any_time() -> None:
-    """FCL's objects, queries and derived columns leave no trace in what follows, nor in the hash."""
+    """FCL's objects, groups, queries and derived columns leave no trace in what follows, nor in the hash."""
     kept, dropping = bouncing_and_resting(), bouncing_and_resting()
     for _ in range(30):
         before = state_hash(dropping.world)
-        dropping.world.add(FclObjects())
+        dropping.world.add(FclObjects(), Resting())
         dropping.world._queries.clear()
         for kind, table in dropping.world.tables.items():
             for name, column in kind.columns.items():

@@ -29,8 +29,9 @@ def test_a_pile_of_a_thousand_boxes_comes_to_rest(seed: int) -> None:
     assert contact.depth[: contact.count].max() <= 0.02
     start = np.empty(contact.count + 1, np.int64)
     number, *_ = find_manifolds(
-        contact.count, contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.kind, contact.normal, start
-    )
+        contact.count, contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.kind, contact.normal,
+        contact.resting, start, np.zeros(contact.count, np.bool_),
+    )  # fmt: skip
     resting = np.add.reduceat(contact.resting[: contact.count].astype(np.int64), start[:number])
     points = np.diff(start[: number + 1])
     assert np.bincount(points)[2:].all()  # manifolds of two, three and four points, which rest together or not at all

@@ -23,7 +23,9 @@ from carom.systems.detection.narrow import Found
 from carom.systems.detection.recycling import measure_what_moved
 from carom.systems.detection.seams import without_seams
 from carom.systems.detection.sensors import Sensing, without_sensors
+from carom.systems.grouping import group_contacts
 from carom.systems.kernels.contacts import complete_contacts
+from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.kernels.renewal import renew_contacts
@@ -100,32 +102,37 @@ def store(world: World, found: Found) -> None:
     """Write the contact table, matched with the one before."""
     old_count, count = world.count(Contact), len(found.row_a)
     world.resize(Contact, count)
-    if count or old_count:
-        fill(world, found, old_count, count)
-    world[Resting].group(world)
-    world[Resting].structure = world.structure
+    same = bool(count or old_count) and fill(world, found, old_count, count)
+    group_contacts(world, same=same)
+    resting = world[Resting]
+    resting.structure, resting.awake = world.structure, world[Awake].now(world)
 
 
-def fill(world: World, found: Found, old_count: int, count: int) -> None:
-    """Write what is known of contacts, and what follows from it, into the contact table."""
+def fill(world: World, found: Found, old_count: int, count: int) -> bool:
+    """Write what is known of contacts, and what follows from it, into the contact table.
+
+    Return whether the same contacts were in the same places, and what follows from shapes and materials was known.
+    """
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     crew = crew_for(world, count)
+    changed = np.zeros(threads_of(crew), np.bool_)
     renew_contacts(
-        crew, np.full(count, -1), np.zeros(old_count, np.bool_),
-        old_count, world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
+        crew, np.empty(count, np.int64), np.zeros(old_count, np.bool_), changed, old_count,
+        world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
         found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point, found.by_fcl,
-        found.recycled, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
+        found.old, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
         contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
         contact.warm_rolling, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic,
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
     seat_contacts(
-        count, found.recycled, found.row_a, found.row_b, found.normal, found.depth, found.point,
+        count, found.old, found.row_a, found.row_b, found.normal, found.depth, found.point,
         collider.shape, collider.size, collider.geometry, pose.position, pose.rotation,
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
+    known = count == old_count and not changed.any() and world[Resting].knows(world)
     complete_contacts(
-        crew, count, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,
+        crew, count, known, changed, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,
         pose.body_row, collider.shape, collider.size, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation,
         world[Flight].detected_center, world[Transform].rotation, world[RigidBody].inverse_mass,
@@ -136,3 +143,4 @@ def fill(world: World, found: Found, old_count: int, count: int) -> None:
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
         contact.other_position, contact.other_rotation,
     )  # fmt: skip
+    return not changed.any()

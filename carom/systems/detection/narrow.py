@@ -65,7 +65,7 @@ ROOM = dict.fromkeys((measure_balls_on_meshes, measure_solids_on_meshes, measure
 
 
 class Found(NamedTuple):
-    """Contact points in order of (row a, row b, feature)."""
+    """Contact points in order of (row a, row b, feature); ``old`` is where in the table recycled ones were, else -1."""
 
     row_a: Integers
     row_b: Integers
@@ -74,15 +74,15 @@ class Found(NamedTuple):
     depth: Floats
     point: Floats
     by_fcl: Booleans
-    recycled: Booleans
+    old: Integers
 
     @classmethod
     def room(cls, count: int) -> Found:
-        """Return room for so many, to be written; recycled none."""
+        """Return room for so many, to be written, none of them recycled."""
         return cls(
             np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count, np.int64),
             np.empty((count, 3)), np.empty(count), np.empty((count, 3)),
-            np.empty(count, np.bool_), np.zeros(count, np.bool_),
+            np.empty(count, np.bool_), np.full(count, -1),
         )  # fmt: skip
 
     def take(self, which: Any) -> Found:

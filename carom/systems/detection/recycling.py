@@ -11,6 +11,7 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
+from carom.systems.resting import Resting
 from carom.systems.threads import crew_for
 
 
@@ -19,24 +20,26 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     contact, collider, pose = world[Contact], world[Collider], world[ColliderPose]
     moved, moved_reaches = np.empty_like(pairs), np.empty_like(reaches)
     recycled = Found.room(contact.count)
-    recycled.recycled[:] = True
     crew = crew_for(world, len(pairs))
     ends = np.zeros((threads_of(crew), 2), np.int64)
     recycle_contacts(
-        crew, pairs, reaches, contact.count, world.handles(), world.slots.row_shift,
+        crew, pairs, reaches, world[Resting].knows(world), contact.count, world.handles(), world.slots.row_shift,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation,
         contact.a, contact.b, contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b,
         contact.seat_depth, contact.form, contact.feature, contact.by_fcl,
-        moved, moved_reaches, *recycled[:-1], ends,
+        moved, moved_reaches, *recycled, ends,
     )  # fmt: skip
     count, moving = map(max, zip(*ends.tolist(), strict=True))  # not all may have come
     world[Answered].recycled += len(pairs) - moving
+    recycled = recycled.take(slice(count))
     if not moving:
-        return recycled.take(slice(count))
+        return recycled
     fresh = measure_pairs(world, moved[:moving], moved_reaches[:moving])
+    if not len(fresh.row_a):
+        return recycled
     if not count:
         return fresh
     found = Found.room(count + len(fresh.row_a))
-    merge_contacts(count, *recycled[:-1], *fresh[:-1], *found)
+    merge_contacts(count, *recycled, *fresh, *found)
     return found

@@ -36,12 +36,12 @@ def combined(x, y, rule_x, rule_y, default):
 
 
 @shared(
-    "friction", "restitution", "rolling", "spinning", "surface", "row_a", "row_b", "body_a", "body_b",
+    "changed", "friction", "restitution", "rolling", "spinning", "surface", "row_a", "row_b", "body_a", "body_b",
     "offset_a", "offset_b", "share", "kind", "ball", "other", "sign", "radius", "extent",
     "other_position", "other_rotation",
 )  # fmt: skip
 def complete_contacts(
-    crew, count, normal, depth, point, row_a, row_b,
+    crew, count, known, changed, normal, depth, point, row_a, row_b,
     body_row, shape, size, bound_half, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
     material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
     surface_velocity, friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b,
@@ -49,7 +49,9 @@ def complete_contacts(
 ):  # fmt: skip
     """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
-    Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces.
+    Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces. Where all
+    are ``known``, what follows from shapes and materials is there. Each thread tells in ``changed`` whether it was not,
+    or a surface runs.
     """
     end, until = runs_of(crew, row_a[:count], row_b[:count])
     while end < until:
@@ -59,29 +61,46 @@ def complete_contacts(
         on_a, on_b = body_row[a], body_row[b]
         ax, ay, az = seat_of(a, on_a, center, pose_position)
         bx, by, bz = seat_of(b, on_b, center, pose_position)
-        rubs = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)
-        bounces = combined(
-            material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
-        )
-        lever = smaller_lever(
-            roll_radius(a, shape, size, bound_half, bound_radius), roll_radius(b, shape, size, bound_half, bound_radius)
-        )
-        # Never more than friction can carry, else resistance to rolling would make the body slide.
-        rolls = min(max(material_rolling[a], material_rolling[b]), rubs) * lever
-        spins = max(material_spinning[a], material_spinning[b]) * lever
         belt = runs(a, surface_velocity) or runs(b, surface_velocity)
         what, i, o, sense, ex, ey, ez = exact_pair(
             a, b, shape, size, body_row, pose_position, pose_rotation, center, rotation, inverse_mass
         )
+        anew = not known or what != kind[first]
+        changed[crew[1]] |= anew or belt
+        if anew:
+            rubs = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)
+            bounces = combined(
+                material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
+            )
+            lever = smaller_lever(
+                roll_radius(a, shape, size, bound_half, bound_radius),
+                roll_radius(b, shape, size, bound_half, bound_radius),
+            )
+            # Never more than friction can carry, else resistance to rolling would make the body slide.
+            rolls = min(max(material_rolling[a], material_rolling[b]), rubs) * lever
+            spins = max(material_spinning[a], material_spinning[b]) * lever
+            for c in range(first, end):
+                body_a[c], body_b[c] = on_a, on_b
+                friction[c], restitution[c], rolling[c], spinning[c], kind[c] = rubs, bounces, rolls, spins, what
+                surface[c, 0], surface[c, 1], surface[c, 2] = 0.0, 0.0, 0.0
+                if what < 0:
+                    continue
+                sign[c], ball[c], other[c], radius[c] = sense, body_row[i], body_row[o], size[i, 0]
+                extent[c, 0], extent[c, 1], extent[c, 2] = ex, ey, ez
+                if body_row[o] >= 0:
+                    continue  # the body says where it is
+                for k in range(3):
+                    other_position[c, k] = pose_position[o, k]
+                    if what == HALF_SPACE:
+                        other_position[c, k] += size[o, 3] * extent[c, k]
+                for k in range(4):
+                    other_rotation[c, k] = pose_rotation[o, k]
         for c in range(first, end):
             x, y, z, half = normal[c, 0], normal[c, 1], normal[c, 2], 0.5 * depth[c]
             x, y, z = half * x, half * y, half * z
             px, py, pz = point[c, 0], point[c, 1], point[c, 2]
             offset_a[c, 0], offset_a[c, 1], offset_a[c, 2] = px + x - ax, py + y - ay, pz + z - az
             offset_b[c, 0], offset_b[c, 1], offset_b[c, 2] = px - x - bx, py - y - by, pz - z - bz
-            body_a[c], body_b[c] = on_a, on_b
-            friction[c], restitution[c], rolling[c], spinning[c], kind[c] = rubs, bounces, rolls, spins, what
-            surface[c, 0], surface[c, 1], surface[c, 2] = 0.0, 0.0, 0.0
             if belt:
                 surface[c, 0], surface[c, 1], surface[c, 2] = surface_of_pair(
                     c, a, b, normal, surface_velocity, pose_rotation
@@ -90,18 +109,6 @@ def complete_contacts(
                 share[c] = share[c - 1]
             else:
                 share[c] = share_of_b(c, a, b, normal, shape, pose_rotation)
-            if what < 0:
-                continue
-            sign[c], ball[c], other[c], radius[c] = sense, body_row[i], body_row[o], size[i, 0]
-            extent[c, 0], extent[c, 1], extent[c, 2] = ex, ey, ez
-            if body_row[o] >= 0:
-                continue  # the body says where it is
-            for k in range(3):
-                other_position[c, k] = pose_position[o, k]
-                if what == HALF_SPACE:
-                    other_position[c, k] += size[o, 3] * extent[c, k]
-            for k in range(4):
-                other_rotation[c, k] = pose_rotation[o, k]
 
 
 @woven

@@ -164,17 +164,23 @@ def hand_over(
     for g in range(begin, end):
         r, even = row[g], are_even(row[g], lanes)
         for lane in range(WIDTH):
-            share = lanes[r + SHARE, lane]
-            spun = 0.0 if even else lanes[r + SPUN, lane]
+            share, c = lanes[r + SHARE, lane], first[g, lane]
+            x, y, z = share * lanes[r + RUB, lane], share * lanes[r + RUB + 1, lane], share * lanes[r + RUB + 2, lane]
+            sx, sy, sz = lanes[r + RUBBED, lane], lanes[r + RUBBED + 1, lane], lanes[r + RUBBED + 2, lane]
+            sx, sy, sz, rx, ry, rz = share * sx, share * sy, share * sz, 0.0, 0.0, 0.0
+            if not even:
+                spun = lanes[r + SPUN, lane]
+                rx = share * (spun * lanes[r + NORMAL, lane] + lanes[r + ROLLED, lane])
+                ry = share * (spun * lanes[r + NORMAL + 1, lane] + lanes[r + ROLLED + 1, lane])
+                rz = share * (spun * lanes[r + NORMAL + 2, lane] + lanes[r + ROLLED + 2, lane])
+            lanes[r + RUBBED, lane] = lanes[r + RUBBED + 1, lane] = lanes[r + RUBBED + 2, lane] = 0.0
             for p in range(size[g, lane]):
-                c, q = first[g, lane] + p, r + MANIFOLD_ROWS + POINT_ROWS * p
-                warm_normal[c] = lanes[q + WARM, lane]
-                impulse[c] += lanes[q + SUM, lane]
+                q, o = r + MANIFOLD_ROWS + POINT_ROWS * p, c + p
+                warm_normal[o] = lanes[q + WARM, lane]
+                impulse[o] += lanes[q + SUM, lane]
                 lanes[q + SUM, lane] = 0.0
-                for k in range(3):
-                    warm_friction[c, k] = share * lanes[r + RUB + k, lane]
-                    friction_impulse[c, k] += share * lanes[r + RUBBED + k, lane]
-                    rolled = 0.0 if even else lanes[r + ROLLED + k, lane]
-                    warm_rolling[c, k] = share * (spun * lanes[r + NORMAL + k, lane] + rolled)
-            for k in range(3):
-                lanes[r + RUBBED + k, lane] = 0.0
+                warm_friction[o, 0], warm_friction[o, 1], warm_friction[o, 2] = x, y, z
+                friction_impulse[o, 0] += sx
+                friction_impulse[o, 1] += sy
+                friction_impulse[o, 2] += sz
+                warm_rolling[o, 0], warm_rolling[o, 1], warm_rolling[o, 2] = rx, ry, rz

@@ -17,14 +17,15 @@ from carom.systems.kernels.packing import INVERSE
 from carom.systems.kernels.rubbing import ROLLING, TWISTING
 
 
-@kernel("start")
-def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, start):
-    """Write where each manifold begins, and one past the last.
+@kernel("start", "rested")
+def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, resting, start, rested):
+    """Write where each manifold begins, and one past the last, and which of them rested.
 
     Return how many there are, whether some are not of balls on exact arcs, whether some are of two balls or of a ball
-    and a box, and whether bodies may have several side by side: of one pair, or since they have several colliders.
+    and a box, whether bodies may have several side by side: of one pair, or since they have several colliders; and
+    whether all that is written was there already.
     """
-    number, solids, balls, boxes, several = 0, False, False, False, False
+    number, solids, balls, boxes, several, stay = 0, False, False, False, False, True
     for c in range(count):
         solids |= kind[c] < 0
         balls |= kind[c] == BALL
@@ -36,10 +37,12 @@ def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, start):
                 if c - first < MANIFOLD_POINTS:
                     continue
                 several = True
-        start[number] = c
+        stay &= start[number] == c and rested[number] == resting[c]
+        start[number], rested[number] = c, resting[c]
         number += 1
+    stay &= start[number] == count
     start[number] = count
-    return number, solids, balls, boxes, several
+    return number, solids, balls, boxes, several, stay
 
 
 @woven

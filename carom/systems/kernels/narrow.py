@@ -118,8 +118,8 @@ def collect_points(
             at += 1
 
 
-@kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "recycled")
-def leave_out(some, row_a, row_b, feature, normal, depth, point, by_fcl, recycled):
+@kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")
+def leave_out(some, row_a, row_b, feature, normal, depth, point, by_fcl, old):
     """Let the other contacts take the places of ``some``; return how many they are."""
     count = 0
     for c in range(len(row_a)):
@@ -127,7 +127,7 @@ def leave_out(some, row_a, row_b, feature, normal, depth, point, by_fcl, recycle
             continue
         if count < c:
             row_a[count], row_b[count], feature[count] = row_a[c], row_b[c], feature[c]
-            depth[count], by_fcl[count], recycled[count] = depth[c], by_fcl[c], recycled[c]
+            depth[count], by_fcl[count], old[count] = depth[c], by_fcl[c], old[c]
             for k in range(3):
                 normal[count, k], point[count, k] = normal[c, k], point[c, k]
         count += 1

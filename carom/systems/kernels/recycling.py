@@ -28,19 +28,19 @@ def form_of_pair(a, b, shape, size, geometry):
     return form
 
 
-@shared("moved", "moved_reaches", "row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "ends")
+@shared("moved", "moved_reaches", "row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old", "ends")
 def recycle_contacts(
-    crew, pairs, reaches, old_count, handles, row_shift,
+    crew, pairs, reaches, known, old_count, handles, row_shift,
     shape, size, geometry, bound_half, bound_radius, position, rotation,
     a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, form, old_feature, old_by_fcl,
-    moved, moved_reaches, row_a, row_b, feature, normal, depth, point, by_fcl, ends,
+    moved, moved_reaches, row_a, row_b, feature, normal, depth, point, by_fcl, old, ends,
 ):  # fmt: skip
     """Write the contacts, where their shapes are now, of all pairs that have hardly moved, and which pairs have moved.
 
     Moved has a pair of which one is a ball, which rolls, one of whose points has slipped or sunk by RECYCLED_SLIP of
-    the smaller shape, or of which one shape has turned against the other. ``seat``, ``lean`` and ``seat_depth`` say
-    where the points and the normal were found on the two shapes. Each thread has a row of ``ends``, where its contacts
-    and its pairs end: behind them are those of the next.
+    the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known`` to be
+    what they were. ``seat``, ``lean`` and ``seat_depth`` say where the points and the normal were found on the two
+    shapes. Each thread has a row of ``ends``, where its contacts and its pairs end: behind them are those of the next.
     """
     begin_pair, end_pair = part_of(crew, len(pairs))
     o = 0
@@ -56,7 +56,7 @@ def recycle_contacts(
         o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
         if not is_pair(o, old_count, x, y, a, b, handles):
             continue
-        if form[o] != form_of_pair(x, y, shape, size, geometry):
+        if not known and form[o] != form_of_pair(x, y, shape, size, geometry):
             continue
         slip = RECYCLED_SLIP * smaller_reach(x, y, bound_half, bound_radius)
         begin, stayed = count, True
@@ -85,7 +85,7 @@ def recycle_contacts(
                 stayed = False
                 break
             row_a[count], row_b[count], feature[count], by_fcl[count] = x, y, old_feature[o], old_by_fcl[o]
-            depth[count] = deep
+            depth[count], old[count] = deep, o
             normal[count, 0], normal[count, 1], normal[count, 2] = nx, ny, nz
             point[count, 0], point[count, 1], point[count, 2] = 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz)
             count += 1
@@ -99,7 +99,7 @@ def recycle_contacts(
         if turn_of == part:
             to, to_pair = (ends[part - 1, 0], ends[part - 1, 1]) if part else (0, 0)
             if to < begin_contact:
-                move_up(begin_contact, count, to, row_a, row_b, feature, normal, depth, point, by_fcl)
+                move_up(begin_contact, count, to, row_a, row_b, feature, normal, depth, point, by_fcl, old)
             for p in range(begin_pair, moving if to_pair < begin_pair else begin_pair):
                 q = to_pair + p - begin_pair
                 moved[q, 0], moved[q, 1], moved_reaches[q] = moved[p, 0], moved[p, 1], moved_reaches[p]
@@ -108,12 +108,12 @@ def recycle_contacts(
 
 
 @woven
-def move_up(begin, end, to, row_a, row_b, feature, normal, depth, point, by_fcl):
+def move_up(begin, end, to, row_a, row_b, feature, normal, depth, point, by_fcl, old):
     """Write contacts ``begin`` to ``end`` to an earlier place."""
     for c in range(begin, end):
         o = to + c - begin
         row_a[o], row_b[o], feature[o], by_fcl[o] = row_a[c], row_b[c], feature[c], by_fcl[c]
-        depth[o] = depth[c]
+        depth[o], old[o] = depth[c], old[c]
         for k in range(3):
             normal[o, k], point[o, k] = normal[c, k], point[c, k]
 
@@ -121,6 +121,8 @@ def move_up(begin, end, to, row_a, row_b, feature, normal, depth, point, by_fcl)
 @woven
 def first_of_pair(o, old_count, x, y, a, b, handles, row_shift):
     """Return the first contact from ``o`` on, all sorted by pair, that is of the rows (x, y) or of a later pair."""
+    if is_pair(o, old_count, x, y, a, b, handles):  # most often
+        return o
     while o < old_count:
         q, r = row_of(a[o], row_shift), row_of(b[o], row_shift)
         living = is_at(q, a[o], handles) and is_at(r, b[o], handles)
@@ -183,7 +185,7 @@ def turned(i, c, column, rotation):
 
 @kernel("seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form")
 def seat_contacts(
-    count, recycled, row_a, row_b, normal, depth, point, shape, size, geometry, position, rotation,
+    count, old, row_a, row_b, normal, depth, point, shape, size, geometry, position, rotation,
     seat_a, seat_b, lean_a, lean_b, seat_depth, form,
 ):  # fmt: skip
     """Write where the points and the normals of contacts that were found anew are on the two shapes.
@@ -191,7 +193,7 @@ def seat_contacts(
     Those of balls are never recycled, and nowhere.
     """
     for c in range(count):
-        if recycled[c]:
+        if old[c] >= 0:
             continue
         a, b = row_a[c], row_b[c]
         if is_ball(a, shape) or is_ball(b, shape):
@@ -214,11 +216,11 @@ def seat_contacts(
         form[c] = form_of_pair(a, b, shape, size, geometry)
 
 
-@kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "recycled")
+@kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")
 def merge_contacts(
-    count, old_a, old_b, old_feature, old_normal, old_depth, old_point, old_by_fcl,
-    fresh_a, fresh_b, fresh_feature, fresh_normal, fresh_depth, fresh_point, fresh_by_fcl,
-    row_a, row_b, feature, normal, depth, point, by_fcl, recycled,
+    count, old_a, old_b, old_feature, old_normal, old_depth, old_point, old_by_fcl, old_old,
+    fresh_a, fresh_b, fresh_feature, fresh_normal, fresh_depth, fresh_point, fresh_by_fcl, fresh_old,
+    row_a, row_b, feature, normal, depth, point, by_fcl, old,
 ):  # fmt: skip
     """Merge ``count`` recycled and the fresh contacts, both sorted by pair."""
     i, j = 0, 0
@@ -226,16 +228,15 @@ def merge_contacts(
         first = j == len(fresh_a)
         if not first and i < count:
             first = old_a[i] < fresh_a[j] or (old_a[i] == fresh_a[j] and old_b[i] < fresh_b[j])
-        recycled[c] = first
         if first:
             row_a[c], row_b[c], feature[c], by_fcl[c] = old_a[i], old_b[i], old_feature[i], old_by_fcl[i]
-            depth[c] = old_depth[i]
+            depth[c], old[c] = old_depth[i], old_old[i]
             for k in range(3):
                 normal[c, k], point[c, k] = old_normal[i, k], old_point[i, k]
             i += 1
         else:
             row_a[c], row_b[c], feature[c], by_fcl[c] = fresh_a[j], fresh_b[j], fresh_feature[j], fresh_by_fcl[j]
-            depth[c] = fresh_depth[j]
+            depth[c], old[c] = fresh_depth[j], fresh_old[j]
             for k in range(3):
                 normal[c, k], point[c, k] = fresh_normal[j, k], fresh_point[j, k]
             j += 1

@@ -40,14 +40,14 @@ def match_points(begin, end, o, until, near, feature, point, found_feature, foun
 
 
 @shared(
-    "match", "taken", "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
+    "match", "taken", "changed", "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
     "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
     "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form",
     makes_arrays=True,
 )  # fmt: skip
 def renew_contacts(
-    crew, match, taken, old_count, handles, row_shift, bound_half, bound_radius,
-    found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, recycled,
+    crew, match, taken, changed, old_count, handles, row_shift, bound_half, bound_radius,
+    found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, recycled_from,
     a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
     warm_normal, warm_friction, warm_rolling, impulse, friction_impulse, strikes, plastic,
     seat_a, seat_b, lean_a, lean_b, seat_depth, form,
@@ -55,9 +55,10 @@ def renew_contacts(
     """Replace the contacts by those found, keeping what a contact of the same colliders and feature held.
 
     Both lists are sorted by rows and feature, so that one pass matches them: ``match`` (-1: none) is which one of the
-    old each was, ``taken`` are those that somebody was. Where corners and edges change places under bodies that hardly
-    move, a point of another feature within SAME_POINT takes over what the old one held. Where
-    on the two shapes they were found goes with those recycled only: others are `seat_contacts` to say.
+    old each was, as those recycled know (``recycled_from``); ``taken`` are those that somebody was. Where corners and
+    edges change places under bodies that hardly move, a point of another feature within SAME_POINT takes over what the
+    old one held. Where on the two shapes they were found goes with those recycled only: others are `seat_contacts` to
+    say. Each thread tells in ``changed`` whether one of its contacts has come to a place in which it was not.
     """
     begin, count = runs_of(crew, found_a, found_b)
     o, c = 0, begin
@@ -66,6 +67,11 @@ def renew_contacts(
         end = c + 1
         while end < count and found_a[end] == x and found_b[end] == y:
             end += 1
+        if recycled_from[c] >= 0:
+            for k in range(c, end):
+                match[k] = recycled_from[k]
+            o, c = match[end - 1] + 1, end
+            continue
         o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
         until = o
         while is_pair(until, old_count, x, y, a, b, handles):
@@ -74,6 +80,8 @@ def renew_contacts(
             for k in range(end - c):
                 match[c + k] = o + k
         else:
+            for k in range(c, end):
+                match[k] = -1
             match_points(
                 c, end, o, until, SAME_POINT * smaller_reach(x, y, bound_half, bound_radius),
                 feature, point, found_feature, found_point, match, taken,
@@ -85,7 +93,8 @@ def renew_contacts(
     for c in range(begin, count):
         if match[c] != c:
             moves[moving] = c
-            moving, seats = moving + 1, seats + recycled[c]
+            moving, seats = moving + 1, seats + (recycled_from[c] >= 0)
+    changed[crew[1]] = moving > 0
     kept, counted, seated = np.empty((moving, 11)), np.empty((moving, 3), np.int64), np.empty((seats, 14))
     n = 0
     for m in range(moving):
@@ -97,7 +106,7 @@ def renew_contacts(
         for k in range(3):
             kept[m, 2 + k], kept[m, 5 + k] = warm_friction[o, k], warm_rolling[o, k]
             kept[m, 8 + k] = friction_impulse[o, k]
-        if recycled[moves[m]]:
+        if recycled_from[moves[m]] >= 0:
             seated[n, 0], seated[n, 1] = seat_depth[o], form[o]
             for k in range(3):
                 seated[n, 2 + k], seated[n, 5 + k] = seat_a[o, k], seat_b[o, k]
@@ -118,7 +127,7 @@ def renew_contacts(
         for k in range(3):
             warm_friction[c, k], warm_rolling[c, k] = kept[m, 2 + k], kept[m, 5 + k]
             friction_impulse[c, k] = kept[m, 8 + k]
-        if recycled[c]:
+        if recycled_from[c] >= 0:
             seat_depth[c], form[c] = seated[n, 0], seated[n, 1]
             for k in range(3):
                 seat_a[c, k], seat_b[c, k] = seated[n, 2 + k], seated[n, 5 + k]

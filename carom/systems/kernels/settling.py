@@ -4,6 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
+from carom.systems.kernels.balls_in_lanes import are_balls
 from carom.systems.kernels.crew import eights_of, part_of, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import inlined, woven
@@ -77,12 +78,11 @@ def finish_body(
             angular[i, k] *= angular_decay[i]
 
 
-@shared("bodies", "lanes", "depth")
+@shared("bodies", "lanes")
 def sink_contacts(
-    crew, groups, rows, start_center, center, turned, index_a, index_b, first, size, points, row, kind,
-    bodies, lanes, depth,
+    crew, groups, rows, start_center, center, turned, index_a, index_b, points, row, bodies, lanes
 ):  # fmt: skip
-    """Write the depths that contacts have come to be as bodies (rows) moved; those of balls on exact arcs are measured.
+    """Write into the lanes of groups how deep contacts have come to be as bodies (rows) moved.
 
     A point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
     """
@@ -102,8 +102,21 @@ def sink_contacts(
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
             store(into, q + of.DEPTH, load(into, q + of.DEPTH) - parting_at(q, into, parting))
-        for lane in range(WIDTH):
-            c = first[g, lane]
-            if c >= 0 and kind[c] < 0:
-                for p in range(size[g, lane]):
-                    depth[c + p] = lanes[r + MANIFOLD_ROWS + POINT_ROWS * p + of.DEPTH, lane]
+
+
+@shared("depth")
+def tell_depths(crew, groups, first, size, row, kind, lanes, depth):
+    """Write how deep contacts are into their table; those of balls on exact arcs are measured there."""
+    begin, end = part_of(crew, groups)
+    for g in range(begin, end):
+        for lane in range(WIDTH if not are_balls(row[g], lanes) else 0):
+            tell_depth(g, lane, first, size, row, kind, lanes, depth)
+
+
+@woven
+def tell_depth(g, lane, first, size, row, kind, lanes, depth):
+    """Write how deep the contacts of one manifold are."""
+    c = first[g, lane]
+    if c >= 0 and kind[c] < 0:
+        for p in range(size[g, lane]):
+            depth[c + p] = lanes[row[g] + MANIFOLD_ROWS + POINT_ROWS * p + of.DEPTH, lane]

@@ -35,6 +35,7 @@ from carom.systems.kernels.manifolds import prepare
 from carom.systems.kernels.packing import INVERSE_MASS, MASS_AND_FELT, VELOCITY
 from carom.systems.kernels.resting_balls import are_even, follow_normals, weigh_balls
 from carom.systems.kernels.rubbing import BALLS, IDLE, RESTING, ROLLING, RUBBING, TWISTING
+from carom.systems.kernels.settling import tell_depth
 
 # What `TOGETHER` is of manifolds that rested in the substep before, and on a joint; of those that struck in it, in how
 # many substeps in a row.
@@ -78,6 +79,7 @@ def sort_groups(
                 if c < 0:
                     continue
                 moves = kind[c] >= 0
+                tell_depth(g, lane, first, size, row, kind, lanes, depth)
                 if moves:
                     measure_ball(
                         c, center, rotation, kind, ball, other, sign, radius, extent, other_position, other_rotation,

@@ -20,16 +20,14 @@ from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.packing import pack_bodies
 from carom.systems.kernels.reach import find_leaving
 from carom.systems.kernels.resting import press_groups
-from carom.systems.kernels.settling import finish_drift, sink_contacts
+from carom.systems.kernels.settling import finish_drift, sink_contacts, tell_depths
 from carom.systems.kernels.sorting import sort_groups
 from carom.systems.kernels.ticks import nanoseconds
 
 predict, pack, sort, touch = predict_middle.within, pack_bodies.within, sort_groups.within, write_touches.within
 kick, press, bend, close = kick_bodies.within, press_groups.within, bend_arcs.within, find_closing.within
-advance, finish, sink, leave, soar = (
-    advance_bodies.within, finish_drift.within, sink_contacts.within, find_leaving.within, fly.within
-)  # fmt: skip
-look = foresee_meetings.within
+advance, finish, sink, tell = advance_bodies.within, finish_drift.within, sink_contacts.within, tell_depths.within
+leave, look, soar = find_leaving.within, foresee_meetings.within, fly.within
 
 #: The systems whose work is done here, in the order of the frame.
 LOOK_AHEAD, PREDICT, SORT, KICK, HOLD, DRIFT, SETTLE, RELAX, SYSTEMS = range(9)
@@ -74,7 +72,7 @@ def take_substeps(
     for_closing = crew if max(count, len(watched)) >= fewest else alone
     bends, leaving = 0.5 if scheme == VERLET else 0.0, np.empty(1, np.int64)
     apart, rests = np.zeros(len(crew) // ROOM, np.bool_), np.zeros(len(crew) // ROOM, np.int64)
-    soon, cut, begins = np.empty((len(crew) // ROOM, 2)), 0, number
+    soon, cut, begins, flown = np.empty((len(crew) // ROOM, 2)), 0, number, True
     times = np.empty(len(fast))
     none = logged = np.int64(0)  # a bare 0 has a type of its own, for which `fly` would be compiled once more
     now = nanoseconds()
@@ -94,7 +92,7 @@ def take_substeps(
         rest = 0
         if groups:
             share(describe(pack, for_bound, (
-                bound, True, center_of_mass, center, linear, angular, felt, inverse_mass,
+                bound, k == number, center_of_mass, center, linear, angular, felt, inverse_mass,
                 inverse_inertia, principal_axes, freedom, rotation, bodies, apart,
             )))  # fmt: skip
             clear(leans)
@@ -128,8 +126,9 @@ def take_substeps(
                     start_linear, start_angular, linear, angular, acceleration, angular_acceleration,
                 )))  # fmt: skip
             now = note(HOLD, now, spent)
-        for c in range(contacts):
+        for c in range(contacts if flown else 0):
             strikes[c] = plastic[c] = 0
+        flown = False
         at, reason, events, until = h, DONE, none, np.inf
         if len(fast):
             look(
@@ -151,6 +150,8 @@ def take_substeps(
             for part in range(len(soon)):
                 within, some = min(within, soon[part, 0]), some or soon[part, 1] > 0.0
             if some or within < h or until < h:
+                flown = True
+                share(describe(tell, for_groups, (groups, first, size, row, kind, lanes, depth)))
                 at, reason, events, passed, logged, log_pair, log = soar(
                     0.0, h, bends, clock, center, start_center, rotation, turned, linear, angular, time, acceleration,
                     angular_acceleration, felt, detected_center, reach, inverse_mass, inertia, inverse_inertia,
@@ -173,9 +174,10 @@ def take_substeps(
         )))  # fmt: skip
         if groups:
             share(describe(sink, for_groups, (
-                groups, bound, start_center, center, turned, index_a, index_b, first, size, points,
-                row, kind, bodies, lanes, depth,
+                groups, bound, start_center, center, turned, index_a, index_b, points, row, bodies, lanes,
             )))  # fmt: skip
+            if k == substeps:
+                share(describe(tell, for_groups, (groups, first, size, row, kind, lanes, depth)))
         now = note(SETTLE, now, spent)
         if rest:
             share(describe(press, for_groups, (

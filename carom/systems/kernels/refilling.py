@@ -1,0 +1,80 @@
+"""Refilling: groups that stay take what their contacts have come to be, and keep what they hold of impulses."""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.kernels.balls_in_lanes import are_balls
+from carom.systems.kernels.crew import part_of, shared
+from carom.systems.kernels.filling import LANES, find_tangents, keep_where, place_points, places_of
+from carom.systems.kernels.groups import (
+    BALL,
+    BESIDE,
+    FRICTION,
+    MANIFOLD_ROWS,
+    NORMAL,
+    PART,
+    POINT_ROWS,
+    RESTS,
+    ROLLED,
+    ROLLING,
+    RUB,
+    RUBBED,
+    SHARE,
+    SPINNING,
+    SPUN,
+    SUM,
+    WARM,
+)
+from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lane_columns import lane_of, numbers_at, pick_three
+from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times
+from carom.systems.kernels.lanes import address, choose, load, spread, store
+
+
+@shared("lanes")
+def refill_groups(
+    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, resting, lanes
+):  # fmt: skip
+    """Write into the lanes of groups what `fill_groups` would, where they are as that has filled them.
+
+    So are contacts that the table holds where it held them, of the same shapes and materials, whose impulses have been
+    handed over; where balls are is measured later.
+    """
+    rows, zero, one = address(lanes), spread(0.0), spread(1.0)
+    begin, end = part_of(crew, groups)
+    for g in range(begin, end):
+        r, at, sizes = row[g], places_of(g, 0, first, size), lane_of(numbers_at(size[g], LANES))
+        keep(rows, r + RUBBED, zero, zero, zero)
+        store(rows, r + RESTS, choose(sizes, lane_of(numbers_at(resting, at)), zero))
+        for p in range(points[g]):
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
+            store(rows, q + WARM, choose(sizes - float(p), load(rows, q + WARM), zero))
+            store(rows, q + SUM, zero)
+        share = load(rows, r + SHARE)
+        pushed = times(share, three(rows, r + RUB))
+        keep_where(rows, r + RUB, load(rows, r + FRICTION), sum_over_points(points[g], sizes, pushed))
+        if even[g]:
+            continue
+        turned = times(load(rows, r + SPUN), three(rows, r + NORMAL))
+        rolled = sum_over_points(points[g], sizes, times(share, plus(turned, three(rows, r + ROLLED))))
+        n = pick_three(normal, at, sizes)
+        keep(rows, r + NORMAL, n[0], n[1], n[2])
+        along, as_ball = dot(n, rolled), choose(load(rows, r + BALL), one, zero)
+        store(rows, r + SPUN, choose(choose(as_ball, load(rows, r + SPINNING), one), along, zero))
+        keep_where(rows, r + ROLLED, choose(as_ball, load(rows, r + ROLLING), one), minus(rolled, times(along, n)))
+        store(rows, r + PART, one)
+        store(rows, r + BESIDE, zero)
+        if not are_balls(r, lanes):
+            find_tangents(r, rows)
+            place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
+
+
+@woven
+def sum_over_points(points, sizes, x):
+    """Return the sum of what all points of a manifold share alike: in the order and rounding of `fill_groups`."""
+    zero = spread(0.0)
+    total = (zero, zero, zero)
+    for p in range(points):
+        there = sizes - float(p)
+        total = plus(total, (choose(there, x[0], zero), choose(there, x[1], zero), choose(there, x[2], zero)))
+    return total
