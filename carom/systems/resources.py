@@ -8,6 +8,7 @@ from carom.systems.awake import Awake
 from carom.systems.compound import StatedBodies
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.apart import Apart
 from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
@@ -37,7 +38,7 @@ def resources(settings: Settings) -> tuple[Resource, ...]:
     """Return them for a new world: what is made and stated, what a step counts, and caches, which may be dropped."""
     made = (Random(settings.seed), Layers(), Materials(), Geometries(), StatedBodies())
     stated = (Forces(), Events(), Commands())
-    packed = (BroadPhase(), FclObjects(), PackedHulls(), PackedMeshes())
+    packed = (BroadPhase(), Apart(), FclObjects(), PackedHulls(), PackedMeshes())
     solving = (Standing(), Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger())
     caches = (*packed, *solving, Threads(), Scene(), Asked(), Newborn(), Fields())
     return (settings, *made, *stated, Progress(), Answered(), *caches)

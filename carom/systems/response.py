@@ -18,6 +18,7 @@ from carom.systems.closing import closing
 from carom.systems.constants import MOST_LOOKS
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.apart import Apart
 from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.contacts import detect_again
 from carom.systems.detection.fcl_objects import FclObjects
@@ -44,7 +45,7 @@ from carom.systems.ties import Ties
 @system(
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint),
     writes=(
-        Transform, Motion, Flight, Contact, SleepingContact, ColliderPose, Answered, BroadPhase, FclObjects,
+        Transform, Motion, Flight, Contact, SleepingContact, ColliderPose, Answered, Apart, BroadPhase, FclObjects,
         PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ties,
     ),
 )  # fmt: skip
@@ -112,8 +113,8 @@ def hand_impulses_over(world: World, dt: float) -> None:
 @system(
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint, Linkage),
     writes=(
-        Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ledger, Ties, Landings,
+        Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, Apart, BroadPhase,
+        FclObjects, PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ledger, Ties, Landings,
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:

@@ -18,6 +18,10 @@ MOST_WIDENED = 16
 # Larger: slower from there on. Smaller: piles, which have up to 12, are detected anew in every substep.
 CROWDED = 16
 
+# Part of a gap by which a pair has to come nearer no more before it is measured again, for what ways are rounded by.
+# Smaller: contacts might be overlooked. Larger: pairs are measured in vain.
+APART_MARGIN = 1e-6
+
 # Factor on the motion foreseen within a step, or in what is left of it. Below 1 a falling body leaves its bounds in
 # every step. Larger: more of those who leave theirs meet somebody new, far off.
 REACH_FACTOR = 1.25

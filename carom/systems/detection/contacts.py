@@ -14,6 +14,7 @@ from carom.systems.awake import Awake
 from carom.systems.constants import CROWDED
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.apart import Apart
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import BroadPhase, overlapping
 from carom.systems.detection.fcl_objects import FclObjects
@@ -43,7 +44,7 @@ NOTHING = Found.room(0)
 @system(
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint),
     writes=(
-        Transform, Motion, ColliderPose, Contact, SleepingContact, Answered, Flight, BroadPhase, FclObjects,
+        Transform, Motion, ColliderPose, Contact, SleepingContact, Answered, Apart, Flight, BroadPhase, FclObjects,
         PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ties,
     ),
 )  # fmt: skip
@@ -95,7 +96,7 @@ def find(world: World, pairs: Integers) -> Found:
         return NOTHING
     reaches = np.empty(len(pairs))
     reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
-    return measure_what_moved(world, pairs, reaches)
+    return measure_what_moved(world, *world[Apart].without(world, pairs, reaches))
 
 
 def store(world: World, found: Found) -> None:

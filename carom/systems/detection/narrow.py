@@ -9,6 +9,7 @@ import numpy as np
 from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.apart import Apart
 from carom.systems.detection.fcl_pairs import measure_by_fcl
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
@@ -97,11 +98,12 @@ class Found(NamedTuple):
 class Points:
     """Room for the points of all pairs, in the order in which they were measured.
 
-    The points of pair p are ``count[p]`` rows from ``start[p]`` on; normals point from the collider measured first.
+    The points of pair p are ``count[p]`` rows from ``start[p]`` on; normals point from the collider measured first. One
+    that has none is at least ``apart[p]`` (m) from touching, where that is above 0.
     """
 
     def __init__(self, pairs: int, room: int) -> None:
-        self.start, self.count = np.zeros(pairs, np.int64), np.zeros(pairs, np.int64)
+        self.start, self.count, self.apart = np.zeros(pairs, np.int64), np.zeros(pairs, np.int64), np.zeros(pairs)
         self.feature, self.depth = np.empty(room, np.int64), np.empty(room)
         self.normal, self.point = np.empty((room, 3)), np.empty((room, 3))
 
@@ -125,12 +127,14 @@ ROOMS = [MOST_POINTS, *(ROOM.get(function, MOST_POINTS) for function in FUNCTION
 NO_STAND_INS = np.where(np.isin(FUNCTION_OF, [1 + FUNCTIONS.index(function) for function in ROOM]), FUNCTION_OF, BY_FCL)
 
 
-def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str | None = None) -> Found:
+def measure_pairs(
+    world: World, pairs: Integers, reaches: Floats, collision: str | None = None, apart: Apart | None = None
+) -> Found:
     """Return the contact points of ``pairs`` (n, 2) of collider rows that are nearer than their ``reaches`` (n,), m.
 
     They are measured as the world's setting says, unless ``collision`` says otherwise. Meshes are measured by kernels
     either way: FCL tells of each triangle what parts it alone, with depths up to 3 cm off and normals up to 132
-    degrees, and of no gap.
+    degrees, and of no gap. Which of them are ``apart`` is noted there.
     """
     collider, pose, answered = world[Collider], world[ColliderPose], world[Answered]
     n = len(pairs)
@@ -154,9 +158,11 @@ def measure_pairs(world: World, pairs: Integers, reaches: Floats, collision: str
         FUNCTIONS[number - 1](
             crew_for(world, count), order[bucket], first[bucket], second[bucket], reaches, taken, ROOMS[number],
             collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls, meshes,
-            points.start, points.count, points.feature, points.normal, points.depth, points.point,
+            points.start, points.count, points.apart, points.feature, points.normal, points.depth, points.point,
         )  # fmt: skip
         taken += ROOMS[number] * count
+    if apart:
+        apart.note(pairs, points.count, points.apart)
     kept = keep_sound(world, pairs, reaches, points)
     found = Found.room(kept)
     collect_points(

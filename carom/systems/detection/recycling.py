@@ -8,6 +8,7 @@ from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.relations.contact import Contact
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.apart import Apart
 from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
@@ -35,7 +36,7 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     recycled = recycled.take(slice(count))
     if not moving:
         return recycled
-    fresh = measure_pairs(world, moved[:moving], moved_reaches[:moving])
+    fresh = measure_pairs(world, moved[:moving], moved_reaches[:moving], apart=world[Apart])
     if not len(fresh.row_a):
         return recycled
     if not count:

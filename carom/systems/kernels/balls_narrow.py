@@ -13,13 +13,15 @@ from carom.systems.kernels.writing import write_point
 @shared("start", "count", "feature", "normal", "depth", "point")
 def measure_balls(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, feature, normal, depth, point,
+    start, count, apart, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs whose first collider is a ball or point.
 
     Every function of the narrow phase has this form: pair ``which[k]`` has the collider rows ``first[k]`` and
     ``second[k]``; its points are written where they are nearer than ``reaches[which[k]]``, behind those ``taken`` so
-    far, with ``room`` for so many of each pair. ``hulls`` and ``meshes`` are those of `PackedHulls` and `PackedMeshes`.
+    far, with ``room`` for so many of each pair; ``apart`` is how far (m) from each other those at least are that have
+    none, 0 where nobody says, as of balls, which are soon measured again. ``hulls`` and ``meshes`` are those of
+    `PackedHulls` and `PackedMeshes`.
     """
     begin, end = part_of(crew, len(which))
     taken += room * begin

@@ -19,10 +19,10 @@ EDGES_FROM = 12 * FEATURES  # features: of 6 faces of either box, then of pairs 
 CORNERS_FROM = EDGES_FROM + EDGE_FEATURES
 
 
-@shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
+@shared("start", "count", "apart", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_boxes(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, feature, normal, depth, point,
+    start, count, apart, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of boxes, in the form of `measure_balls`.
 
@@ -48,7 +48,8 @@ def measure_boxes(
         i, o, sense = longer_first(size, first[k], second[k])
         start[p] = taken
         apart_i, apart_o, edges_apart = view[FACES + 1, lane], view[FACES + 3, lane], view[EDGES + 1, lane]
-        if not max(apart_i, apart_o, edges_apart) <= reach:
+        apart[p] = max(apart_i, apart_o, edges_apart)
+        if not apart[p] <= reach:
             continue
         face_i, face_o, edges = int(view[FACES, lane]), int(view[FACES + 2, lane]), int(view[EDGES, lane])
         towards_o = 1.0 if view[PLACE + face_i, lane] >= 0.0 else -1.0
@@ -91,9 +92,9 @@ def measure_boxes(
                 )
             face = FEATURES * (6 * side + 2 * f + (1 if t > 0.0 else 0))
             for q in range(found):
-                apart = t * (view[side * VIEW + OWN + f, lane] + 0.5 * height[q])
+                out = t * (view[side * VIEW + OWN + f, lane] + 0.5 * height[q])
                 x, y = over[3 * q], over[3 * q + 1]
-                x, y, z = (apart, x, y) if f == 0 else (y, apart, x) if f == 1 else (x, y, apart)
+                x, y, z = (out, x, y) if f == 0 else (y, out, x) if f == 1 else (x, y, out)
                 x, y, z = placed(position, rotation, c, x, y, z)
                 write_point(
                     taken + q, face + over_feature[q], lean * height[q], nx, ny, nz, x, y, z,
@@ -103,7 +104,7 @@ def measure_boxes(
         if found == 0:
             c = i
             number += EDGES_FROM
-            if not inside and max(apart_i, apart_o, edges_apart) > LEAST_PART:
+            if not inside and apart[p] > LEAST_PART:
                 number, gap = nearest_corner(view, lane, way, place)
                 c, sense = (o, -sense) if number >= 8 else (c, sense)
                 number += CORNERS_FROM

@@ -19,7 +19,7 @@ ALONE = 2  # feature; points of capsules side by side are 0 and 1 along the firs
 @shared("start", "count", "feature", "normal", "depth", "point")
 def measure_balls_on_capsules(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, feature, normal, depth, point,
+    start, count, apart, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a ball or point and a capsule.
 
@@ -53,10 +53,10 @@ def measure_balls_on_capsules(
         taken += 1
 
 
-@shared("start", "count", "feature", "normal", "depth", "point")
+@shared("start", "count", "apart", "feature", "normal", "depth", "point")
 def measure_capsules(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, feature, normal, depth, point,
+    start, count, apart, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of capsules.
 
@@ -77,7 +77,8 @@ def measure_capsules(
         vx, vy, vz = turned(rotation, o, 0.0, 1.0, 0.0)
         s, t = nearest_of_segments(dx, dy, dz, ux, uy, uz, half_i, vx, vy, vz, half_o)
         nearest = between(dx, dy, dz, ux, uy, uz, s, vx, vy, vz, t)
-        if not nearest - radius_i - radius_o <= reach:
+        apart[p] = nearest - radius_i - radius_o
+        if not apart[p] <= reach:
             continue
         low, high, t_low, t_high, two = s, s, t, t, False
         if parallel(ux, uy, uz, vx, vy, vz):

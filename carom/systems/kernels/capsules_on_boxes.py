@@ -32,10 +32,10 @@ from carom.systems.kernels.writing import write_point
 ALONE, EDGES = 12, 13
 
 
-@shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
+@shared("start", "count", "apart", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_capsules_on_boxes(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, feature, normal, depth, point,
+    start, count, apart, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a capsule and a box.
 
@@ -58,7 +58,8 @@ def measure_capsules_on_boxes(
             own[HALF + d] = 0.5 * size[o, d]
         s = nearest_to_box(own, half)
         gap = gap_beyond(own, s)
-        if not gap - radius <= reach:
+        apart[p] = gap - radius
+        if not apart[p] <= reach:
             continue
         if gap > LEAST_PART:
             face_the_box(own, s, gap)

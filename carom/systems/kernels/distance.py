@@ -28,9 +28,9 @@ def distance_apart(v, middle, end, reach, corner, name, weight):
     """Return (state, distance, unit direction, point of the first) of two sets of vertices.
 
     ``v`` holds three numbers per vertex: the first set up to ``middle``, the second up to ``end``. FAR: farther than
-    ``reach``, no more is told. MEETING: they overlap, nearly touch, or rounding leaves the distance in doubt by more
-    than APART_ERROR. Gilbert, Johnson and Keerthi (van den Bergen, Collision Detection in Interactive 3D
-    Environments, 4.3); it ends when a vertex comes up again, or no step comes nearer, so always.
+    ``reach``, and no nearer than the distance told. MEETING: they overlap, nearly touch, or rounding leaves the
+    distance in doubt by more than APART_ERROR. Gilbert, Johnson and Keerthi (van den Bergen, Collision Detection in
+    Interactive 3D Environments, 4.3); it ends when a vertex comes up again, or no step comes nearer, so always.
     """
     x, y, z = v[3 * middle] - v[0], v[3 * middle + 1] - v[1], v[3 * middle + 2] - v[2]
     corner[0], corner[1], corner[2] = x, y, z
@@ -45,7 +45,7 @@ def distance_apart(v, middle, end, reach, corner, name, weight):
         j, back = outermost(v, middle, end, -x, -y, -z)
         bound = -back - forth  # the distance is at least this over the length of x
         if bound > 0.0 and bound * bound > squared * reach * reach:
-            return FAR, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+            return FAR, bound / sqrt(squared), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         known = False
         for k in range(count):
             known = known or (name[2 * k] == i and name[2 * k + 1] == j)

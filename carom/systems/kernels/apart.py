@@ -1,0 +1,75 @@
+"""Apart: pairs that are known to be farther from each other than they reach, by how far they have come since."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import APART_MARGIN
+from carom.systems.kernels.kernel import kernel
+
+
+@kernel("seen", "way")
+def add_ways(rows, bound_center, bound_half, bound_radius, position, rotation, seen, way):
+    """Add to the ``way`` (m) of colliders what no point of theirs has gone beyond since they were ``seen``; see them.
+
+    One at the distance r from the origin of a collider that turns from q to p goes no farther than 2 r |p - q|.
+    """
+    for i in rows:
+        moved, turned, other, center, half = 0.0, 0.0, 0.0, 0.0, 0.0
+        for k in range(3):
+            moved += (position[i, k] - seen[i, k]) ** 2
+            center += bound_center[i, k] * bound_center[i, k]
+            half += bound_half[i, k] * bound_half[i, k]
+            seen[i, k] = position[i, k]
+        for k in range(4):
+            turned += (rotation[i, k] - seen[i, 3 + k]) ** 2
+            other += (rotation[i, k] + seen[i, 3 + k]) ** 2
+            seen[i, 3 + k] = rotation[i, k]
+        if moved > 0.0 or turned > 0.0:
+            radius = sqrt(center) + sqrt(half) + bound_radius[i]
+            way[i] += sqrt(moved) + 2.0 * radius * sqrt(min(turned, other))
+
+
+@kernel("near", "near_reaches")
+def leave_apart(pairs, reaches, until, way, near, near_reaches):
+    """Write the pairs that may be within their reaches (m), and these; return how many they are.
+
+    The others have ``until`` their ways make up that much less what they reach. Who these are is past foreseeing, so
+    that no branch hangs on it.
+    """
+    count = 0
+    for p in range(len(pairs)):
+        i, j = pairs[p, 0], pairs[p, 1]
+        near[count, 0], near[count, 1], near_reaches[count] = i, j, reaches[p]
+        count += 0 if until[p] - way[i] - way[j] > reaches[p] else 1
+    return count
+
+
+@kernel("until")
+def note_apart(measured, gaps, pairs, way, until):
+    """Write ``until`` when measured pairs stay apart of which a gap above 0 (m) is known.
+
+    Both lists of pairs are sorted, and those measured are among the others.
+    """
+    p = 0
+    for m in range(len(measured)):
+        i, j = measured[m, 0], measured[m, 1]
+        while pairs[p, 0] != i or pairs[p, 1] != j:
+            p += 1
+        if gaps[m] > 0.0:
+            until[p] = (1.0 - APART_MARGIN) * gaps[m] + way[i] + way[j]
+
+
+@kernel("until")
+def keep_apart(old, old_until, pairs, until):
+    """Write of pairs until when they stay apart, as was known of the ``old`` ones; both lists are sorted."""
+    o = 0
+    for p in range(len(pairs)):
+        i, j = pairs[p, 0], pairs[p, 1]
+        while o < len(old) and (old[o, 0] < i or (old[o, 0] == i and old[o, 1] < j)):
+            o += 1
+        known = o < len(old) and old[o, 0] == i and old[o, 1] == j
+        until[p] = old_until[o] if known else -np.inf
