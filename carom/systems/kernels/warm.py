@@ -55,6 +55,7 @@ def compile_measuring() -> None:
     import numpy as np
 
     from carom.ecs import Collider, Motion
+    from carom.systems.detection.apart import Apart
     from carom.systems.detection.leaving import detection_holds
     from carom.systems.detection.manifolds import reduce_points
     from carom.systems.detection.narrow import measure_pairs
@@ -87,8 +88,12 @@ def compile_measuring() -> None:
         found = without_seams(world, measure_pairs(world, pairs, np.ones(len(pairs))))
         world[Motion].linear[:] = 1.0
         detection_holds(world, 1.0)  # with everybody leaving
+        apart = world[Apart]
+        apart.many = True
+        apart.without(world, pairs, np.ones(len(pairs)))
+        apart.note(pairs, np.zeros(len(pairs), np.int64), np.ones(len(pairs)))
     count = len(found.row_a)
-    merge_contacts(count, *found[:-1], *found[:-1], *found.room(2 * count))
+    merge_contacts(count, *found, *found, *found.room(2 * count))
     far = np.zeros(count, np.bool_)  # of somebody fast
     find_far(pairs, np.ones((len(pairs), NUMBERS)), found.row_a, found.row_b, found.depth, far)
     let_go(pairs, count, found.row_a, found.row_b, far)
@@ -110,6 +115,7 @@ def compile_frame() -> None:
 
     from carom.ecs.components.joint import FREE, LIMITED, LOCKED, Joint
     from carom.systems.gravitation import attract_by_tree
+    from carom.systems.grouping import group_contacts
     from carom.systems.simulation import Simulation
     from carom.systems.solving import Solving
 
@@ -143,6 +149,9 @@ def compile_frame() -> None:
     simulation.keep_ledger()
     Solving(simulation)
     simulation.step(3)
+    with simulation.world.faces(None):
+        for same in (False, True):  # those who stay in groups
+            group_contacts(simulation.world, same=same)
     compile_rest()
 
 
