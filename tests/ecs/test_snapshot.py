@@ -100,7 +100,8 @@ def test_caches_can_be_dropped_at_any_time() -> None:
     kept, dropping = bouncing_and_resting(), bouncing_and_resting()
     for _ in range(30):
         before = state_hash(dropping.world)
-        dropping.world.add(FclObjects(), Resting())
+        dropping.world.add(FclObjects())
+        dropping.world.add(Resting())
         dropping.world._queries.clear()
         for kind, table in dropping.world.tables.items():
             for name, column in kind.columns.items():

@@ -74,7 +74,7 @@ def measure_batch(
     STAND_INS[type(a), type(b)](
         ALONE, np.arange(n), rows[swapped], rows[not swapped], np.full(n, reach), 0, MOST_POINTS,
         np.repeat([a.number, b.number], n), size, position, rotation, np.full(2 * n, -1), pack({}), joined({}),
-        start, count, np.zeros(n), feature, normal, depth, point,
+        np.zeros(n), start, count, feature, normal, depth, point,
     )  # fmt: skip
     taken = count.sum()
     return Answer(start, count, feature[:taken], normal[:taken], depth[:taken], point[:taken])

@@ -100,7 +100,7 @@ def measure(a: str, b: str, placed: Placed, reach: float = 0.0) -> Measured:
         np.repeat([SHAPES[a].packed(), SHAPES[b].packed()], n, axis=0),
         np.concatenate([placed.position_a, placed.position_b]),
         np.concatenate([placed.rotation_a, placed.rotation_b]),
-        np.repeat([NUMBERS.get(a, -1), NUMBERS.get(b, -1)], n), PACKED, NO_MESHES, *found,
+        np.repeat([NUMBERS.get(a, -1), NUMBERS.get(b, -1)], n), PACKED, NO_MESHES, np.zeros(n), *found,
     )  # fmt: skip
     return found
 

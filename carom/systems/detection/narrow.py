@@ -158,7 +158,7 @@ def measure_pairs(
         FUNCTIONS[number - 1](
             crew_for(world, count), order[bucket], first[bucket], second[bucket], reaches, taken, ROOMS[number],
             collider.shape, collider.size, pose.position, pose.rotation, collider.geometry, hulls, meshes,
-            points.start, points.count, points.apart, points.feature, points.normal, points.depth, points.point,
+            points.apart, points.start, points.count, points.feature, points.normal, points.depth, points.point,
         )  # fmt: skip
         taken += ROOMS[number] * count
     if apart:

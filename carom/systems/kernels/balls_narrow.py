@@ -13,7 +13,7 @@ from carom.systems.kernels.writing import write_point
 @shared("start", "count", "feature", "normal", "depth", "point")
 def measure_balls(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs whose first collider is a ball or point.
 

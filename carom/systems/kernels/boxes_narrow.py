@@ -22,7 +22,7 @@ CORNERS_FROM = EDGES_FROM + EDGE_FEATURES
 @shared("start", "count", "apart", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_boxes(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of boxes, in the form of `measure_balls`.
 

@@ -19,7 +19,7 @@ ALONE = 2  # feature; points of capsules side by side are 0 and 1 along the firs
 @shared("start", "count", "feature", "normal", "depth", "point")
 def measure_balls_on_capsules(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a ball or point and a capsule.
 
@@ -56,7 +56,7 @@ def measure_balls_on_capsules(
 @shared("start", "count", "apart", "feature", "normal", "depth", "point")
 def measure_capsules(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of capsules.
 

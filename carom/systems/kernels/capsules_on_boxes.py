@@ -35,7 +35,7 @@ ALONE, EDGES = 12, 13
 @shared("start", "count", "apart", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_capsules_on_boxes(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a capsule and a box.
 

@@ -49,7 +49,7 @@ def comes_first(p, i, q, j, position, rotation):
 @shared("start", "count", "apart", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_hulls(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs whose second collider is a hull, in the form of `measure_balls`.
 
@@ -127,7 +127,7 @@ def measure_hulls(
 @shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_hulls_on_planes(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a hull and a half space, in the form of `measure_balls`; points are the hull's vertices."""
     corners = most_of(hulls.vertex_start)

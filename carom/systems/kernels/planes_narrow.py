@@ -22,7 +22,7 @@ def plane_of(size, position, rotation, row):
 @shared("start", "count", "feature", "normal", "depth", "point")
 def measure_boxes_on_planes(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a box and a half space.
 
@@ -67,7 +67,7 @@ def measure_boxes_on_planes(
 @shared("start", "count", "feature", "normal", "depth", "point")
 def measure_capsules_on_planes(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a capsule and a half space.
 

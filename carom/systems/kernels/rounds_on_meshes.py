@@ -43,7 +43,7 @@ from carom.systems.shapes.rim import RIM_NUMBERS, RIM_POINTS
 @shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_rounds_on_meshes(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a cylinder, cone or ellipsoid and a mesh, in the form of `measure_balls`.
 

@@ -30,7 +30,7 @@ from carom.systems.kernels.spatial import product, turn
 @shared("start", "count", "feature", "normal", "depth", "point", makes_arrays=True)
 def measure_solids_on_meshes(
     crew, which, first, second, reaches, taken, room, shape, size, position, rotation, geometry, hulls, meshes,
-    start, count, apart, feature, normal, depth, point,
+    apart, start, count, feature, normal, depth, point,
 ):  # fmt: skip
     """Measure pairs of a capsule, box or hull and a mesh, in the form of `measure_balls`.
 

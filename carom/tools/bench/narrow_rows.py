@@ -93,7 +93,7 @@ def kernel_call(a: Shape, b: Shape, position: Floats, rotation: Floats) -> tuple
     inputs = (
         ALONE, which, which, which + n, np.zeros(n), 0, MOST_POINTS,
         shape, size.reshape(2 * n, -1), position.reshape(2 * n, 3), rotation.reshape(2 * n, 4),
-        np.zeros(2 * n, np.int64), pack(dict(enumerate(hulls))), joined({}),
+        np.zeros(2 * n, np.int64), pack(dict(enumerate(hulls))), joined({}), np.zeros(n),
     )  # fmt: skip
     kernel = STAND_INS[type(a), type(b)]
     return lambda: kernel(*inputs, start, count, feature, normal, depth, point), count, depth
