@@ -10,13 +10,18 @@ from carom.ecs import state_hash
 from carom.systems.simulation import Simulation
 
 
+def add_walls(simulation: Simulation, way: float, height: float) -> None:
+    """Add four walls about the vertical axis, whose middles are so far from it."""
+    for x, z in ((1, 0), (-1, 0), (0, 1), (0, -1)):
+        wall = {"box": {"size": (0.2 if x else 2.4, height, 0.2 if z else 2.4)}}
+        simulation.add(collider=wall, transform={"position": (way * x, 0.5 * height, way * z)})
+
+
 def bin_of_balls(count: int, **settings: Any) -> Simulation:
     """Return balls thrown into a bin where they rattle: thousands of impacts in a step."""
     simulation = Simulation(dt=1 / 120, **settings)
     simulation.add(collider={"plane": {}}, name="floor")
-    for x, z in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        wall = {"box": {"size": (0.2 if x else 2.4, 4.0, 0.2 if z else 2.4)}}
-        simulation.add(collider=wall, transform={"position": (0.77 * x, 2.0, 0.77 * z)})
+    add_walls(simulation, 0.77, 4.0)
     for k in range(count):
         place = (-0.42 + 0.33 * (k % 3) + 0.01 * (k % 7), 0.2 + 0.34 * (k // 9), -0.4 + 0.32 * (k // 3 % 3))
         simulation.add(

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from heaps import add_walls
 
 from carom.ecs import Collider, ColliderPose, Motion, System, Transform, state_hash
 from carom.ecs.components.flight import Flight
@@ -25,9 +26,7 @@ def box_heap(count: int = 120) -> Simulation:
     """Return boxes, capsules, hulls and balls of all turns that fall into a bin and come to rest, without sleep."""
     simulation, random = Simulation(sleeping=False), np.random.default_rng(5)
     simulation.add(collider={"box": {"size": (8.0, 1.0, 8.0)}}, transform={"position": (0.0, -0.5, 0.0)})
-    for x, z in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        wall = {"box": {"size": (0.2 if x else 2.4, 6.0, 0.2 if z else 2.4)}}
-        simulation.add(collider=wall, transform={"position": (1.1 * x, 3.0, 1.1 * z)})
+    add_walls(simulation, 1.1, 6.0)
     for k in range(count):
         solid: dict[str, Any] = {"box": {"size": (0.4, 0.3, 0.2)}}
         if k % 5 == 0:

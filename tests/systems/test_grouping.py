@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from heaps import bin_of_balls, jointed_heap, stack_of_boxes, stirred_heap
+from heaps import add_walls, bin_of_balls, jointed_heap, stack_of_boxes, stirred_heap
 
 from carom.ecs import Collider, Material, Motion, RigidBody, System, World, state_hash, system
 from carom.ecs.column import Floats
@@ -30,9 +30,7 @@ def heap_of_all() -> Simulation:
     """Return solids and rounds of all kinds, with one to eight points each, that spin, roll and rub as they settle."""
     simulation, random = Simulation(sleeping=False), np.random.default_rng(3)
     simulation.add(collider={"plane": {}}, material={"spinning_friction": 0.1})
-    for x, z in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-        wall = {"box": {"size": (0.2 if x else 2.4, 4.0, 0.2 if z else 2.4)}}
-        simulation.add(collider=wall, transform={"position": (1.1 * x, 2.0, 1.1 * z)})
+    add_walls(simulation, 1.1, 4.0)
     kinds: tuple[dict[str, Any], ...] = (
         {"box": {"size": (0.4, 0.3, 0.2)}},
         {"cylinder": {"radius": 0.15, "length": 0.3}},
@@ -220,7 +218,7 @@ def test_no_bit_depends_on_whether_groups_stay(heap: str, edit: str, stays: list
     assert len(stays) >= least
 
 
-def test_systems_of_others_may_change_anything(stays: list[int]) -> None:
+def test_systems_of_others_may_change_anything() -> None:
     """One that makes all slippery in the middle of a step is heard of where so many leave that all is detected anew."""
 
     @system(reads=(Progress,), writes=(Material, Flight))

@@ -26,12 +26,6 @@ class Apart(Resource):
         self.way: Floats = np.zeros(0)
         self.many = False  # whether more pairs are apart than there are colliders, which takes longer to see
         self._left = self._rows = 0
-        self._make_room(0)
-
-    def _make_room(self, pairs: int) -> None:
-        """Make room that lasts: to ask for it in each step takes longer than what is written there."""
-        self._near, self._reaches = np.empty((pairs, 2), np.int64), np.empty(pairs)
-        self._lists: list[tuple[Integers, Floats]] = [(np.empty((pairs, 2), np.int64), np.empty(pairs)) for _ in (0, 1)]
 
     def without(self, world: World, pairs: Integers, reaches: Floats) -> tuple[Integers, Floats]:
         """Return the sorted ``pairs`` (n, 2) that may be within their ``reaches`` (n,), m, and those."""
@@ -49,15 +43,13 @@ class Apart(Resource):
         if not world[Resting].knows(world):
             self.pairs = NOBODY  # their shapes may be others
         if not np.array_equal(pairs, self.pairs):
-            if len(pairs) > len(self._near):
-                self._make_room(2 * len(pairs))
-            self._lists.reverse()
-            now, until = self._lists[0]
-            keep_apart(self.pairs, self.until, pairs, now, until)
-            self.pairs, self.until = now[: len(pairs)], until[: len(pairs)]
-        count = leave_apart(pairs, reaches, self.until, self.way, self._near, self._reaches)
+            before = self.pairs, self.until
+            self.pairs, self.until = pairs, np.empty(len(pairs))
+            keep_apart(*before, self.pairs, self.until)
+        near, near_reaches = np.empty_like(pairs), np.empty_like(reaches)
+        count = leave_apart(pairs, reaches, self.until, self.way, near, near_reaches)
         self._left = len(pairs) - count
-        return self._near[:count], self._reaches[:count]
+        return near[:count], near_reaches[:count]
 
     def note(self, measured: Integers, points: Integers, gaps: Floats) -> None:
         """Remember how far those of the ``pairs`` are apart that were ``measured`` and have no points.

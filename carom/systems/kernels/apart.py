@@ -63,13 +63,13 @@ def note_apart(measured, gaps, pairs, way, until):
             until[p] = (1.0 - APART_MARGIN) * gaps[m] + way[i] + way[j]
 
 
-@kernel("new_pairs", "new_until")
-def keep_apart(old, old_until, pairs, new_pairs, new_until):
-    """Write pairs, and until when they stay apart, as was known of the ``old`` ones; both lists are sorted."""
+@kernel("until")
+def keep_apart(old, old_until, pairs, until):
+    """Write of pairs until when they stay apart, as was known of the ``old`` ones; both lists are sorted."""
     o = 0
     for p in range(len(pairs)):
         i, j = pairs[p, 0], pairs[p, 1]
         while o < len(old) and (old[o, 0] < i or (old[o, 0] == i and old[o, 1] < j)):
             o += 1
         known = o < len(old) and old[o, 0] == i and old[o, 1] == j
-        new_pairs[p, 0], new_pairs[p, 1], new_until[p] = i, j, old_until[o] if known else -np.inf
+        until[p] = old_until[o] if known else -np.inf

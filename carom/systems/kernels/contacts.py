@@ -50,8 +50,8 @@ def complete_contacts(
     """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
     Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces. Where all
-    are ``known``, what follows from shapes and materials is there. Each thread tells in ``changed`` whether it was not,
-    or a surface runs.
+    are ``known``, what follows from shapes and materials, and where others stand, is there. Each thread tells in
+    ``changed`` whether it was not, or a surface runs.
     """
     end, until = runs_of(crew, row_a[:count], row_b[:count])
     while end < until:

@@ -3,28 +3,11 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls_in_lanes import are_balls
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.filling import LANES, find_tangents, keep_where, place_points, places_of
-from carom.systems.kernels.groups import (
-    BALL,
-    BESIDE,
-    FRICTION,
-    MANIFOLD_ROWS,
-    NORMAL,
-    PART,
-    POINT_ROWS,
-    RESTS,
-    ROLLED,
-    ROLLING,
-    RUB,
-    RUBBED,
-    SHARE,
-    SPINNING,
-    SPUN,
-    SUM,
-    WARM,
-)
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import lane_of, numbers_at, pick_three
 from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times
@@ -44,26 +27,27 @@ def refill_groups(
     begin, end = part_of(crew, groups)
     for g in range(begin, end):
         r, at, sizes = row[g], places_of(g, 0, first, size), lane_of(numbers_at(size[g], LANES))
-        keep(rows, r + RUBBED, zero, zero, zero)
-        store(rows, r + RESTS, choose(sizes, lane_of(numbers_at(resting, at)), zero))
+        keep(rows, r + of.RUBBED, zero, zero, zero)
+        store(rows, r + of.RESTS, choose(sizes, lane_of(numbers_at(resting, at)), zero))
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            store(rows, q + WARM, choose(sizes - float(p), load(rows, q + WARM), zero))
-            store(rows, q + SUM, zero)
-        share = load(rows, r + SHARE)
-        pushed = times(share, three(rows, r + RUB))
-        keep_where(rows, r + RUB, load(rows, r + FRICTION), sum_over_points(points[g], sizes, pushed))
+            store(rows, q + of.WARM, choose(sizes - float(p), load(rows, q + of.WARM), zero))
+            store(rows, q + of.SUM, zero)
+        share = load(rows, r + of.SHARE)
+        pushed = times(share, three(rows, r + of.RUB))
+        keep_where(rows, r + of.RUB, load(rows, r + of.FRICTION), sum_over_points(points[g], sizes, pushed))
         if even[g]:
             continue
-        turned = times(load(rows, r + SPUN), three(rows, r + NORMAL))
-        rolled = sum_over_points(points[g], sizes, times(share, plus(turned, three(rows, r + ROLLED))))
+        turned = times(load(rows, r + of.SPUN), three(rows, r + of.NORMAL))
+        rolled = sum_over_points(points[g], sizes, times(share, plus(turned, three(rows, r + of.ROLLED))))
         n = pick_three(normal, at, sizes)
-        keep(rows, r + NORMAL, n[0], n[1], n[2])
-        along, as_ball = dot(n, rolled), choose(load(rows, r + BALL), one, zero)
-        store(rows, r + SPUN, choose(choose(as_ball, load(rows, r + SPINNING), one), along, zero))
-        keep_where(rows, r + ROLLED, choose(as_ball, load(rows, r + ROLLING), one), minus(rolled, times(along, n)))
-        store(rows, r + PART, one)
-        store(rows, r + BESIDE, zero)
+        keep(rows, r + of.NORMAL, n[0], n[1], n[2])
+        along, as_ball = dot(n, rolled), choose(load(rows, r + of.BALL), one, zero)
+        rolls = choose(as_ball, load(rows, r + of.ROLLING), one)
+        store(rows, r + of.SPUN, choose(choose(as_ball, load(rows, r + of.SPINNING), one), along, zero))
+        keep_where(rows, r + of.ROLLED, rolls, minus(rolled, times(along, n)))
+        store(rows, r + of.PART, one)
+        store(rows, r + of.BESIDE, zero)
         if not are_balls(r, lanes):
             find_tangents(r, rows)
             place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
