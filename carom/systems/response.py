@@ -28,7 +28,7 @@ from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.sensors import Sensing
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.impact_log import write_impacts
-from carom.systems.kernels.impacts import DONE, FEW_IMPACTS, OUT_OF_REACH, fly
+from carom.systems.kernels.impacts import DONE, FEW_IMPACTS, TO_LOOK, fly
 from carom.systems.kernels.impacts import WIDTH as LOG_WIDTH
 from carom.systems.kernels.settling import finish_drift
 from carom.systems.landings import Landings
@@ -119,8 +119,8 @@ def hand_impulses_over(world: World, dt: float) -> None:
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one may meet whom nobody foresaw."""
-    contact, progress = world[Contact], world[Progress]
-    at, events, looks, stuck = 0.0, 0, 0, 0
+    contact, progress, fast = world[Contact], world[Progress], world[Fast]
+    at, events, looks, stuck, soon = 0.0, 0, 0, 0, None
     begun, progress.stopped = progress.stopped, None
     if contact.count and not begun:
         contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
@@ -129,7 +129,7 @@ def drift(world: World, dt: float) -> None:
         if begun:
             (at, reason, events), begun = begun, None
         else:
-            look = at + world[Fast].next_look(world, dt - at)
+            look = at + (fast.next_look(world, dt - at, found=True) if soon is None else soon)
             if looks >= MOST_LOOKS and look < inf:
                 look, world[Answered].looks_cut = inf, world[Answered].looks_cut + 1
             at, reason, events = _fly(world, at, dt, events, look)
@@ -138,12 +138,17 @@ def drift(world: World, dt: float) -> None:
             return
         _finish(world, dt, ended=False)
         left = dt - at
-        if reason == OUT_OF_REACH and (at, events) != before and detection_holds(world, left):
+        soon = fast.look_on(world, at - before[0], left)
+        if soon > 0.0 and reason == TO_LOOK:
+            fast.let_go(contact)
             continue
+        if soon > 0.0 and (at, events) != before and detection_holds(world, left):
+            continue
+        soon = None
         world[Landings].tell(world, dt)
         world[Resting].hand_over(world)
         detect_again(world, left)
-        world[Fast].let_go(contact)
+        fast.let_go(contact)
         rows, flight = world[Awake].now(world), world[Flight]
         flight.start_center[rows], flight.turned[rows] = flight.center[rows], 0.0  # depths are those of now
         stuck = stuck + 1 if (at, events) == before else 0
@@ -187,7 +192,7 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
         contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, closes, within,
-        flight.held, until, world[Fast].turns, events, ledger.pull, ledger.arc, 0, *room_for_log(),
+        flight.held, until, world[Fast].trusts, events, ledger.pull, ledger.arc, 0, *room_for_log(),
     )  # fmt: skip
     log_impacts(world, cut, count, pair, log)
     return now, reason, events

@@ -113,16 +113,17 @@ def find_fast(
     return count
 
 
-@kernel("pairs", "bodies", "numbers", "cores", "roots", "position", "rotation", "turns")
+@kernel("pairs", "bodies", "numbers", "cores", "roots", "position", "rotation", "trusts")
 def place_fast(
-    pairs, shape, size, geometry, body_row, pose_position, pose_rotation, center, body_rotation, hulls, root,
-    bodies, numbers, cores, roots, position, rotation, turns,
+    pairs, shape, size, geometry, body_row, pose_position, pose_rotation, center, body_rotation, linear, angular, hulls,
+    root, bodies, numbers, cores, roots, position, rotation, trusts,
 ):  # fmt: skip
     """Put the mesh of a pair first, and write what both shapes are around, and where they are.
 
     They are in the frames of their ``bodies``, or in the world. Of a mesh there is where its tree begins, and the room
-    behind the vertices of all hulls for those of one triangle at a time. Each body is looked at again before it has
-    ``turns`` (rad) by more than what a contact is trusted; a ball about its body's centre turns without effect.
+    behind the vertices of all hulls for those of one triangle at a time. Of each body there is how far its contacts are
+    trusted (m), how far it reaches from its centre (m) and how fast those come whom it may meet (m/s); a ball about its
+    body's centre turns without effect.
     """
     for p in range(len(pairs)):
         if shape[pairs[p, 1]] == MESH_SHAPE or shape[pairs[p, 1]] == FIELD_SHAPE:
@@ -145,51 +146,13 @@ def place_fast(
                 bx, by, bz, bw = -body_rotation[i, 0], -body_rotation[i, 1], -body_rotation[i, 2], body_rotation[i, 3]
                 x, y, z = turn(bx, by, bz, bw, x - center[i, 0], y - center[i, 1], z - center[i, 2])
                 q = product(bx, by, bz, bw, q[0], q[1], q[2], q[3])
-                if numbers[p, side] > 0.0:
-                    turns[i] = min(turns[i], numbers[p, 3] / numbers[p, side])
+                trusts[i, 0] = min(trusts[i, 0], numbers[p, 3])
+                trusts[i, 1] = max(trusts[i, 1], numbers[p, side])
+                comes = speed_of(body_row[pairs[p, 1 - side]], 1.0, linear, angular, numbers[p, 1 - side])
+                trusts[i, 2] = max(trusts[i, 2], comes)
             position[p, side, 0], position[p, side, 1], position[p, side, 2] = x, y, z
             for k in range(4):
                 rotation[p, side, k] = q[k]
-
-
-@kernel("agrees")
-def find_agreeing(
-    pairs, numbers, times, span, row_a, row_b, normal, depth, point, body_row, center, linear, angular, agrees
-):
-    """Tell which pairs need nobody to look: their contacts, followed straight on, say when they meet just as well.
-
-    That is so where both times are the same, but for as long as the bodies may move by what a contact is trusted, and
-    for what is near already as long as nobody turns by more than that. Contacts are in order of pair, as pairs are.
-    """
-    c = 0
-    for p in range(len(pairs)):
-        a, b = pairs[p, 0], pairs[p, 1]
-        i, o = body_row[a], body_row[b]
-        while c < len(row_a) and (row_a[c] < a or (row_a[c] == a and row_b[c] < b)):
-            c += 1
-        straight, near_now = NEVER, False
-        while c < len(row_a) and row_a[c] == a and row_b[c] == b:
-            closing = 0.0
-            for body, sense in ((i, 1.0), (o, -1.0)):
-                if body >= 0:
-                    x, y, z = cross(
-                        angular[body, 0], angular[body, 1], angular[body, 2],
-                        point[c, 0] - center[body, 0], point[c, 1] - center[body, 1], point[c, 2] - center[body, 2],
-                    )  # fmt: skip
-                    for k, turn_k in enumerate((x, y, z)):
-                        closing += sense * normal[c, k] * (linear[body, k] + turn_k)
-            near_now |= -depth[c] <= numbers[p, 3]
-            if closing > 0.0 and -depth[c] < closing * span:
-                straight = min(straight, max(0.0, -depth[c] / closing))
-            c += 1
-        smaller = int(numbers[p, 2])
-        way, turning = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)
-        turning *= numbers[p, smaller]
-        most = way + turning
-        if near_now:
-            agrees[p] = turning * span <= numbers[p, 3]
-        else:
-            agrees[p] = abs(straight - times[p]) * most <= numbers[p, 3] or straight == times[p]
 
 
 @woven

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import sqrt
-
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
@@ -13,6 +11,7 @@ from carom.systems.constants import (
     BLOWS,
     IMPACTS_AT_LEAST,
     IMPACTS_PER_PAIR,
+    MEET,
     PATIENCE,
 )
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
@@ -20,6 +19,7 @@ from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body, is_on_joint, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
+from carom.systems.kernels.fast_pairs import speed_of
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.reach import time_within_reach
@@ -46,7 +46,7 @@ def fly(
     count, beginning, group_of, stale, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
     surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, within,
-    on_joint, until, turns, events, pull, arc, log_count, log_pair, log,
+    on_joint, until, trusts, events, pull, arc, log_count, log_pair, log,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts after those ``log_count``.
 
@@ -58,10 +58,11 @@ def fly(
     its reach; the caller brings all bodies to the time reached, detects anew and calls again. What the substep has
     counted so far goes on: ``events``, and for each pair ``strikes`` and ``plastic``, else to detect in the middle
     would renew the patience with endless rows of impacts. ``cut`` counts impacts beyond the cap, which are let pass.
-    Nobody flies on beyond ``until``, nor after an impact by which a body turns more than its ``turns`` (rad). Groups
-    become ``stale`` in which pairs are struck, or no longer rest. Blows that go to and fro between bodies that stay
-    together are at one time, and logged as one impact of each pair. An ``arc`` of more than no rows is accounted for
-    (`note_arc`).
+    Nobody flies on beyond ``until``; nor, after an impact of a body that comes farther in the substep than what is
+    known of its contacts is trusted, beyond when it may have come so near to others that they are to be looked at:
+    ``trusts`` say when (`place_fast`). Groups become ``stale`` in which pairs are struck, or no longer rest. Blows that
+    go to and fro between bodies that stay together are at one time, and logged as one impact of each pair. An ``arc``
+    of more than no rows is accounted for (`note_arc`).
     """
     pairs, number, held = np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count, np.int64)
     taken, near, holds = 0, 0, 0
@@ -75,11 +76,11 @@ def fly(
         taken += 1
 
     kept = np.empty((1, KEPT))
-    now, end, cut, whirls = start, min(h, until), 0, False
+    now, end, cut, veers = start, min(h, until), 0, False
     if within < end - now:
         end = now + within
     if not taken and start == 0.0:
-        return end, reason_of(end, h, until, whirls), events, cut, log_count, log_pair, log
+        return end, reason_of(end, h, until, veers), events, cut, log_count, log_pair, log
 
     seek = np.empty(2 * count + 2, np.int64)
     seek_count, heavy = 0, False
@@ -255,18 +256,18 @@ def fly(
             within = time_within_reach(body, h - now, center, detected_center, reach, linear, acceleration)
             if within < h - now:
                 end = min(end, now + within)
-            spin = sqrt(angular[body, 0] ** 2 + angular[body, 1] ** 2 + angular[body, 2] ** 2)
-            if spin * (h - now) > turns[body]:
-                end, whirls = now, True
-    return now, reason_of(now, h, until, whirls), events, cut, log_count, log_pair, log
+            quick = speed_of(body, 1.0, linear, angular, trusts[body, 1])
+            if quick * (h - now) > trusts[body, 0]:
+                end, veers = min(end, now + MEET * trusts[body, 0] / (quick + trusts[body, 2])), True
+    return now, reason_of(now, h, until, veers), events, cut, log_count, log_pair, log
 
 
 @woven
-def reason_of(now, h, until, whirls):
-    """Return why a flight of h seconds ends at ``now``: to look at who is fast, or ``whirls``, goes before reach."""
+def reason_of(now, h, until, veers):
+    """Return why a flight of h seconds ends at ``now``: to look at who is fast, or ``veers`` off, goes before reach."""
     if now >= h:
         return DONE
-    return TO_LOOK if whirls or now >= until else OUT_OF_REACH
+    return TO_LOOK if veers or now >= until else OUT_OF_REACH
 
 
 @making

@@ -51,20 +51,34 @@ def across(i, nx, ny, nz, angular):
 
 
 @inlined
-def meet(
-    p, i, o, limit, numbers, core, vertices, center, turns, linear, angular, felt, local_position, local_rotation,
-    position, rotation, place, corner, name, weight, seen,
-):  # fmt: skip
-    """Return when the two cores of pair p are to be looked at again (s, NEVER if not within ``limit``).
-
-    That is where they have come so near that their contact is to be found, or, where they are near already, after they
-    may have moved as far as that contact is trusted.
-    """
-    trust, around, pull, time = numbers[p, 3], core[AROUND] + core[CORE + AROUND], 0.0, 0.0
+def most_of(p, i, o, limit, numbers, linear, angular, felt):
+    """Return by how much forces may hasten pair p within ``limit`` (s), and how fast any two points may close then."""
+    pull = 0.0
     for body in (i, o):
         if body >= 0:
             pull += sqrt(felt[body, 0] ** 2 + felt[body, 1] ** 2 + felt[body, 2] ** 2) * limit
     most = speed_of(i, 1.0, linear, angular, numbers[p, 0]) + speed_of(o, 1.0, linear, angular, numbers[p, 1]) + pull
+    return pull, most
+
+
+@inlined
+def time_of_way(way, speed, limit):
+    """Return how long a way (m) takes, NEVER if not within ``limit`` seconds."""
+    return way / speed if way < limit * speed else NEVER
+
+
+@inlined
+def meet(
+    p, i, o, limit, found, numbers, core, vertices, center, turns, linear, angular, felt,
+    local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+):  # fmt: skip
+    """Return when the two cores of pair p are to be looked at again (s, NEVER if not within ``limit``).
+
+    That is where they have come so near that their contact is to be found, or, where they are near already and it is
+    ``found``, after they may have moved as far as it is trusted, which is returned too (m), else 0.
+    """
+    trust, around, time = numbers[p, 3], core[AROUND] + core[CORE + AROUND], 0.0
+    pull, most = most_of(p, i, o, limit, numbers, linear, angular, felt)
     nx, ny, nz = 0.0, 1.0, 0.0
     for _ in range(MOST_LOOKS):
         put(0, i, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
@@ -75,44 +89,52 @@ def meet(
             corner, name, weight, seen,
         )  # fmt: skip
         if state == FAR:
-            return NEVER
+            return NEVER, 0.0
         gap = 0.0 if state == MEETING else gap - around
-        if time == 0.0 and gap <= trust:
-            return trust / most if trust < limit * most else NEVER
+        if found and time == 0.0 and gap <= trust:
+            return time_of_way(trust, most, limit), trust
         if gap <= MEET * trust:
-            return time
+            return time, 0.0
         nx, ny, nz = mx, my, mz
         wx, wy, wz = turned(rotation, 0, nx, ny, nz)
         closing = pull + across(i, wx, wy, wz, angular) * numbers[p, 0] + across(o, wx, wy, wz, angular) * numbers[p, 1]
         for k, n in enumerate((wx, wy, wz)):
             closing += n * ((linear[i, k] if i >= 0 else 0.0) - (linear[o, k] if o >= 0 else 0.0))
         if closing <= 0.0 or gap > closing * (limit - time):
-            return NEVER
+            return NEVER, 0.0
         time += (gap - 0.5 * MEET * trust) / closing
-    return time
+    return time, 0.0
 
 
-@kernel("room", "times", makes_arrays=True, within=True)
+@kernel("room", "left", "times", makes_arrays=True, within=True)
 def foresee_meetings(
-    span, first_only, center, turns, linear, angular, felt,
-    bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room, times,
+    span, first_only, found, center, turns, linear, angular, felt,
+    bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room, left, times,
 ):  # fmt: skip
     """Write when (s) each pair of ``bodies`` is to be detected anew as they move now, NEVER if not in ``span``.
 
+    Where contacts have been ``found`` where bodies are now, what is near is trusted for a way that is written into
+    ``left`` (m), 0 of meshes, of which some triangles may be near and others not. Else it is for what is left of that.
     Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both shapes about the centres
     of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and three more for a triangle
     of a mesh, which is the first of a pair that has one of ``roots``.
     """
     place = np.empty(PLACE)
     corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
-    position, rotation, found = np.empty((2, 3)), np.empty((2, 4)), np.empty(FEW, np.uint32)
+    position, rotation, touched = np.empty((2, 3)), np.empty((2, 4)), np.empty(FEW, np.uint32)
     sooner = span
     for p in range(len(bodies)):
         i, o, core = bodies[p, 0], bodies[p, 1], cores[p]
         limit, soonest = sooner if first_only else span, NEVER
+        if not found and left[p] > 0.0:
+            times[p] = 0.0
+            if left[p] > MEET * numbers[p, 3]:
+                times[p] = time_of_way(left[p], most_of(p, i, o, limit, numbers, linear, angular, felt)[1], limit)
+            sooner = min(sooner, times[p])
+            continue
         if roots[p] < 0:
-            times[p] = meet(
-                p, i, o, limit, numbers, core, room, center, turns, linear, angular, felt,
+            times[p], left[p] = meet(
+                p, i, o, limit, found, numbers, core, room, center, turns, linear, angular, felt,
                 local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
             )  # fmt: skip
             sooner = min(sooner, times[p])
@@ -123,16 +145,17 @@ def foresee_meetings(
         wide = numbers[p, 1] + core[CORE + AROUND] + numbers[p, 3]
         for body in (i, o):  # turning is in the reach, or, of the mesh, in how far any of it comes
             wide += speed_of(body, limit, linear, angular, numbers[p, 0] if body == i else 0.0)
-        count, found = all_triangles(
+        count, touched = all_triangles(
             roots[p], bounds, nodes, triangles,
-            lx - wide, ly - wide, lz - wide, lx + wide, ly + wide, lz + wide, found,
+            lx - wide, ly - wide, lz - wide, lx + wide, ly + wide, lz + wide, touched,
         )  # fmt: skip
         for c in range(count):
             for k in range(9):
-                room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * found[c] + k]
-            soonest = min(soonest, meet(
-                p, i, o, min(limit, soonest), numbers, core, room, center, turns, linear, angular, felt,
+                room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * touched[c] + k]
+            time, _ = meet(
+                p, i, o, min(limit, soonest), found, numbers, core, room, center, turns, linear, angular, felt,
                 local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
-            ))  # fmt: skip
-        times[p] = soonest
+            )  # fmt: skip
+            soonest = min(soonest, time)
+        times[p], left[p] = soonest, 0.0
         sooner = min(sooner, soonest)

@@ -40,7 +40,7 @@ HARD = (0.0, 1.0)
     "center", "time", "acceleration", "angular_acceleration", "decay", "angular_decay", "flow", "touching",
     "start_position", "start_rotation", "start_linear", "start_angular", "start_center", "turned",
     "normal", "depth", "point", "offset_a", "offset_b", "resting", "impulse", "friction_impulse", "strikes", "plastic",
-    "arc", "room", "log", "log_pair", "spent",
+    "arc", "room", "left", "log", "log_pair", "spent",
     makes_arrays=True,
 )  # fmt: skip
 def take_substeps(
@@ -55,7 +55,7 @@ def take_substeps(
     body_a, body_b, normal, depth, point, offset_a, offset_b, share_of_b, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
     strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-    turns, pull, arc, log_pair, log, spent,
+    left, trusts, pull, arc, log_pair, log, spent,
 ):  # fmt: skip
     """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
 
@@ -132,8 +132,9 @@ def take_substeps(
         at, reason, events, until = h, DONE, none, np.inf
         if len(fast):
             look(
-                h, True, center, rotation, linear, angular, felt,
-                fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room, times,
+                h, True, True, center, rotation, linear, angular, felt,
+                fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
+                left, times,
             )  # fmt: skip
             for time_of_pair in times:
                 until = min(until, time_of_pair)
@@ -158,7 +159,7 @@ def take_substeps(
                     principal_axes, freedom, count, start, group_of, stale, body_a, body_b, normal, depth,
                     offset_a, offset_b, share_of_b, kind, ball, other, extent, radius, other_position, other_rotation,
                     sign, surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic,
-                    closes, within, held, until, turns, none, pull, arc, logged, log_pair, log,
+                    closes, within, held, until, trusts, none, pull, arc, logged, log_pair, log,
                 )  # fmt: skip
                 cut += passed
         share(describe(advance, for_rows, (

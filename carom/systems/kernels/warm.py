@@ -173,7 +173,7 @@ def compile_rest() -> None:
     simulation[sleeper].motion.still = 1.0
     simulation.step()
     simulation.add(collider=ball, transform={"position": (9.0, 5.0, 0.0)})
-    place, flies = {"position": (7.0, 5.0, 0.0)}, {"linear": (100.0, 0.0, 0.0)}
+    place, flies = {"position": (7.0, 5.0, 0.0)}, {"linear": (100.0, 0.0, 0.0), "angular": (0.0, 0.0, 300.0)}
     unbalanced = {"mass": 1.0, "center_of_mass": (0.1, 0.0, 0.0)}
     simulation.add(collider=ball, body=unbalanced, transform=place, motion=flies)
     simulation.step()
