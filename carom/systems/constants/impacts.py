@@ -40,6 +40,9 @@ IMPACTS_AT_LEAST = 1024
 # Sweeps over the points of a manifold that strikes; 30 are usual. Fewer: what lands flat leaves with a spin.
 BLOW_SWEEPS = 200
 
+# Sweeps after which impulses leap to where the last two lead. More: slower. Fewer: before they lead anywhere.
+LEAP_SWEEPS = 5
+
 # m/s, times the speed of the impact where that is above 1 m/s. What the points of a striking manifold may leave open.
 SOLVED = 1e-13
 

@@ -7,7 +7,16 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APPROACH, BLOW_SWEEPS, IMMOVABLE, PATIENCE, REST_SPEED_FACTOR, SOLVED, TOUCH
+from carom.systems.constants import (
+    APPROACH,
+    BLOW_SWEEPS,
+    IMMOVABLE,
+    LEAP_SWEEPS,
+    PATIENCE,
+    REST_SPEED_FACTOR,
+    SOLVED,
+    TOUCH,
+)
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.bodies import (
     hardness,
@@ -20,6 +29,7 @@ from carom.systems.kernels.bodies import (
     surface_velocity,
 )
 from carom.systems.kernels.kernel import inlined, making
+from carom.systems.kernels.leaping import leap, times_of_way
 from carom.systems.kernels.point_coupling import couple_points, part_points, parted, yields_at
 from carom.systems.kernels.spatial import cross
 
@@ -54,11 +64,7 @@ def foresee_blow(
     """
     a, b = body_a[first], body_b[first]
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
-    pull, gained, covered = (
-        0.0,
-        0.0,
-        0.0,
-    )  # a against b, along the normal: acceleration, and since the bodies' own times
+    pull, gained, covered = 0.0, 0.0, 0.0  # of a against b, along the normal; the last two since their own times
     for body, sense in ((a, 1.0), (b, -1.0)):
         if body >= 0:
             late = now - time[body]
@@ -104,8 +110,9 @@ def blow(
 
     Returns (closing speed, normal impulse, its point from the centre of a or, where a is static, of b, friction impulse
     on b (3), whether they stay together).
-    Gauss-Seidel over the points of one pair; of four points in a plane, whichever solution gives the same motion. Where
-    friction undoes in each sweep what the normal impulse did, the second half of the sweeps take shorter steps.
+    Gauss-Seidel over the points of one pair; of four points in a plane, whichever solution gives the same motion. Every
+    few sweeps they leap (`leap`). Where friction undoes in each sweep what the normal impulse did, the second half of
+    the sweeps take shorter steps.
     """
     a, b = body_a[first], body_b[first]
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
@@ -118,7 +125,7 @@ def blow(
         pressing = max(pressing, pressing_of(b, a, nx, ny, nz, acceleration))
     n = end - first
     ease, least, given, aside = np.zeros(n), np.zeros(n), np.zeros((n, 4)), np.zeros(n)
-    coupling, slips = np.zeros((n, n, 9)), np.zeros((n, 3))
+    coupling, slips, start, way = np.zeros((n, n, 9)), np.zeros((n, 3)), np.zeros((n, 4)), np.zeros((n, 4))
     for m in range(n):
         c = first + m
         if -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned) <= TOUCH:
@@ -173,6 +180,9 @@ def blow(
                 part_points(m, jx, jy, jz, coupling, slips)
             if not going:
                 break
+            times = times_of_way(given, start, way)
+            if sweep % LEAP_SWEEPS == LEAP_SWEEPS - 1 and times != 0.0:
+                leap(times, nx, ny, nz, friction[first], least, ease, way, coupling, given, start, slips)
     for m in range(n):
         j = given[m, 0]
         push_pair(
