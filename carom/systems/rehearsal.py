@@ -6,17 +6,20 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numba
+import numpy as np
 
-from carom.ecs import Motion
+from carom.ecs import Collider, Motion
 from carom.systems.constants import SLEEP_TIME
+from carom.systems.detection.apart import Apart
 from carom.systems.detection.leaving import detection_holds
+from carom.systems.grouping import group_contacts
 from carom.systems.kernels.stored import NotStoredError, only_stored
 from carom.systems.step import STEP
 
 if TYPE_CHECKING:
     from carom.systems.simulation import Simulation
 
-BALL, BOX = {"sphere": {"radius": 0.5}}, {"box": {"size": (1.0, 1.0, 1.0)}}
+BALL, BOX, HALF = {"sphere": {"radius": 0.5}}, {"box": {"size": (1.0, 1.0, 1.0)}}, {"box": {"size": (0.5, 1.0, 1.0)}}
 
 
 class Rehearsal:
@@ -31,7 +34,10 @@ class Rehearsal:
 
     @classmethod
     def hold(cls, simulation: Simulation) -> None:
-        """Let balls and boxes of an empty simulation rest, strike, be too fast for their size, and fall asleep."""
+        """Let balls and boxes of an empty simulation rest, strike, be too fast for their size, fall asleep and wake.
+
+        One body has two colliders side by side, and two are said to be apart.
+        """
         cls.due = False
         simulation.schedule = STEP  # without what extensions have placed in it, which knows nothing of this
         simulation.add(collider={"box": {"size": (90.0, 1.0, 90.0)}}, transform={"position": (0.0, -0.5, 0.0)})
@@ -41,13 +47,23 @@ class Rehearsal:
                     simulation.add(
                         collider=shape, body={}, material={"restitution": 0.5 * place},
                         transform={"position": (4.0 * place, 0.5 + above, 4.0 * across)},
-                        motion={"linear": (0.1, speed, 0.0)},
+                        motion={"linear": (0.1, speed, 0.0), "angular": (0.0, 0.0, speed)},
                     )  # fmt: skip
+        both = simulation.add(collider=HALF, body={}, transform={"position": (-0.25, 2.5, 4.0)})
+        simulation.add(collider=HALF, parent={"entity": both, "position": (0.5, 0.0, 0.0)})
         with only_stored(), suppress(NotStoredError):
             simulation.step(3)
             simulation.step(3, after=lambda system: None)  # system by system, as where somebody looks on
             with simulation.world.faces(None):
                 detection_holds(simulation.world, 1.0)  # for somebody it does not
-            with simulation.world.edit(Motion) as motion:
-                motion.still[:] = SLEEP_TIME
-            simulation.step(2)  # who rests falls asleep, and others go on
+                apart, pair = simulation.world[Apart], simulation.world.row_numbers(Collider)[None, :2]
+                apart.many = True
+                apart.note(apart.without(simulation.world, pair, np.ones(1))[0], np.zeros(1, np.int64), np.ones(1))
+                group_contacts(simulation.world, same=True)
+            for column, value in (("linear", 0.0), ("angular", 0.0), ("still", SLEEP_TIME)):
+                with simulation.world.edit(Motion) as motion:
+                    getattr(motion, column)[:] = value
+                simulation.step()  # at last who rests falls asleep
+            simulation.step()
+            simulation.wake(both)
+            simulation.step()

@@ -28,9 +28,16 @@ simulation.add(collider={"plane": {}})
 for k, shape in enumerate(({"sphere": {"radius": 0.5}}, {"box": {"size": (1.0, 1.0, 1.0)}})):
     for height in (1.0, 2.5):
         simulation.add(collider=shape, body={}, transform={"position": (4.0 * k, height, 0.0)})
+small = {"box": {"size": (0.4, 0.4, 0.4)}}
+for k in range(60):
+    place = {"position": (8.0 + 0.45 * (k % 5), 0.5 + 0.9 * (k // 25), 0.45 * (k // 5 % 5))}
+    simulation.add(collider=small, body={}, transform=place)
+simulation.add(collider={"box": {"size": (0.1, 9.0, 9.0)}}, transform={"position": (30.0, 4.0, 0.0)})
+flies = {"linear": (60.0, 3.0, 0.0), "angular": (9.0, 20.0, 5.0)}
+simulation.add(collider=small, body={}, transform={"position": (20.0, 2.0, 0.0)}, motion=flies)
 simulation.step()
 at_first = len(loaded)
-simulation.step(90)
+simulation.step(180)
 print(at_first > 50, loaded[at_first:])
 """
 
