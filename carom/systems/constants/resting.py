@@ -22,6 +22,11 @@ CONTACT_PERIODS, CONTACT_DAMPING = 0.1875, 10.0
 # the ground lies where it should. Larger: bodies under a pile tremble. Smaller: it takes longer.
 RIGID_RATE = 0.05
 
+# m, and part of its impulses that a body keeps from step to step where it overlaps by more with what is driven against
+# it: it is being crushed, which no impulse can help, and those that add up throw it out. A smaller overlap: what is
+# carried sinks in. A larger part: what comes out of a press does at hundreds of m/s.
+CRUSHED, CRUSHED_PART = 0.02, 0.3
+
 # Part of what a joint is off by that goes in a substep; and part of the mass, and of the impulse of the substep before,
 # that counts meanwhile. Smaller: joints under heavy loads stretch, and pendulums lose energy. Larger: straight chains
 # of light links with a heavy end, which a sweep solves in part only, tear themselves apart.

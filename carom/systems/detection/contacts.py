@@ -27,6 +27,7 @@ from carom.systems.detection.sensors import Sensing, without_sensors
 from carom.systems.grouping import group_contacts
 from carom.systems.kernels.contacts import complete_contacts
 from carom.systems.kernels.crew import threads_of
+from carom.systems.kernels.crushing import let_go_of_crushed
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.kernels.renewal import renew_contacts
@@ -112,7 +113,8 @@ def store(world: World, found: Found) -> None:
 def fill(world: World, found: Found, old_count: int, count: int) -> bool:
     """Write what is known of contacts, and what follows from it, into the contact table.
 
-    Return whether the same contacts were in the same places, and what follows from shapes and materials was known.
+    Return whether the same contacts were in the same places, what follows from shapes and materials was known, and what
+    they hold is what they held.
     """
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     crew = crew_for(world, count)
@@ -144,4 +146,9 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
         contact.other_position, contact.other_rotation,
     )  # fmt: skip
-    return not changed.any()
+    crushed = let_go_of_crushed(
+        world[Awake].now(world), count, contact.body_a, contact.body_b, contact.depth, world[RigidBody].inverse_mass,
+        world[Motion].linear, world[Motion].angular,
+        contact.warm_normal, contact.warm_friction, contact.warm_rolling,
+    )  # fmt: skip
+    return not changed.any() and not crushed
