@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 from carom.ecs import Motion, RigidBody, Transform
+from carom.ecs.relations.contact import Contact
+from carom.systems.constants import CRUSHED, CRUSHED_PART
+from carom.systems.kernels.crushing import let_go_of_crushed
 from carom.systems.simulation import Simulation
 
 FASTEST = 40.0  # m/s
@@ -42,3 +45,42 @@ def test_what_a_press_crushes_stays_in_it(seed: int) -> None:
         fastest = max(fastest, float(np.linalg.norm(world[Motion].linear[rows], axis=1).max()))
     assert fastest < FASTEST
     assert np.abs(world[Transform].position[rows]).max() < 9.0
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_was_crushed_lies_in_the_bin_once_the_press_opens(seed: int) -> None:
+    """Also who was below those whom the plate touched: one left at 190 m/s. After 3 s nobody is in anybody."""
+    simulation = in_a_press(seed)
+    simulation.step(150)
+    world = simulation.world
+    rows = world.row_numbers(RigidBody)
+    driven = world[RigidBody].inverse_mass[rows] == 0.0
+    with world.edit(Motion) as motion:
+        motion.linear[rows[driven]] *= -1.0
+    fastest = 0.0
+    for _ in range(180):
+        simulation.step()
+        fastest = max(fastest, float(np.linalg.norm(world[Motion].linear[rows[~driven]], axis=1).max()))
+    assert fastest < FASTEST
+    assert world[Transform].position[rows[~driven], 1].max() < 3.0
+    contact = world[Contact]
+    assert contact.depth[: contact.count].max() < CRUSHED
+
+
+def test_crushing_goes_on_to_those_who_are_pressed_by_crushed_bodies() -> None:
+    """But neither to who only touches them, nor to what is kinematic and stands still: nothing drives that."""
+    driven, first, second, beside, stands = range(5)
+    a = np.array([driven, first, second, second, beside, beside])
+    b = np.array([first, second, -1, beside, stands, -1])
+    depth = np.array([2.0, 2.0, 0.1, 0.1, 2.0, 0.1]) * CRUSHED
+    inverse_mass, linear, angular = np.array([0.0, 1.0, 1.0, 1.0, 0.0]), np.zeros((5, 3)), np.zeros((5, 3))
+    for turn in (linear, angular):
+        turn[driven] = 0.0, -1.0, 0.0
+        normal, rubs, rolls = np.ones(6), np.ones((6, 3)), np.ones((6, 3))
+        arguments = np.arange(5), 6, a, b, depth, inverse_mass, linear, angular, normal, rubs, rolls
+        assert let_go_of_crushed(*arguments)
+        kept = [*[CRUSHED_PART] * 4, 1.0, 1.0]
+        assert np.column_stack([normal, rubs, rolls]).tolist() == [[part] * 7 for part in kept]
+        turn[driven] = 0.0
+        assert not let_go_of_crushed(*arguments)
+        assert normal.tolist() == kept

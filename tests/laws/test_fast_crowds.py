@@ -1,4 +1,4 @@
-"""Crowds of fast bodies pass through nobody either, and are detected no more often than few of them."""
+"""Crowds of fast bodies pass through nobody either, and how often they are detected hangs on how far they come."""
 
 from __future__ import annotations
 

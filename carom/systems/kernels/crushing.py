@@ -13,36 +13,43 @@ from carom.systems.kernels.kernel import kernel, woven
 def let_go_of_crushed(
     rows, count, body_a, body_b, depth, inverse_mass, linear, angular, warm_normal, warm_friction, warm_rolling
 ):
-    """Let those of ``rows`` that something driven overlaps by more than CRUSHED keep a part of all impulses on them.
+    """Let those of ``rows`` that are crushed keep a part of all impulses on them; tell whether there are any.
 
-    Tell whether there are any. Impulses would add up in each step, since neither side gives way.
+    Something driven overlaps them by more than CRUSHED, or somebody crushed does. Impulses would add up in each step,
+    since neither side gives way.
     """
-    driven = False
+    presses, some = np.zeros(len(inverse_mass), np.bool_), False
     for i in rows:
-        driven |= is_driven(i, inverse_mass, linear, angular)
-    crushed, some = np.zeros(0, np.bool_), False
-    for c in range(count if driven else 0):
-        if depth[c] > CRUSHED:
-            for i, o in ((body_a[c], body_b[c]), (body_b[c], body_a[c])):
-                if o >= 0 and inverse_mass[o] > 0.0 and is_driven(i, inverse_mass, linear, angular):
-                    if not some:
-                        crushed, some = np.zeros(len(inverse_mass), np.bool_), True
-                    crushed[o] = True
-    for c in range(count if some else 0):
-        if (body_a[c] >= 0 and crushed[body_a[c]]) or (body_b[c] >= 0 and crushed[body_b[c]]):
+        presses[i] = inverse_mass[i] == 0.0 and moves(i, linear, angular)
+        some |= presses[i]
+    spreads, crushed = some, False
+    while spreads:
+        spreads = False
+        for c in range(count):
+            i, o = body_a[c], body_b[c]
+            if depth[c] > CRUSHED and i >= 0 and o >= 0 and presses[i] != presses[o]:
+                into = o if presses[i] else i
+                if inverse_mass[into] > 0.0:
+                    presses[into] = spreads = crushed = True
+    for c in range(count if crushed else 0):
+        if is_crushed(body_a[c], presses, inverse_mass) or is_crushed(body_b[c], presses, inverse_mass):
             warm_normal[c] *= CRUSHED_PART
             for k in range(3):
                 warm_friction[c, k] *= CRUSHED_PART
                 warm_rolling[c, k] *= CRUSHED_PART
-    return some
+    return crushed
 
 
 @woven
-def is_driven(i, inverse_mass, linear, angular):
-    """Tell whether body i, or nobody, moves although nothing can move it."""
-    if i < 0 or inverse_mass[i] > 0.0:
-        return False
-    moves = False
+def moves(i, linear, angular):
+    """Tell whether body i moves or turns."""
+    found = False
     for k in range(3):
-        moves |= linear[i, k] != 0.0 or angular[i, k] != 0.0
-    return moves
+        found |= linear[i, k] != 0.0 or angular[i, k] != 0.0
+    return found
+
+
+@woven
+def is_crushed(i, presses, inverse_mass):
+    """Tell whether body i, or nobody, is one of those that press others but do not move of themselves."""
+    return i >= 0 and presses[i] and inverse_mass[i] > 0.0
