@@ -23,24 +23,24 @@ from carom.systems.kernels.fast_pairs import (
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.trust import find_agreeing, spend_trust
 from carom.systems.looked import NO_PAIRS, NOWHERE, FastPairs, Land, Looked
-from carom.systems.progress import Progress
 
 
 class Fast(Resource):
-    """The pairs (n, 2) of collider rows that are looked after, a mesh first, and what is looked at.
+    """All pairs that are fast, and the land they fly over.
 
-    ``left`` (n,) is how far (m) the bodies of each may still move before what is known of their contacts is no longer
-    trusted, 0 where nothing is. ``trusts`` (rows, 3) say of each body how far its contacts are, how far (m) it reaches
-    from its centre, and how fast (m/s) those come whom it may meet.
+    ``trusts`` (rows, 6) say of each body how far (m) its contacts are trusted, infinity for most, how far (m) it
+    reaches from its centre, and how fast (m/s) those are whom it may meet, as seen from one whose velocity is the rest.
     """
 
     def __init__(self) -> None:
-        self._fast = NO_PAIRS
-        self.pairs, self.looked, self.left = NO_PAIRS[:3]
-        self.land = NOWHERE
-        self.trusts: Floats = np.zeros((0, 3))
+        self.all, self.land = NO_PAIRS, NOWHERE
+        self.trusts: Floats = np.zeros((0, 6))
         self._limited = False  # whether some of them are finite
-        self._span, self._linear, self._angular = 0.0, NOWHERE.room, NOWHERE.room  # when they were found
+
+    @property
+    def pairs(self) -> Integers:
+        """The pairs (n, 2) of collider rows that are looked after, a mesh first."""
+        return self.all.pairs[self.all.asked]
 
     def find(self, world: World, pairs: Integers, found: Found, span: float) -> None:
         """Find who of ``pairs`` (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them."""
@@ -49,56 +49,50 @@ class Fast(Resource):
         fast, numbers = fast_of(world, pairs, span)
         size = len(motion.asleep)
         if self._limited or len(self.trusts) != size:
-            self.trusts, self._limited = np.tile([np.inf, 0.0, 0.0], (size, 1)), False
+            self.trusts, self._limited = np.tile([np.inf, *np.zeros(5)], (size, 1)), False
         if not len(fast):
-            self._fast, self.pairs, self.looked, self.left = NO_PAIRS, *NO_PAIRS[:3]
+            self.all = NO_PAIRS
             return
-        self._fast = one = FastPairs.of(fast, Looked.room(numbers))
+        self.all = FastPairs.of(fast, Looked.room(numbers), motion.linear, motion.angular)
         given, reaches = fast.copy(), numbers.copy()
         hulls, meshes = world[PackedHulls].holding(world), world[PackedMeshes].holding(world)
         room = np.concatenate([hulls.vertices, np.zeros((TRIANGLE_CORNERS, 3))])
         self.land, self._limited = Land(meshes.bounds, meshes.nodes, meshes.triangles, room), True
         place_fast(
             fast, collider.shape, collider.size, collider.geometry, pose.body_row, pose.position, pose.rotation,
-            center, world[Transform].rotation, motion.linear, motion.angular, hulls, meshes.root, *one.looked,
+            center, world[Transform].rotation, motion.linear, motion.angular, hulls, meshes.root, *self.all.looked,
             self.trusts,
         )  # fmt: skip
-        times, agrees = self._times(world, one, center, span, found=True), np.empty(len(fast), np.bool_)
+        times, agrees = self._times(world, center, span, found=True), np.empty(len(fast), np.bool_)
         find_agreeing(
             given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
-            pose.body_row, center, motion.linear, motion.angular, agrees, one.left,
+            pose.body_row, center, motion.linear, motion.angular, agrees,
         )  # fmt: skip
-        one.asked[:] = ~agrees
-        self._span, self._linear, self._angular = span, np.array(motion.linear), np.array(motion.angular)
-        self._ask()
-
-    def _ask(self) -> None:
-        asked = self._fast.asked
-        self.pairs, self.looked = self._fast.pairs[asked], self._fast.looked.take(asked)
-        self.left = self._fast.left[asked]
+        self.all.asked[:], self.all.left[agrees] = ~agrees, 0.0
 
     def trusted(self, found: Found) -> Found:
         """Return what is found, but of pairs that are looked after only what is near: the rest is found on the way."""
-        if not len(self.pairs):
+        pairs = self.pairs
+        if not len(pairs):
             return found
-        far = np.empty(len(found.row_a), np.bool_)
-        number = find_far(self.pairs, self.looked.numbers, found.row_a, found.row_b, found.depth, far)
+        far, numbers = np.empty(len(found.row_a), np.bool_), self.all.looked.numbers[self.all.asked]
+        number = find_far(pairs, numbers, found.row_a, found.row_b, found.depth, far)
         return found.without(far) if number else found
 
     def let_go(self, contact: Contact) -> None:
         """Let contacts of pairs that are looked after strike again, whose bodies may turn onto another point."""
-        if len(self.pairs):
-            let_go(self.pairs, contact.count, contact.row_a, contact.row_b, contact.resting)
+        pairs = self.pairs
+        if len(pairs):
+            let_go(pairs, contact.count, contact.row_a, contact.row_b, contact.resting)
 
     def next_look(self, world: World, span: float, *, found: bool) -> float:
         """Return in how many seconds somebody is to be detected anew as all move now; infinity beyond ``span``.
 
         Contacts have just been ``found``, or what was is trusted for as long as it lasts.
         """
-        if not len(self.pairs):
+        if not self.all.asked.any():
             return np.inf
-        times = self._times(world, self, world[Flight].center, span, found=found, first_only=True)
-        time = float(times.min())
+        time = float(self._times(world, world[Flight].center, span, found=found, first_only=True).min())
         return time if time < span else np.inf
 
     def look_on(self, world: World, elapsed: float, rest: float) -> float:
@@ -106,25 +100,21 @@ class Fast(Resource):
 
         It is 0 where somebody is to be detected now. Who goes another way than was foreseen is looked after henceforth.
         """
-        fast, motion = self._fast, world[Motion]
-        if not len(fast.pairs):
-            return np.inf
-        fast.left[fast.asked] = self.left
-        spend_trust(
-            elapsed, self._span - (world[Progress].foreseen + rest), rest, fast.looked.bodies, fast.looked.numbers,
-            fast.looked.roots, motion.linear, motion.angular, self._linear, self._angular, fast.asked, fast.left,
-        )  # fmt: skip
-        self._ask()
+        of, motion = self.all, world[Motion]
+        if len(of.pairs):
+            spend_trust(
+                elapsed, rest, of.looked.bodies, of.looked.numbers, motion.linear, motion.angular, of.linear,
+                of.angular, of.asked, of.left,
+            )  # fmt: skip
         return self.next_look(world, rest, found=False)
 
-    def _times(
-        self, world: World, of: Fast | FastPairs, center: Floats, span: float, *, found: bool, first_only: bool = False
-    ) -> Floats:
+    def _times(self, world: World, center: Floats, span: float, *, found: bool, first_only: bool = False) -> Floats:
         """Return when (n,) each pair is to be looked at again."""
-        motion, times = world[Motion], np.empty(len(of.left))
+        motion, of = world[Motion], self.all
+        times = np.empty(len(of.pairs))
         foresee_meetings(
             span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular,
-            world[Flight].felt, *of.looked, *self.land, of.left, times,
+            world[Flight].felt, *of.looked, *self.land, of.asked, of.left, times,
         )  # fmt: skip
         return times
 

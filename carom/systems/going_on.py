@@ -85,8 +85,8 @@ def go_on(world: World, dt: float) -> None:
         contact.offset_b, contact.share, contact.kind, contact.ball, contact.other, contact.sign, contact.radius,
         contact.extent, contact.other_position, contact.other_rotation, contact.surface, contact.friction,
         contact.restitution, contact.resting, contact.impulse, contact.friction_impulse, contact.strikes,
-        contact.plastic, *world[Fast].looked, *world[Fast].land, world[Fast].left,
-        world[Fast].trusts,
+        contact.plastic, *world[Fast].all.looked, *world[Fast].land, world[Fast].all.asked,
+        world[Fast].all.left, world[Fast].trusts,
         ledger.pull, ledger.arc, *room_for_log(), spent,
     )  # fmt: skip
     log_impacts(world, cut, count, pair, log)

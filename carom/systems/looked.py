@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,10 +31,6 @@ class Looked(NamedTuple):
             np.empty((n, 2, 3)), np.empty((n, 2, 4)),
         )  # fmt: skip
 
-    def take(self, which: Any) -> Looked:
-        """Return some of them."""
-        return Looked(*(column[which] for column in self))
-
 
 class Land(NamedTuple):
     """The trees of meshes, and the vertices of all hulls with room for those of a triangle behind them."""
@@ -46,23 +42,28 @@ class Land(NamedTuple):
 
 
 class FastPairs(NamedTuple):
-    """All pairs (n, 2) of collider rows that are fast, a mesh first, and what is looked at of them.
+    """Pairs (n, 2) of collider rows that are fast, a mesh first, and what is looked at of them.
 
-    ``left`` is how far (m) their bodies may move before what is known of their contacts is not trusted any more. Those
-    are ``asked`` whose contacts, followed straight on, do not say when they meet.
+    Those are ``asked`` whose contacts, followed straight on, do not say when they meet. ``left`` is how far (m) their
+    bodies may still move before what is known of their contacts is no longer trusted, 0 where nothing is known.
+    ``linear`` and ``angular`` are all velocities when they were found.
     """
 
     pairs: Integers
     looked: Looked
-    left: Floats
     asked: Booleans
+    left: Floats
+    linear: Floats
+    angular: Floats
 
     @classmethod
-    def of(cls, pairs: Integers, looked: Looked) -> FastPairs:
-        """Return pairs of whom nothing is known."""
-        return cls(pairs, looked, np.zeros(len(pairs)), np.zeros(len(pairs), np.bool_))
+    def of(cls, pairs: Integers, looked: Looked, linear: Floats, angular: Floats) -> FastPairs:
+        """Return pairs of whom nothing is known yet, as bodies move."""
+        n = len(pairs)
+        return cls(pairs, looked, np.ones(n, np.bool_), np.zeros(n), np.array(linear), np.array(angular))
 
 
-NOBODY = Looked.room(np.empty((0, NUMBERS)))
 NOWHERE = Land(np.empty(0, np.float32), np.empty(0, np.int32), np.empty(0), np.zeros((TRIANGLE_CORNERS, 3)))
-NO_PAIRS = FastPairs.of(np.empty((0, 2), np.int64), NOBODY)
+NO_PAIRS = FastPairs.of(
+    np.empty((0, 2), np.int64), Looked.room(np.empty((0, NUMBERS))), np.empty((0, 3)), np.empty((0, 3))
+)

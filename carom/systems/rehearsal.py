@@ -46,7 +46,7 @@ class Rehearsal:
                 for above in range(2):
                     simulation.add(
                         collider=shape, body={}, material={"restitution": 0.5 * place},
-                        transform={"position": (4.0 * place, 0.5 + above, 4.0 * across)},
+                        transform={"position": (4.0 * place, 0.5 + above + 0.1 * place, 4.0 * across)},
                         motion={"linear": (0.1, speed, 0.0), "angular": (0.0, 0.0, speed)},
                     )  # fmt: skip
         both = simulation.add(collider=HALF, body={}, transform={"position": (-0.25, 2.5, 4.0)})

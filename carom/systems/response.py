@@ -133,18 +133,14 @@ def drift(world: World, dt: float) -> None:
             if looks >= MOST_LOOKS and look < inf:
                 look, world[Answered].looks_cut = inf, world[Answered].looks_cut + 1
             at, reason, events = _fly(world, at, dt, events, look)
-        looks += 1
         if reason == DONE:
             return
         _finish(world, dt, ended=False)
         left = dt - at
         soon = fast.look_on(world, at - before[0], left)
-        if soon > 0.0 and reason == TO_LOOK:
-            fast.let_go(contact)
+        if soon > 0.0 and (at, events) != before and (reason == TO_LOOK or detection_holds(world, left)):
             continue
-        if soon > 0.0 and (at, events) != before and detection_holds(world, left):
-            continue
-        soon = None
+        soon, looks = None, looks + 1
         world[Landings].tell(world, dt)
         world[Resting].hand_over(world)
         detect_again(world, left)

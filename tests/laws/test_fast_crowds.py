@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carom.ecs import RigidBody, Transform, state_hash
+from carom.ecs import Collider, Transform, state_hash
 from carom.systems.constants import TRUST
 from carom.systems.detection.answered import Answered
 from carom.systems.simulation import Simulation
@@ -16,33 +16,34 @@ SPEED, DT = 60.0, 1.0 / 60.0
 CUBE, PILL = {"box": {"size": (0.3, 0.3, 0.3)}}, {"capsule": {"radius": 0.05, "length": 0.3}}
 
 
-def thrown(collider: dict[str, Any], side: int) -> Simulation:
-    """Return a block of bodies that fly at a wall of 2 cm, each turning another way."""
+def thrown(collider: dict[str, Any], side: int, *, comes: bool = False) -> Simulation:
+    """Return a block of bodies that fly at a wall of 2 cm, each turning another way; or are at rest, and it comes."""
     simulation, random = Simulation(gravity=(0.0, 0.0, 0.0), dt=DT), np.random.default_rng(1)
-    simulation.add(collider={"box": {"size": (0.02, 20.0, 20.0)}})
+    wall: dict[str, Any] = {"body": {"type": "kinematic"}, "motion": {"linear": (-SPEED, 0.0, 0.0)}} if comes else {}
+    simulation.add(collider={"box": {"size": (0.02, 20.0, 20.0)}}, **wall)
     for i, j, k in np.ndindex(side, side, side):
         simulation.add(
             collider=collider, body={}, transform={"position": (-1.0 - 0.54 * i, 0.54 * j, 0.54 * k)},
-            motion={"linear": (SPEED, 0.0, 0.0), "angular": 3.0 * random.normal(size=3)},
+            motion={"linear": (0.0 if comes else SPEED, 0.0, 0.0), "angular": 3.0 * random.normal(size=3)},
         )  # fmt: skip
     return simulation
 
 
 @pytest.mark.parametrize(("collider", "half"), [(CUBE, 0.15), (PILL, 0.05)], ids=["box", "capsule"])
-@pytest.mark.parametrize("side", [3, 5])
-def test_a_crowd_does_not_pass_a_thin_wall(side: int, collider: dict[str, Any], half: float) -> None:
-    """And nobody of it is given up, although many strike in one step and turn away from there, each at its own time.
+@pytest.mark.parametrize(("side", "comes"), [(3, False), (5, False), (5, True)])
+def test_a_crowd_does_not_pass_a_thin_wall(side: int, comes: bool, collider: dict[str, Any], half: float) -> None:
+    """Nor a wall that comes a crowd; and nobody is given up, although many strike in one step and turn away from there.
 
     Who comes and goes is looked at whenever it has come as far as its contacts are trusted, and all are at once.
     """
-    simulation, most = thrown(collider, side), 0
+    simulation, most = thrown(collider, side, comes=comes), 0
     answered = simulation.world[Answered]
     for _ in range(20):
         before = answered.detections
         simulation.step()
         most = max(most, answered.detections - before)
-    places = simulation.world[Transform].position[simulation.world.row_numbers(RigidBody)]
-    assert places[:, 0].max() < 0.0
+    places = simulation.world[Transform].position[simulation.world.row_numbers(Collider), 0]
+    assert places[1:].max() < places[0]
     assert answered.looks_cut == 0
     assert most <= 2.0 * SPEED * DT / (TRUST * half)
 
@@ -56,3 +57,24 @@ def test_a_crowd_goes_the_same_way_whether_somebody_looks_on_or_not() -> None:
         alone.step()
         seen.step()
         assert state_hash(alone.world) == state_hash(seen.world)
+
+
+@pytest.mark.parametrize("collider", [CUBE, PILL], ids=["box", "capsule"])
+def test_all_are_looked_at_as_often_where_they_ride_along(collider: dict[str, Any]) -> None:
+    """In a train that moves much faster than they do in it: only how they move against each other counts."""
+
+    def detections(along: float) -> list[int]:
+        simulation = Simulation(gravity=(0.0, 0.0, 0.0), dt=DT)
+        moves = {"body": {"type": "kinematic"}, "motion": {"linear": (0.0, 0.0, along)}}
+        simulation.add(collider={"box": {"size": (0.02, 20.0, 20.0)}}, **moves)
+        motion = {"linear": (SPEED, 0.0, along), "angular": (1.0, 2.0, 3.0)}
+        simulation.add(collider=collider, body={}, transform={"position": (-1.6, 0.0, 0.0)}, motion=motion)
+        counts = []
+        for _ in range(5):
+            simulation.step()
+            counts.append(simulation.world[Answered].detections)
+        return counts
+
+    at_rest = detections(0.0)
+    assert at_rest[-1] > 5
+    assert detections(300.0) == at_rest

@@ -9,20 +9,18 @@ from carom.ecs.column import Floats
 from carom.systems.constants import MEET
 from carom.systems.kernels.trust import spend_trust
 
-TRUST, REACH, MESH, NO_MESH = 0.04, 0.5, 7, -1
+TRUST, REACH = 0.04, 0.5
 STILL, ALONG, ACROSS = np.zeros((1, 3)), np.array([[4.0, 0.0, 0.0]]), np.array([[0.0, 0.0, 4.0]])
 NUMBERS = np.array([[REACH, 0.0, 0.0, TRUST]])
 
 
 def spend(
     *, asked: bool, linear: Floats = ALONG, angular: Floats = STILL, before: Floats = ALONG, spin: Floats = STILL,
-    root: int = NO_MESH, left: float = TRUST,
+    left: float = TRUST,
 ) -> tuple[bool, float]:  # fmt: skip
-    """Return whether a pair is looked after, and what is left, 2 ms after a look and 5 ms after it was found."""
+    """Return whether a pair is looked after, and what is left, 2 ms after a look."""
     asks, lefts = np.array([asked]), np.array([left])
-    spend_trust(
-        0.002, 0.005, 0.01, np.array([[0, -1]]), NUMBERS, np.array([root]), linear, angular, before, spin, asks, lefts
-    )
+    spend_trust(0.002, 0.01, np.array([[0, -1]]), NUMBERS, linear, angular, before, spin, asks, lefts)
     return bool(asks[0]), float(lefts[0])
 
 
@@ -37,33 +35,36 @@ def test_turning_counts_at_the_reach() -> None:
     assert spend(asked=True, angular=ACROSS)[1] == pytest.approx(TRUST - 0.002 * 6.0, rel=1e-12)
 
 
+def test_only_what_moves_against_each_other_counts() -> None:
+    """Two that fly side by side spend nothing; where one was stopped on the way, all of its speed."""
+    numbers, both, lefts = np.array([[REACH, REACH, 0.0, TRUST]]), np.tile(ALONG, (2, 1)), np.array([TRUST])
+    pair, still, stopped = np.array([[0, 1]]), np.zeros((2, 3)), np.vstack([ALONG, STILL])
+    spend_trust(0.002, 0.01, pair, numbers, both, still, both, still, np.ones(1, np.bool_), lefts)
+    assert lefts == TRUST
+    for now, before in ((both, stopped), (stopped, both)):
+        lefts[:] = TRUST
+        spend_trust(0.002, 0.01, pair, numbers, now, still, before, still, np.ones(1, np.bool_), lefts)
+        assert lefts == pytest.approx(TRUST - 0.002 * 4.0, rel=1e-12)
+
+
 def test_no_more_is_spent_than_there_is() -> None:
     """What is 0 is far."""
     assert spend(asked=True, left=0.001) == (True, 0.0)
 
 
-def test_of_meshes_nothing_is_trusted() -> None:
-    """Some triangles may be near, and others come near on the way."""
-    assert spend(asked=True, root=MESH) == (True, 0.0)
-
-
 def test_who_goes_straight_on_needs_nobody_to_look() -> None:
     """However far that is."""
-    assert spend(asked=False) == (False, TRUST)
+    assert spend(asked=False, left=0.0) == (False, 0.0)
 
 
 @pytest.mark.parametrize("angular", [False, True])
 def test_who_goes_another_way_is_looked_after(angular: bool) -> None:
-    """Where in the rest of the substep it may be MEET of the trust from where it was foreseen.
-
-    Until then it went straight, and what it turned by since it was found is spent, and what it may have done since.
-    """
+    """Where in the rest of the substep it may be MEET of the trust from where it was foreseen; nothing is known."""
     off = MEET * TRUST / 0.01
     for part, asked in ((0.999, False), (1.001, True)):
         change = np.array([[0.0, part * off, 0.0]])
         if angular:
-            found = spend(asked=False, angular=ACROSS + change / REACH, spin=ACROSS)
+            found = spend(asked=False, angular=ACROSS + change / REACH, spin=ACROSS, left=0.0)
         else:
-            found = spend(asked=False, linear=ALONG + change, spin=ACROSS, angular=ACROSS)
-        spent = MEET * TRUST + 0.005 * 4.0 * REACH if asked else 0.0
-        assert found == (asked, pytest.approx(TRUST - spent, rel=1e-12))
+            found = spend(asked=False, linear=ALONG + change, spin=ACROSS, angular=ACROSS, left=0.0)
+        assert found == (asked, 0.0)

@@ -65,9 +65,11 @@ class Truth:
         if system.name == "relax":
             columns = world[Transform].position, world[Transform].rotation
             self.poses[frame, part] = [column.astype(np.float32) for column in columns]
-        elif system.name == "find_contacts":
+        if system.name == "find_contacts":
+            self.fast[frame] = set()
+        if frame in self.fast:  # also who is looked after from an impact on
             pairs = world.entities(world[Fast].pairs.ravel()).reshape(-1, 2)
-            self.fast[frame] = {frozenset(world.name(entity) for entity in pair) for pair in pairs}
+            self.fast[frame] |= {frozenset(world.name(entity) for entity in pair) for pair in pairs}
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import FAST, LEAST_FAST, TRUST
@@ -21,15 +21,19 @@ TRIANGLE_CORNERS = 3
 
 
 @woven
-def speed_of(i, span, linear, angular, reach):
-    """Return how far (m) any point within ``reach`` of the centre of body i comes within ``span``; of none, 0."""
-    if i < 0:
-        return 0.0
-    quick, spin = 0.0, 0.0
+def length_of(i, vectors):
+    """Return how long the vector of body i is; of none, 0."""
+    return 0.0 if i < 0 else sqrt(vectors[i, 0] ** 2 + vectors[i, 1] ** 2 + vectors[i, 2] ** 2)
+
+
+@woven
+def between(i, o, linear, other_linear):
+    """Return how fast (m/s) the centres of bodies i and o move against each other; none is at rest."""
+    squared = 0.0
     for k in range(3):
-        quick += linear[i, k] * linear[i, k]
-        spin += angular[i, k] * angular[i, k]
-    return (sqrt(quick) + sqrt(spin) * reach) * span
+        speed = (linear[i, k] if i >= 0 else 0.0) - (other_linear[o, k] if o >= 0 else 0.0)
+        squared += speed * speed
+    return sqrt(squared)
 
 
 @woven
@@ -122,8 +126,8 @@ def place_fast(
 
     They are in the frames of their ``bodies``, or in the world. Of a mesh there is where its tree begins, and the room
     behind the vertices of all hulls for those of one triangle at a time. Of each body there is how far its contacts are
-    trusted (m), how far it reaches from its centre (m) and how fast those come whom it may meet (m/s); a ball about its
-    body's centre turns without effect.
+    trusted (m), how far it reaches from its centre (m), and how fast those are whom it may meet (m/s), as seen from the
+    first of them, whose velocity is the rest; a ball about its body's centre turns without effect.
     """
     for p in range(len(pairs)):
         if shape[pairs[p, 1]] == MESH_SHAPE or shape[pairs[p, 1]] == FIELD_SHAPE:
@@ -146,9 +150,12 @@ def place_fast(
                 bx, by, bz, bw = -body_rotation[i, 0], -body_rotation[i, 1], -body_rotation[i, 2], body_rotation[i, 3]
                 x, y, z = turn(bx, by, bz, bw, x - center[i, 0], y - center[i, 1], z - center[i, 2])
                 q = product(bx, by, bz, bw, q[0], q[1], q[2], q[3])
+                o = body_row[pairs[p, 1 - side]]
+                for k in range(3 if trusts[i, 0] == inf and o >= 0 else 0):
+                    trusts[i, 3 + k] = linear[o, k]
                 trusts[i, 0] = min(trusts[i, 0], numbers[p, 3])
                 trusts[i, 1] = max(trusts[i, 1], numbers[p, side])
-                comes = speed_of(body_row[pairs[p, 1 - side]], 1.0, linear, angular, numbers[p, 1 - side])
+                comes = between(o, i, linear, trusts[:, 3:]) + length_of(o, angular) * numbers[p, 1 - side]
                 trusts[i, 2] = max(trusts[i, 2], comes)
             position[p, side, 0], position[p, side, 1], position[p, side, 2] = x, y, z
             for k in range(4):

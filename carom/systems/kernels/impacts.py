@@ -19,14 +19,13 @@ from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body, is_on_joint, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
-from carom.systems.kernels.fast_pairs import speed_of
+from carom.systems.kernels.fast_pairs import between, length_of
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.reach import time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
 
 DONE, OUT_OF_REACH, TO_LOOK = 0, 1, 2  # why a flight ends
-
 FEW_IMPACTS = 64  # a flight has room for at first
 # A row of the log: time, speed, impulse, work, and where the three vectors of 3 begin.
 TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 10, 13
@@ -77,8 +76,7 @@ def fly(
 
     kept = np.empty((1, KEPT))
     now, end, cut, veers = start, min(h, until), 0, False
-    if within < end - now:
-        end = now + within
+    end = min(end, now + within)
     if not taken and start == 0.0:
         return end, reason_of(end, h, until, veers), events, cut, log_count, log_pair, log
 
@@ -256,9 +254,10 @@ def fly(
             within = time_within_reach(body, h - now, center, detected_center, reach, linear, acceleration)
             if within < h - now:
                 end = min(end, now + within)
-            quick = speed_of(body, 1.0, linear, angular, trusts[body, 1])
+            quick = between(body, body, linear, trusts[:, 3:]) + length_of(body, angular) * trusts[body, 1]
+            quick += trusts[body, 2]
             if quick * (h - now) > trusts[body, 0]:
-                end, veers = min(end, now + MEET * trusts[body, 0] / (quick + trusts[body, 2])), True
+                end, veers = min(end, now + MEET * trusts[body, 0] / quick), True
     return now, reason_of(now, h, until, veers), events, cut, log_count, log_pair, log
 
 

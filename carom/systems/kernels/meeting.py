@@ -14,7 +14,7 @@ import numpy as np
 from carom.systems.constants import CAST_GAP, MEET, MOST_LOOKS
 from carom.systems.kernels.cores import AROUND, CORE, PLACE, write_place
 from carom.systems.kernels.distance import FAR, MEETING
-from carom.systems.kernels.fast_pairs import NEVER, speed_of
+from carom.systems.kernels.fast_pairs import NEVER, between, length_of
 from carom.systems.kernels.frames import turned, turned_back
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles
@@ -53,12 +53,9 @@ def across(i, nx, ny, nz, angular):
 @inlined
 def most_of(p, i, o, limit, numbers, linear, angular, felt):
     """Return by how much forces may hasten pair p within ``limit`` (s), and how fast any two points may close then."""
-    pull = 0.0
-    for body in (i, o):
-        if body >= 0:
-            pull += sqrt(felt[body, 0] ** 2 + felt[body, 1] ** 2 + felt[body, 2] ** 2) * limit
-    most = speed_of(i, 1.0, linear, angular, numbers[p, 0]) + speed_of(o, 1.0, linear, angular, numbers[p, 1]) + pull
-    return pull, most
+    pull = (length_of(i, felt) + length_of(o, felt)) * limit
+    turning = length_of(i, angular) * numbers[p, 0] + length_of(o, angular) * numbers[p, 1]
+    return pull, between(i, o, linear, linear) + turning + pull
 
 
 @inlined
@@ -109,21 +106,24 @@ def meet(
 @kernel("room", "left", "times", makes_arrays=True, within=True)
 def foresee_meetings(
     span, first_only, found, center, turns, linear, angular, felt,
-    bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room, left, times,
+    bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room, asked, left, times,
 ):  # fmt: skip
-    """Write when (s) each pair of ``bodies`` is to be detected anew as they move now, NEVER if not in ``span``.
+    """Write when (s) each pair of ``bodies`` that is ``asked`` is to be detected anew as they move now.
 
-    Where contacts have been ``found`` where bodies are now, what is near is trusted for a way that is written into
-    ``left`` (m), 0 of meshes, of which some triangles may be near and others not. Else it is for what is left of that.
-    Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both shapes about the centres
-    of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and three more for a triangle
-    of a mesh, which is the first of a pair that has one of ``roots``.
+    NEVER if not in ``span``. Where contacts have been ``found`` where bodies are now, what is near is trusted for a way
+    that is written into ``left`` (m), but of meshes, of which some triangles may be near and others not. Else it is for
+    what is left of that. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both
+    shapes about the centres of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and
+    three more for a triangle of a mesh, which is the first of a pair that has one of ``roots``.
     """
     place = np.empty(PLACE)
     corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
     position, rotation, touched = np.empty((2, 3)), np.empty((2, 4)), np.empty(FEW, np.uint32)
     sooner = span
     for p in range(len(bodies)):
+        if not asked[p]:
+            times[p] = NEVER
+            continue
         i, o, core = bodies[p, 0], bodies[p, 1], cores[p]
         limit, soonest = sooner if first_only else span, NEVER
         if not found and left[p] > 0.0:
@@ -142,9 +142,8 @@ def foresee_meetings(
         put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
         lx, ly, lz = center[o, 0] - position[0, 0], center[o, 1] - position[0, 1], center[o, 2] - position[0, 2]
         lx, ly, lz = turned_back(rotation, 0, lx, ly, lz)
-        wide = numbers[p, 1] + core[CORE + AROUND] + numbers[p, 3]
-        for body in (i, o):  # turning is in the reach, or, of the mesh, in how far any of it comes
-            wide += speed_of(body, limit, linear, angular, numbers[p, 0] if body == i else 0.0)
+        wide = numbers[p, 1] + core[CORE + AROUND] + numbers[p, 3]  # turning is in the reach, but of the mesh
+        wide += limit * (between(i, o, linear, linear) + length_of(i, angular) * numbers[p, 0])
         count, touched = all_triangles(
             roots[p], bounds, nodes, triangles,
             lx - wide, ly - wide, lz - wide, lx + wide, ly + wide, lz + wide, touched,
@@ -157,5 +156,5 @@ def foresee_meetings(
                 local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
             )  # fmt: skip
             soonest = min(soonest, time)
-        times[p], left[p] = soonest, 0.0
+        times[p] = soonest
         sooner = min(sooner, soonest)

@@ -55,7 +55,7 @@ def take_substeps(
     body_a, body_b, normal, depth, point, offset_a, offset_b, share_of_b, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
     strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-    left, trusts, pull, arc, log_pair, log, spent,
+    asked, left, trusts, pull, arc, log_pair, log, spent,
 ):  # fmt: skip
     """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
 
@@ -134,7 +134,7 @@ def take_substeps(
             look(
                 h, True, True, center, rotation, linear, angular, felt,
                 fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-                left, times,
+                asked, left, times,
             )  # fmt: skip
             for time_of_pair in times:
                 until = min(until, time_of_pair)
