@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.ecs import Motion, RigidBody, Transform
+from carom.ecs import Material, Motion, RigidBody, Transform
 from carom.ecs.relations.contact import Contact
 from carom.systems.constants import CRUSHED, CRUSHED_PART
 from carom.systems.kernels.crushing import let_go_of_crushed
@@ -49,7 +49,10 @@ def test_what_a_press_crushes_stays_in_it(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_what_was_crushed_lies_in_the_bin_once_the_press_opens(seed: int) -> None:
-    """Also who was below those whom the plate touched: one left at 190 m/s. After 3 s nobody is in anybody."""
+    """Also who was below those whom the plate touched: one left at 190 m/s.
+
+    Rows of bodies may be wedged between two walls as long as they rub; without friction nobody is in anybody.
+    """
     simulation = in_a_press(seed)
     simulation.step(150)
     world = simulation.world
@@ -58,7 +61,10 @@ def test_what_was_crushed_lies_in_the_bin_once_the_press_opens(seed: int) -> Non
     with world.edit(Motion) as motion:
         motion.linear[rows[driven]] *= -1.0
     fastest = 0.0
-    for _ in range(180):
+    for step in range(300):
+        if step == 180:
+            with world.edit(Material) as material:
+                material.friction[:] = 0.0
         simulation.step()
         fastest = max(fastest, float(np.linalg.norm(world[Motion].linear[rows[~driven]], axis=1).max()))
     assert fastest < FASTEST

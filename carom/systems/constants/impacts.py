@@ -22,6 +22,13 @@ BLOW_SINK = 0.02
 # rows of ever smaller impacts inside piles. Larger: piles that land are slower. Fewer plastic ones: columns sink more.
 PATIENCE, BLOWS = 8, 32
 
+# Times as many plastic ones where one of the pair cannot be pushed. Fewer: crowds drive those in front through walls.
+STANDING = 8
+
+# What is left of a speed after as many bounces as a pair had within a substep, below which it bounces no more: then
+# others press the two together. Larger: who bounces in a closing gap stops. Smaller: crowds that crash are slower.
+ENDED = 1e-6
+
 # m/s. Closing slower than this is not closing. It ends the infinite row of ever smaller impacts between bodies that
 # nothing presses together; at this speed a pair moves 0.3 mm in a year.
 APPROACH = 1e-11

@@ -12,8 +12,6 @@ from carom.systems.constants import (
     BLOW_SWEEPS,
     IMMOVABLE,
     LEAP_SWEEPS,
-    PATIENCE,
-    REST_SPEED_FACTOR,
     SOLVED,
     TOUCH,
 )
@@ -21,13 +19,11 @@ from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.bodies import (
     hardness,
     movable_of,
-    pressed_by_forces,
-    pressing_of,
     push_at,
-    pushed,
     stop_pressing,
     surface_velocity,
 )
+from carom.systems.kernels.bouncing import bounce_of
 from carom.systems.kernels.kernel import inlined, making
 from carom.systems.kernels.leaping import leap, times_of_way
 from carom.systems.kernels.point_coupling import couple_points, part_points, parted, yields_at
@@ -116,13 +112,6 @@ def blow(
     """
     a, b = body_a[first], body_b[first]
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
-    pressing = pressed_by_forces(a, b, nx, ny, nz, felt)
-    if struck_before >= PATIENCE:
-        pressing = max(pressing, pushed(a, b, felt))
-    if a >= 0:
-        pressing = max(pressing, pressing_of(a, b, -nx, -ny, -nz, acceleration))
-    else:
-        pressing = max(pressing, pressing_of(b, a, nx, ny, nz, acceleration))
     n = end - first
     ease, least, given, aside = np.zeros(n), np.zeros(n), np.zeros((n, 4)), np.zeros(n)
     coupling, slips, start, way = np.zeros((n, n, 9)), np.zeros((n, 3)), np.zeros((n, 4)), np.zeros((n, 4))
@@ -143,7 +132,10 @@ def blow(
             speed = max(speed, -(nx * slips[m, 0] + ny * slips[m, 1] + nz * slips[m, 2]))
     if speed <= APPROACH:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, True
-    bounce = restitution[first] if speed > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
+    i, o, to_i = (a, b, -1.0) if a >= 0 else (b, a, 1.0)
+    bounce = bounce_of(
+        restitution[first], speed, i, o, to_i * nx, to_i * ny, to_i * nz, h, struck_before, felt, acceleration
+    )  # fmt: skip
     movable, solved = movable_of(a, b, inverse_mass), SOLVED * max(1.0, speed)
     for restoring in (False, True):  # until no point closes, then with what the bodies give back
         if restoring:

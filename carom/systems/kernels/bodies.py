@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import sqrt
-
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import IMMOVABLE
 from carom.systems.kernels.freedom import held_turned, inverse_inertia_of
@@ -81,31 +79,6 @@ def hardness(yields, a, b, inverse_mass):
 def movable_of(a, b, inverse_mass):
     """Return the inverse mass of two bodies against each other; -1 is none."""
     return (inverse_mass[a] if a >= 0 else 0.0) + (inverse_mass[b] if b >= 0 else 0.0)
-
-
-@inlined
-def pressed_by_forces(a, b, nx, ny, nz, felt):
-    """Return how hard forces press one of two bodies against the other along the normal n from a to b (m/s2).
-
-    The greater of both, not their difference: the balls of a heap all feel the same gravity and yet lie on each other.
-    """
-    pressing = 0.0
-    if a >= 0:
-        pressing = max(pressing, nx * felt[a, 0] + ny * felt[a, 1] + nz * felt[a, 2])
-    if b >= 0:
-        pressing = max(pressing, -(nx * felt[b, 0] + ny * felt[b, 1] + nz * felt[b, 2]))
-    return pressing
-
-
-@inlined
-def pushed(a, b, felt):
-    """Return the greater of what forces do to two bodies (m/s2)."""
-    squared = 0.0
-    if a >= 0:
-        squared = felt[a, 0] ** 2 + felt[a, 1] ** 2 + felt[a, 2] ** 2
-    if b >= 0:
-        squared = max(squared, felt[b, 0] ** 2 + felt[b, 1] ** 2 + felt[b, 2] ** 2)
-    return sqrt(squared)
 
 
 @woven

@@ -5,19 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import (
-    APPROACH,
-    BLOW_SPEED_FACTOR,
-    BLOWS,
-    IMPACTS_AT_LEAST,
-    IMPACTS_PER_PAIR,
-    MEET,
-    PATIENCE,
-)
+from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, IMPACTS_AT_LEAST, IMPACTS_PER_PAIR, MEET
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
-from carom.systems.kernels.bodies import advance_body, is_on_joint, pushed
+from carom.systems.kernels.bodies import advance_body, is_on_joint
+from carom.systems.kernels.bouncing import most_blows, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
 from carom.systems.kernels.fast_pairs import between, length_of
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
@@ -122,7 +115,8 @@ def fly(
             m = seek[index]
             p = pairs[m]
             springs = kind[p] >= 0 and restitution[p] > 0.0
-            if resting[p] and ((first and start == 0.0) or plastic[p] >= (PATIENCE if springs else BLOWS)):
+            spared = most_blows(p, springs, body_a, body_b, inverse_mass)
+            if resting[p] and ((first and start == 0.0) or plastic[p] >= spared):
                 enter_time(soonest, leaves + m, NEVER)
                 continue
             sink = sink_allowed(p, body_a, body_b, inertia, inverse_mass)

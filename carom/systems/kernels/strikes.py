@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import (
-    APPROACH,
-    PATIENCE,
-    REST_SPEED_FACTOR,
-    TOUCH,
-)
+from carom.systems.constants import APPROACH, TOUCH
 from carom.systems.kernels.balls import BALL, NEVER, first_touch, gap_of_ball, pose_of_other
 from carom.systems.kernels.bodies import (
     hardness,
-    pressed_by_forces,
-    pressing_of,
     push_at,
-    pushed,
     stop_pressing,
     surface_velocity,
     turned_by,
 )
+from carom.systems.kernels.bouncing import bounce_of
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.point_impulse import struck, within_energy
 from carom.systems.kernels.spatial import cross, spun
@@ -118,11 +111,7 @@ def strike(
     knx, kny, knz = kxx * nx + kxy * ny + kxz * nz, kxy * nx + kyy * ny + kyz * nz, kxz * nx + kyz * ny + kzz * nz
     if hardness(nx * knx + ny * kny + nz * knz, i, o, inverse_mass) == 0.0:  # what is locked lets the other pass
         return 0.0, 0.0, nx, ny, nz, px, py, pz, 0.0, 0.0, 0.0, True
-    # Forces press the bodies together, or what contacts with others do to their arcs.
-    pressing = max(pressed_by_forces(o, i, nx, ny, nz, felt), pressing_of(i, o, nx, ny, nz, acceleration))
-    if struck_before >= PATIENCE:
-        pressing = max(pressing, pushed(i, o, felt))
-    bounce = restitution[p] if -vn > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
+    bounce = bounce_of(restitution[p], -vn, i, o, nx, ny, nz, h, struck_before, felt, acceleration)
     k = (kxx, kxy, kxz, kyy, kyz, kzz)
     jx, jy, jz, normal = struck(vn, sx, sy, sz, nx, ny, nz, k, bounce, friction[p])
     if friction[p] > 0.0:
