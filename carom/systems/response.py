@@ -137,7 +137,7 @@ def drift(world: World, dt: float) -> None:
             return
         _finish(world, dt, ended=False)
         left = dt - at
-        soon = fast.look_on(world, at - before[0], left)
+        soon = fast.look_on(world, at - before[0], left) if looks < MOST_LOOKS else inf
         if soon > 0.0 and (at, events) != before and (reason == TO_LOOK or detection_holds(world, left)):
             continue
         soon, looks = None, looks + 1

@@ -49,6 +49,19 @@ def test_a_crowd_does_not_pass_a_thin_wall(side: int, comes: bool, collider: dic
     assert most <= 2.0 * SPEED * DT / (TRUST * half)
 
 
+def test_there_is_an_end_to_looks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In each substep, however many are struck in it; who comes to be faster than was known is detected all the same."""
+    most, for_reach = 5, 2
+    monkeypatch.setattr("carom.systems.response.MOST_LOOKS", most)
+    simulation = thrown(PILL, 5)
+    answered = simulation.world[Answered]
+    for _ in range(10):
+        before = answered.detections
+        simulation.step()
+        assert answered.detections - before <= simulation.settings.substeps * (most + for_reach)
+    assert answered.looks_cut > 0
+
+
 def test_a_crowd_goes_the_same_way_whether_somebody_looks_on_or_not() -> None:
     """What is left of the trust in contacts is the same where substeps are taken at once."""
     alone, seen = thrown(CUBE, 3), thrown(CUBE, 3)
