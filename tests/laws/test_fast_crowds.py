@@ -50,7 +50,7 @@ def test_a_crowd_does_not_pass_a_thin_wall(side: int, comes: bool, collider: dic
 
 
 def test_there_is_an_end_to_looks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In each substep, however many are struck in it; who comes to be faster than was known is detected all the same."""
+    """In each substep, however many are struck in it; who comes to be faster than was known is detected anyway."""
     most, for_reach = 5, 2
     monkeypatch.setattr("carom.systems.response.MOST_LOOKS", most)
     simulation = thrown(PILL, 5)
