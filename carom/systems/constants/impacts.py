@@ -18,12 +18,12 @@ BLOW_SPEED_FACTOR = 0.1
 BLOW_SINK = 0.02
 
 # Impacts of one pair within a substep after which the rest speed counts all that forces do to its bodies, not only what
-# presses the two together; and plastic ones after which the pair is left to the resting stage. They end the endless
-# rows of ever smaller impacts inside piles. Larger: piles that land are slower. Fewer plastic ones: columns sink more.
-PATIENCE, BLOWS = 8, 32
+# presses the two together; and as many plastic ones after which the pair is left to the resting stage. They end the
+# endless rows of ever smaller impacts inside piles. More: what crashes is slower. Fewer: it sinks in deeper.
+PATIENCE = 8
 
 # Times as many plastic ones where one of the pair cannot be pushed. Fewer: crowds drive those in front through walls.
-STANDING = 8
+STANDING = 32
 
 # What is left of a speed after as many bounces as a pair had within a substep, below which it bounces no more: then
 # others press the two together. Larger: who bounces in a closing gap stops. Smaller: crowds that crash are slower.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import BLOWS, ENDED, PATIENCE, REST_SPEED_FACTOR, STANDING
+from carom.systems.constants import ENDED, PATIENCE, REST_SPEED_FACTOR, STANDING
 from carom.systems.kernels.bodies import pressing_of
 from carom.systems.kernels.kernel import inlined, woven
 
@@ -52,9 +52,9 @@ def bounce_of(e, speed, i, o, nx, ny, nz, h, struck_before, felt, acceleration):
 
 
 @woven
-def most_blows(p, springs, body_a, body_b, inverse_mass):
-    """Return after how many plastic impacts in a substep pair p is left to the resting stage; ``springs`` are balls."""
+def patience_of(p, body_a, body_b, inverse_mass):
+    """Return after how many plastic impacts in a substep pair p is left to the resting stage."""
     stands = False
     for body in (body_a[p], body_b[p]):
         stands |= body < 0 or inverse_mass[body] == 0.0
-    return (PATIENCE if springs else BLOWS) * (STANDING if stands else 1)
+    return PATIENCE * STANDING if stands else PATIENCE

@@ -10,7 +10,7 @@ from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, not
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body, is_on_joint
-from carom.systems.kernels.bouncing import most_blows, pushed
+from carom.systems.kernels.bouncing import patience_of, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
 from carom.systems.kernels.fast_pairs import between, length_of
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
@@ -115,8 +115,8 @@ def fly(
             m = seek[index]
             p = pairs[m]
             springs = kind[p] >= 0 and restitution[p] > 0.0
-            spared = most_blows(p, springs, body_a, body_b, inverse_mass)
-            if resting[p] and ((first and start == 0.0) or plastic[p] >= spared):
+            left = plastic[p] >= patience_of(p, body_a, body_b, inverse_mass)
+            if resting[p] and (left or (first and start == 0.0)):
                 enter_time(soonest, leaves + m, NEVER)
                 continue
             sink = sink_allowed(p, body_a, body_b, inertia, inverse_mass)
