@@ -12,6 +12,7 @@ from carom.systems.detection.broad import BroadPhase
 from carom.systems.kernels.closing import find_closing
 from carom.systems.kernels.crew import threads_of
 from carom.systems.resting import Resting
+from carom.systems.stream import Stream
 from carom.systems.threads import crew_for
 
 
@@ -27,7 +28,8 @@ def closing(world: World, span: float, *, began: bool) -> tuple[Integers, float,
     soon = np.array([(span, 0.0)] * threads_of(crew))
     find_closing(
         crew, resting.count, resting.groups, resting.solids and began, span, resting.rows(world), watched,
-        flight.center, flight.detected_center, flight.reach, motion.linear, motion.angular, flight.acceleration,
+        world[Stream].motion, flight.center, flight.detected_center, flight.reach,
+        motion.linear, motion.angular, flight.acceleration,
         resting.index_a, resting.index_b, resting.points, resting.row, resting.group_of, resting.lane_of, resting.start,
         contact.kind, contact.ball, contact.other, contact.other_position, contact.radius, contact.extent,
         contact.restitution, contact.resting, resting.lanes, resting.bodies, resting.closes, soon,

@@ -27,6 +27,7 @@ from carom.systems.progress import Progress
 from carom.systems.response import log_impacts, room_for_log
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
+from carom.systems.stream import Stream
 from carom.systems.threads import FEWEST, Threads, crew_for
 from carom.systems.ties import Ties
 from carom.systems.yielding import yielding
@@ -54,7 +55,7 @@ def nobody_looks_on(world: World) -> bool:
         RigidBody, Force, Settings, Awake, BroadPhase, Fast, Inside, Ledger, Linkage, Sensing,
         Standing, Threads, Ties,
     ),
-    writes=(Transform, Motion, Flight, Contact, Impact, Answered, Progress, Resting, Timings),
+    writes=(Transform, Motion, Flight, Contact, Impact, Answered, Progress, Resting, Stream, Timings),
     when=nobody_looks_on,
 )  # fmt: skip
 def go_on(world: World, dt: float) -> None:
@@ -79,8 +80,8 @@ def go_on(world: World, dt: float) -> None:
         motion.linear_acceleration, motion.angular_acceleration,
         flight.center, flight.time, flight.acceleration, flight.angular_acceleration, flight.felt, flight.decay,
         flight.angular_decay, flight.flow, flight.touching, flight.held, flight.start_position, flight.start_rotation,
-        flight.start_linear, flight.start_angular, flight.start_center, flight.turned, flight.detected_center,
-        flight.reach,
+        flight.start_linear, flight.start_angular, flight.start_center, flight.turned, world[Stream].motion,
+        flight.detected_center, flight.reach,
         contact.body_a, contact.body_b, contact.normal, contact.depth, contact.point, contact.offset_a,
         contact.offset_b, contact.share, contact.kind, contact.ball, contact.other, contact.sign, contact.radius,
         contact.extent, contact.other_position, contact.other_rotation, contact.surface, contact.friction,

@@ -30,6 +30,7 @@ from carom.systems.queries.scene import Scene
 from carom.systems.resting import Resting
 from carom.systems.settings import Random, Settings
 from carom.systems.shapes.geometry import Geometries
+from carom.systems.stream import Stream
 from carom.systems.threads import Threads
 from carom.systems.ties import Ties
 
@@ -39,6 +40,6 @@ def resources(settings: Settings) -> tuple[Resource, ...]:
     made = (Random(settings.seed), Layers(), Materials(), Geometries(), StatedBodies())
     stated = (Forces(), Events(), Commands())
     packed = (BroadPhase(), Apart(), FclObjects(), PackedHulls(), PackedMeshes())
-    solving = (Standing(), Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger())
+    solving = (Standing(), Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger(), Stream())
     caches = (*packed, *solving, Threads(), Scene(), Asked(), Newborn(), Fields())
     return (settings, *made, *stated, Progress(), Answered(), *caches)

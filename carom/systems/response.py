@@ -38,6 +38,7 @@ from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
+from carom.systems.stream import Stream
 from carom.systems.threads import Threads, crew_for
 from carom.systems.ties import Ties
 
@@ -46,7 +47,7 @@ from carom.systems.ties import Ties
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, ColliderPose, Answered, Apart, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ties,
+        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Stream, Ties,
     ),
 )  # fmt: skip
 def look_ahead(world: World, dt: float) -> None:
@@ -114,7 +115,8 @@ def hand_impulses_over(world: World, dt: float) -> None:
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint, Linkage),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, Apart, BroadPhase,
-        FclObjects, PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ledger, Ties, Landings,
+        FclObjects, PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ledger, Stream, Ties,
+        Landings,
     ),
 )  # fmt: skip
 def drift(world: World, dt: float) -> None:
@@ -165,6 +167,7 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
         motion.linear, motion.angular, flight.time, flight.acceleration, flight.angular_acceleration,
         body.inverse_mass, body.inertia, body.principal_axes, body.freedom, ledger.pull, ledger.arc,
     )  # fmt: skip
+    world[Stream].flow(now - at)
     return now, reason, events
 
 
@@ -180,7 +183,7 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
         at, h, bend, world[Progress].clock,
         flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,
         flight.time, flight.acceleration, flight.angular_acceleration,
-        flight.felt, flight.detected_center, flight.reach,
+        flight.felt, world[Stream].motion, flight.detected_center, flight.reach,
         body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes, body.freedom,
         manifolds.count, manifolds.start, manifolds.group_of, manifolds.stale,
         contact.body_a, contact.body_b, contact.normal, contact.depth, contact.offset_a, contact.offset_b,

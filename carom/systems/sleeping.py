@@ -38,6 +38,7 @@ from carom.systems.links import islands, joins_islands, links, nearby
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.sleeping_contacts import left_alone, locate_contacts, move_contacts
+from carom.systems.stream import Stream
 from carom.systems.ties import Ties
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ PLACED = {Transform, Motion, ExternalForce}
 
 @system(
     reads=(RigidBody, Collider, ExternalForce, Parent, Path, Settings, Forces, Joint, Spring),
-    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake, Ties),
+    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake, Stream, Ties),
 )
 def wake_disturbed(world: World, dt: float) -> None:
     """Wake who was changed from outside since the last step, and see whether there is anything to do."""
@@ -86,7 +87,7 @@ def wake_disturbed(world: World, dt: float) -> None:
 
 @system(
     reads=(RigidBody, Collider, Parent, Geometries, Force, Forces, Settings, Joint, Spring),
-    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake, Ties),
+    writes=(Transform, Motion, Flight, ColliderPose, Contact, SleepingContact, Awake, Stream, Ties),
     when=stirs,
 )
 def fall_asleep(world: World, dt: float) -> None:

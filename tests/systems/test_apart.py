@@ -18,6 +18,7 @@ from carom.systems.detection.narrow import measure_pairs
 from carom.systems.kernels.apart import add_ways
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.simulation import Simulation
+from carom.systems.stream import Stream
 
 HULL = {"convex": {"points": [(0.2, 0.0, 0.0), (-0.1, 0.0, 0.2), (-0.1, 0.0, -0.2), (0.0, 0.3, 0.0)]}}
 
@@ -58,7 +59,10 @@ def test_pairs_left_out_have_no_contact() -> None:
             return
         reaches = np.empty(len(apart.pairs))
         with world.faces(None), uncounted(world):
-            reach_of_pairs(apart.pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
+            reach_of_pairs(
+                apart.pairs, world[ColliderPose].body_row, world[Flight].reach, world[Motion].asleep,
+                world[Stream].passes, reaches,
+            )  # fmt: skip
             away = apart.until - apart.way[apart.pairs].sum(axis=1) > reaches
             assert len(measure_pairs(world, apart.pairs[away], reaches[away]).row_a) == 0
         left += int(away.sum())

@@ -132,7 +132,7 @@ def test_gravel_has_no_contacts_with_all_that_is_near() -> None:
 
 
 def falling_gravel() -> Simulation:
-    """Return 216 cubes of 1 cm that fall at 3 m/s, a centimetre apart."""
+    """Return 216 cubes of 1 cm that fall at 3 m/s, a centimetre apart; one flies off, so that they are no stream."""
     simulation = Simulation(sleeping=False)
     simulation.add(collider={"plane": {}})
     for k in range(216):
@@ -141,6 +141,9 @@ def falling_gravel() -> Simulation:
             transform={"position": place}, motion={"linear": (0.0, -3.0, 0.0)}, body={},
             collider={"box": {"size": (0.01, 0.01, 0.01)}},
         )  # fmt: skip
+    simulation.add(
+        motion={"linear": (0.0, 3.0 * 216, 0.0)}, transform={"position": (99.0, 0.0, 0.0)}, body={"mass": 1.0}
+    )
     return simulation
 
 

@@ -102,8 +102,14 @@ def test_a_change_wakes_whom_it_concerns(change: Callable[[Simulation], Any]) ->
 
 
 def test_a_wall_that_comes_wakes_sleepers_where_it_is_crowded() -> None:
-    """Where gravel falls, detection bounds everybody twice: who has come since the last step has come still."""
+    """Where gravel falls, detection bounds everybody twice: who has come since the last step has come still.
+
+    One flies off, so that the gravel is no stream.
+    """
     simulation = sleeping(0.0)
+    simulation.add(
+        motion={"linear": (0.0, 4.0 * 216, 0.0)}, transform={"position": (99.0, 0.0, 0.0)}, body={"mass": 1.0}
+    )
     for k in range(216):
         place = (20.0 + 0.02 * (k % 6), 9.0 + 0.02 * (k // 36), 0.02 * (k // 6 % 6))
         simulation.add(

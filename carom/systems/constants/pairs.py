@@ -5,6 +5,11 @@
 # Smaller: more detections in the middle of a step, twice as many in falling piles.
 REACH_SLACK, REACH_STIRRED = 3e-3, 0.125
 
+# Part of the ways of all to which they come down as seen from what moves as they do in the mean, from which on it is
+# that from where they reach; and of how many. Larger: those who do not go that way reach farther. Smaller: crowds that
+# fly are slower. Fewer: who strikes leaves his reach, and is looked after where nothing was to be gained.
+STREAMS, CROWD = 0.25, 32
+
 # Part of a body's least radius of gyration beyond which neither makes its bounds reach further. Larger: gravel, which
 # is as small as these lengths, has contacts with all that is near. Smaller: it leaves its reach in every step.
 REACH_SMALL = 0.3

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import sqrt
 
+import numpy as np
+
 from carom.ecs import Collider, ColliderPose, Motion, Parent, RigidBody, Transform, World, system
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.flight import Flight
@@ -12,9 +14,10 @@ from carom.systems.awake import Awake
 from carom.systems.compound import bodies_of
 from carom.systems.kernels.broad import foresee_reach, place_bounds
 from carom.systems.settings import Settings
+from carom.systems.stream import Stream
 
 
-@system(reads=(Parent, Motion, RigidBody, Collider, Settings, Awake), writes=(Transform, ColliderPose, Flight))
+@system(reads=(Parent, Motion, RigidBody, Collider, Settings, Awake), writes=(Transform, ColliderPose, Flight, Stream))
 def place_colliders(world: World, dt: float) -> None:
     """Place every collider and bound what it can reach within the step."""
     reach_within(world, dt)
@@ -24,21 +27,27 @@ def reach_within(world: World, dt: float) -> None:
     """Place every collider and bound what it can reach within the next ``dt`` seconds; who is carried goes along."""
     compose(world)
     transform, motion, body, flight = world[Transform], world[Motion], world[RigidBody], world[Flight]
+    stream = world[Stream]
     pull = sqrt(sum(g * g for g in world[Settings].gravity))
     foresee_reach(
         world[Awake].now(world), dt, pull, transform.position, transform.rotation, motion.linear,
         body.center_of_mass, body.inertia, body.inverse_mass, motion.linear_acceleration,
-        flight.reach, flight.detected_center,
+        flight.reach, flight.detected_center, stream.motion,
     )  # fmt: skip
+    stream.passes = dt * float(np.linalg.norm(stream.motion[0]))
     bound(world, world.row_numbers(Collider), bodies_of(world), dt, flight.reach, flight.detected_center)
 
 
 def bound(world: World, rows: Integers, bodies: Integers, dt: float, reach: Floats, center: Floats) -> None:
     """Place colliders (rows) and bound them by how far from their centres of mass the ``bodies`` they are of reach."""
-    transform, collider, pose = world[Transform], world[Collider], world[ColliderPose]
+    transform, collider, pose, passes = world[Transform], world[Collider], world[ColliderPose], world[Stream].passes
     place_bounds(
-        rows, dt, bodies, world[Motion].angular, reach, center,
+        rows, dt, bodies, world[Motion].angular, reach, passes, center,
         transform.position, transform.rotation, collider.position, collider.rotation,
         collider.bound_center, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, pose.lower, pose.upper, pose.body_row, pose.moved,
     )  # fmt: skip
+    if passes and len(world[Awake].sleepers):
+        sleepers = rows[world[Motion].asleep[pose.body_row[rows]] & (pose.body_row[rows] >= 0)]
+        pose.lower[sleepers] -= passes
+        pose.upper[sleepers] += passes

@@ -7,6 +7,7 @@ import numpy as np
 from carom.ecs import Collider, ColliderPose, Motion, RigidBody, World
 from carom.ecs.column import Booleans, Integers
 from carom.ecs.component import Resource
+from carom.ecs.components.flight import Flight
 from carom.systems.awake import Awake
 from carom.systems.constants import FEW_ASTRAY, MOST_ASTRAY
 from carom.systems.detection.broad_index import Index
@@ -15,6 +16,8 @@ from carom.systems.kernels.broad_pairs import renew_pairs
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.islands import find_lively
 from carom.systems.settings import Settings
+from carom.systems.shapes.plane import Plane
+from carom.systems.stream import Stream
 from carom.systems.threads import crew_for
 
 NOBODY: Integers = np.array([-1])
@@ -44,7 +47,8 @@ def still_overlapping(world: World, pairs: Integers) -> Integers:
     crew = crew_for(world, len(pairs))
     counts = np.zeros(threads_of(crew), np.int64)
     keep_overlapping(
-        crew, pairs, lively, collider.shape, collider.size, pose.position, pose.rotation, pose.lower, pose.upper,
+        crew, pairs, lively, collider.shape, collider.size, pose.body_row, world[Flight].reach, world[Stream].passes,
+        pose.position, pose.rotation, pose.lower, pose.upper,
         meeting, counts, found,
     )  # fmt: skip
     return found[: sum(counts.tolist())]
@@ -66,6 +70,7 @@ class BroadPhase(Resource):
     def drop(self) -> None:
         """Forget everything; the next detection finds the same pairs from nothing."""
         self.rows: Integers = NOBODY  # also a world without colliders is new
+        self._flat, self._comes = NOBODY[:0], 0.0
         self._watched: tuple[Integers, Integers, Integers] | None = None
 
     def watched(self, world: World) -> Integers:
@@ -96,6 +101,8 @@ class BroadPhase(Resource):
                 self._make_room(world.capacity)
             self.rows = rows
             return self._found_anew(world)
+        if self._half_spaces_come(world) > self._comes:
+            return self._found_anew(world)
         leavers = self._leavers(world)
         astray = max(FEW_ASTRAY, MOST_ASTRAY * len(rows))
         if leavers is None or len(leavers) + len(self.index.strays) > astray:
@@ -113,9 +120,18 @@ class BroadPhase(Resource):
         pairs: Integers = np.empty((len(self.pairs) + len(new), 2), np.int64)
         self.pairs = pairs[: renew_pairs(self.pairs, new, leaves, pairs)]
 
+    def _half_spaces_come(self, world: World) -> float:
+        """Return how far (m) half spaces come within the step, as others see it."""
+        if not len(self._flat):
+            return 0.0
+        bodies = world[ColliderPose].body_row[self._flat]
+        return world[Stream].passes + float(np.where(bodies < 0, 0.0, world[Flight].reach[bodies]).max())
+
     def _found_anew(self, world: World) -> Integers:
         self._leavers(world, anew=True)
-        self.index = Index(world, self.rows, self.fat_lower, self.fat_upper, self.known)
+        self._flat = self.rows[world[Collider].shape[self.rows] == Plane.number]
+        self._comes = 2.0 * self._half_spaces_come(world)  # so that it is not left at once
+        self.index = Index(world, self.rows, self.fat_lower, self.fat_upper, self.known, self._comes)
         self.pairs = self.index.all_pairs(world)
         return self.pairs
 

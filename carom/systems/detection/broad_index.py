@@ -34,8 +34,10 @@ class Index:
     whose pairs they may be: row of the body, layer, mask, and flags.
     """
 
-    def __init__(self, world: World, rows: Integers, fat_lower: Floats, fat_upper: Floats, known: Integers) -> None:
-        self.rows, self.fat_lower, self.fat_upper, self.known = rows, fat_lower, fat_upper, known
+    def __init__(
+        self, world: World, rows: Integers, fat_lower: Floats, fat_upper: Floats, known: Integers, comes: float
+    ) -> None:
+        self.rows, self.fat_lower, self.fat_upper, self.known, self.comes = rows, fat_lower, fat_upper, known, comes
         self.place = np.zeros(len(known), np.int64)
         self.cell = np.zeros((3, 3))  # origin, edges and counts along the axes
         moves, ends, size = self._sizes(world)
@@ -133,7 +135,7 @@ class Index:
         asks[asking] = True
         return self._filled(
             look_up, asking, asks, self.rows, self.apart, self.place, collider.shape, collider.size, pose.body_row,
-            pose.position, pose.rotation, self.fat_lower, self.fat_upper,
+            pose.position, pose.rotation, self.fat_lower, self.fat_upper, self.comes,
             self.cell, self.grid_rows, self.grid_cells, self.members, *self.nodes,
         )  # fmt: skip
 

@@ -36,6 +36,7 @@ from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.shapes.geometry import Geometries
 from carom.systems.sleeping import rouse
+from carom.systems.stream import Stream
 from carom.systems.threads import Threads, crew_for
 from carom.systems.ties import Ties
 
@@ -46,7 +47,7 @@ NOTHING = Found.room(0)
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint),
     writes=(
         Transform, Motion, ColliderPose, Contact, SleepingContact, Answered, Apart, Flight, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ties,
+        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Stream, Ties,
     ),
 )  # fmt: skip
 def find_contacts(world: World, dt: float) -> None:
@@ -96,7 +97,9 @@ def find(world: World, pairs: Integers) -> Found:
     if not len(pairs):
         return NOTHING
     reaches = np.empty(len(pairs))
-    reach_of_pairs(pairs, world[ColliderPose].body_row, world[Flight].reach, reaches)
+    reach_of_pairs(
+        pairs, world[ColliderPose].body_row, world[Flight].reach, world[Motion].asleep, world[Stream].passes, reaches
+    )  # fmt: skip
     return measure_what_moved(world, *world[Apart].without(world, pairs, reaches))
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Motion, World
-from carom.ecs.column import Booleans, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.hierarchy import compose
 from carom.ecs.relations.contact import Contact
+from carom.systems.awake import Awake
 from carom.systems.constants import MOST_WIDENED
 from carom.systems.continuous import fast_of
 from carom.systems.detection.bounds import bound
@@ -19,6 +20,7 @@ from carom.systems.kernels.broad_pairs import pairs_of
 from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.reach import find_leaving, find_ways, widen_reach
 from carom.systems.progress import Progress
+from carom.systems.stream import Stream
 from carom.systems.ties import Ties
 
 
@@ -34,7 +36,7 @@ def detection_holds(world: World, soon: float) -> bool:
         return True
     leaving: Integers = np.empty(MOST_WIDENED + 1, np.int64)
     count = find_leaving(
-        rows, soon, flight.center, flight.detected_center, flight.reach, motion.linear,
+        rows, soon, world[Stream].motion, flight.center, flight.detected_center, flight.reach, motion.linear,
         flight.felt, leaving,
     )  # fmt: skip
     return count == 0 or (
@@ -48,22 +50,37 @@ def _meet_nobody_new(world: World, leaving: Integers, left: float) -> bool:
     leaves: Booleans = np.zeros(world.used() + 1, np.bool_)  # the last, -1, is that of what stands
     leaves[leaving] = True
     compose(world)
-    widen_reach(leaving, left, flight.center, motion.linear, flight.felt, flight.reach, flight.detected_center)
+    stream = world[Stream]
+    widen_reach(
+        leaving, left, stream.motion, flight.center, motion.linear, flight.felt, flight.reach, flight.detected_center
+    )
     colliders = world.row_numbers(Collider)
     own = colliders[leaves[pose.body_row[colliders]]]
-    bound(world, own, pose.body_row, left, flight.reach, flight.center)
+    _bound_now(world, own, left, flight.reach)
     pairs = world[BroadPhase].renewed(world)
     theirs: Integers = np.empty_like(pairs)
     pairs = still_overlapping(world, theirs[: pairs_of(pairs, pose.body_row, leaves, theirs)])
     pairs = world[Ties].without_joined(world, pairs)
     # The others are measured where they are now, and reach as far from there as they did from where they were.
     colliders, ways, reaches = np.unique(pairs), np.zeros(len(flight.reach)), np.empty(len(pairs))
-    find_ways(colliders, pose.body_row, flight.center, flight.detected_center, flight.reach, ways)
-    bound(world, colliders, pose.body_row, left, ways, flight.center)
-    reach_of_pairs(pairs, pose.body_row, ways, reaches)
+    find_ways(colliders, pose.body_row, stream.motion, flight.center, flight.detected_center, flight.reach, ways)
+    _bound_now(world, colliders, left, ways)
+    reach_of_pairs(pairs, pose.body_row, ways, motion.asleep, stream.passes, reaches)
     if len(fast_of(world, pairs, left)[0]):
         return False
     return _are_known(world, without_seams(world, measure_pairs(world, pairs, reaches)))
+
+
+def _bound_now(world: World, rows: Integers, left: float, reach: Floats) -> None:
+    """Bound colliders (rows), told as where the stream has come from since detection, as all other bounds are."""
+    pose, way = world[ColliderPose], world[Stream].motion[1]
+    bound(world, rows, pose.body_row, left, reach, world[Flight].center)
+    if way.any():
+        taken: Booleans = np.zeros(world.used() + 1, np.bool_)
+        taken[world[Awake].now(world)] = True
+        rows = rows[taken[pose.body_row[rows]]]
+        pose.lower[rows] -= way
+        pose.upper[rows] -= way
 
 
 def _are_known(world: World, found: Found) -> bool:

@@ -19,6 +19,7 @@ from carom.systems.kernels.islands import moves
 from carom.systems.layers import Layers
 from carom.systems.settings import Settings
 from carom.systems.shapes.plane import Plane
+from carom.systems.stream import Stream
 from carom.systems.ties import Ties
 
 if TYPE_CHECKING:
@@ -57,6 +58,8 @@ def _placed(world: World) -> Iterator[None]:
         for kind, names in (*written, (Flight, "reach detected_center"))
         for name in names.split()
     ]
+    stream = world[Stream]
+    flowing = stream.motion.copy(), stream.passes
     with world.faces(None), uncounted(world):
         reach_within(world, world[Settings].dt)
         try:
@@ -64,6 +67,7 @@ def _placed(world: World) -> Iterator[None]:
         finally:
             for kind, name, values in kept:
                 getattr(world[kind], name)[:] = values
+            stream.motion[:], stream.passes = flowing
 
 
 class _Pair:
@@ -75,6 +79,7 @@ class _Pair:
         self.bodies = [int(self.pose.body_row[row]) for row in rows]
         reach = world[Flight].reach
         self.reach = sum(float(reach[body]) for body in self.bodies if body >= 0)
+        self.reach += world[Stream].passes * sum(body < 0 or bool(world[Motion].asleep[body]) for body in self.bodies)
         self.flat = [int(self.collider.shape[row]) == Plane.number for row in rows]
 
     def refused(self) -> str:

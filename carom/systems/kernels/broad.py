@@ -7,7 +7,7 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import REACH_FACTOR, REACH_SLACK, REACH_SMALL, REACH_STIRRED
+from carom.systems.constants import CROWD, REACH_FACTOR, REACH_SLACK, REACH_SMALL, REACH_STIRRED, STREAMS
 from carom.systems.kernels.flight import offset_of
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_columns import (
@@ -29,21 +29,25 @@ from carom.systems.kernels.lanes import WIDTH, address, choose, larger, root, sm
 from carom.systems.kernels.spatial import product, turn
 
 
-@kernel("reach", "detected_center", makes_arrays=True)
+@kernel("reach", "detected_center", "stream", makes_arrays=True)
 def foresee_reach(
     rows, dt, pull, position, rotation, linear, center_of_mass, inertia, inverse_mass, last_acceleration,
-    reach, detected_center,
+    reach, detected_center, stream,
 ):  # fmt: skip
     """Say how far each body may travel within ``dt``: its speed and acceleration, or gravity's ``pull`` if greater.
 
-    Those that are struck travel farther. Where many move they all are given more: the mean of the ways of all, each up
-    to REACH_STIRRED of its least radius of gyration. But small ones are given no more than REACH_SMALL of theirs.
+    That is from where the ``stream`` takes it, which begins here. Those that are struck travel farther. Where many
+    move in it they all are given more: the mean of the ways of all, each up to REACH_STIRRED of its least radius of
+    gyration. But small ones are given no more than REACH_SMALL of theirs.
     """
     one, three, four = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4))
     stirred = 0.0
+    find_stream(rows, dt, linear, stream)
+    sx, sy, sz = spread(stream[0, 0]), spread(stream[0, 1]), spread(stream[0, 2])
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
         x, y, z = take_three(linear, rows, n, near, three)
+        x, y, z = x - sx, y - sy, z - sz
         gyration = least_gyration(take_three(inertia, rows, n, near, three), take_one(inverse_mass, rows, n, near, one))
         ways = smaller(root(x * x + y * y + z * z) * dt, REACH_STIRRED * gyration)
         store_one(address(one), 0, (ways,))
@@ -61,11 +65,32 @@ def foresee_reach(
         small = REACH_SMALL * gyration
         own = choose(small, smaller(slack, small), slack)
         vx, vy, vz = take_three(linear, rows, n, near, three)
+        vx, vy, vz = vx - sx, vy - sy, vz - sz
         ax, ay, az = take_three(last_acceleration, rows, n, near, three)
         speed, push = root(vx * vx + vy * vy + vz * vz), root(ax * ax + ay * ay + az * az)
         give_one(
             reach, rows, n, near, one, own + REACH_FACTOR * (speed + larger(spread(pull), push) * dt) * dt
         )  # fmt: skip
+
+
+@woven
+def find_stream(rows, dt, linear, stream):
+    """Write the mean velocity of bodies, or 0 where they are few, hardly move, or come as far seen from there."""
+    for k in range(3):
+        stream[0, k] = stream[1, k] = 0.0
+        for i in rows:
+            stream[0, k] += linear[i, k]
+        stream[0, k] /= max(1, len(rows))
+    with_it, without = 0.0, 0.0
+    for i in rows:
+        with_it += sqrt(
+            (linear[i, 0] - stream[0, 0]) ** 2 + (linear[i, 1] - stream[0, 1]) ** 2 + (linear[i, 2] - stream[0, 2]) ** 2
+        )
+        without += sqrt(linear[i, 0] ** 2 + linear[i, 1] ** 2 + linear[i, 2] ** 2)
+    gains = with_it < STREAMS * without and without * dt > REACH_SLACK * len(rows) and len(rows) >= CROWD
+    if not gains:
+        for k in range(3):
+            stream[0, k] = 0.0
 
 
 @woven
@@ -76,13 +101,13 @@ def least_gyration(inertia, inverse_mass):
 
 @kernel("pose_position", "pose_rotation", "lower", "upper", "body_row", "moved")
 def place_bounds(
-    rows, dt, body, angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
+    rows, dt, body, angular, reach, passes, center_of_mass, position, rotation, local_position, local_rotation,
     bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, body_row, moved,
 ):  # fmt: skip
     """Place each collider in the world and bound all it can reach: |R| half extents + radius + reach + turning.
 
-    What reaches and turns is its ``body``, a row or -1; turning moves no point farther than twice its distance from
-    the centre of mass.
+    What reaches and turns is its ``body``, a row or -1: that ``passes`` by (m) where others go one way. Turning moves
+    no point farther than twice its distance from the centre of mass.
     """
     for n in range(0, len(rows), WIDTH):
         if in_a_row(rows, n) and are_own(rows[n], body, bound_half):
@@ -96,8 +121,9 @@ def place_bounds(
         for i in rows[n : n + WIDTH]:
             body_row[i] = body[i]
             place_one(
-                i, dt, body[i], angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
-                bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, moved,
+                i, dt, body[i], angular, reach, passes, center_of_mass, position, rotation,
+                local_position, local_rotation, bound_center, bound_half, bound_radius,
+                pose_position, pose_rotation, lower, upper, moved,
             )  # fmt: skip
 
 
@@ -160,7 +186,7 @@ def size_of(x):
 
 @inlined
 def place_one(
-    i, dt, b, angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
+    i, dt, b, angular, reach, passes, center_of_mass, position, rotation, local_position, local_rotation,
     bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, moved,
 ):  # fmt: skip
     """Place one collider, of body b."""
@@ -187,6 +213,8 @@ def place_one(
         for k in range(3):
             away += (position[i, k] + center[k] - center_of_mass[b, k]) ** 2
         wide += reach[b] + min(spin * dt, 2.0) * (sqrt(hx * hx + hy * hy + hz * hz) + sqrt(away))
+    else:
+        wide += passes
     half = (hx, hy, hz)
     if hx < np.inf:  # a half space has no end whichever way it is turned
         ax, ay, az = turn(qx, qy, qz, qw, 1.0, 0.0, 0.0)

@@ -18,13 +18,14 @@ ENDLESS = 1e300  # m; a bound beyond this is taken for infinite
 
 
 @woven
-def meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper):
+def meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper, comes):
     """Tell whether the deepest corner of the bounds of row ``box`` lies in the half space of row ``plane``.
 
-    An axis along the surface counts for nothing, also where the bounds have no end along it.
+    That ``comes`` as far as told (m). An axis along the surface counts for nothing, also where the bounds have no end
+    along it.
     """
     nx, ny, nz = turned(pose_rotation, plane, size[plane, 0], size[plane, 1], size[plane, 2])
-    depth = size[plane, 3]
+    depth = size[plane, 3] + comes
     for k, n in enumerate((nx, ny, nz)):
         corner = lower[box, k] if n > 0.0 else upper[box, k]
         depth -= n * (corner - pose_position[plane, k]) if n != 0.0 else 0.0
@@ -95,7 +96,8 @@ def find_leavers(
 
 @shared("meeting", "counts", "found")
 def keep_overlapping(
-    crew, pairs, lively, shape, size, pose_position, pose_rotation, lower, upper, meeting, counts, found
+    crew, pairs, lively, shape, size, body_row, reach, passes, pose_position, pose_rotation, lower, upper,
+    meeting, counts, found,
 ):  # fmt: skip
     """Write the pairs whose bounds overlap now and of which one is lively, in their order.
 
@@ -107,7 +109,8 @@ def keep_overlapping(
         i, j = pairs[p, 0], pairs[p, 1]
         if shape[i] == HALF_SPACE or shape[j] == HALF_SPACE:
             plane, box = (i, j) if shape[i] == HALF_SPACE else (j, i)
-            meets = meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper)
+            comes = passes + (reach[body_row[plane]] if body_row[plane] >= 0 else 0.0)
+            meets = meets_half_space(plane, box, size, pose_position, pose_rotation, lower, upper, comes)
             meets = meets and (lively[i] or lively[j])
         else:  # no branch: which of these bounds overlap is past foreseeing, a wrong guess costs more than the test
             meets = (

@@ -13,12 +13,12 @@ from carom.systems.kernels.kernel import kernel
 @kernel("found", makes_arrays=True)
 def look_up(
     asking, asks, rows, apart, place, shape, size, body_row, pose_position, pose_rotation, fat_lower, fat_upper,
-    cell, grid_rows, grid_cells, members, bounds, span, skip, moves, found,
+    comes, cell, grid_rows, grid_cells, members, bounds, span, skip, moves, found,
 ):  # fmt: skip
     """Write a candidate for all whose fat bounds overlap those of the rows ``asking``, marked in ``asks``.
 
-    ``apart`` are the rows in neither grid nor tree, which are tested one by one. Two that both ask are written once.
-    Returns the count of candidates, or -1 where they do not fit in.
+    Half spaces come as far as told (m). ``apart`` are the rows in neither grid nor tree, which are tested one by
+    one. Two that both ask are written once. Returns the count of candidates, or -1 where they do not fit in.
     """
     near = np.empty(len(rows) + 1, np.int64)
     count = 0
@@ -86,7 +86,7 @@ def look_up(
                 continue
             if flat or shape[j] == HALF_SPACE:
                 plane, box = (i, j) if flat else (j, i)
-                meets = meets_half_space(plane, box, size, pose_position, pose_rotation, fat_lower, fat_upper)
+                meets = meets_half_space(plane, box, size, pose_position, pose_rotation, fat_lower, fat_upper, comes)
             else:
                 meets = (
                     lx <= fat_upper[j, 0] and fat_lower[j, 0] <= ux and ly <= fat_upper[j, 1]

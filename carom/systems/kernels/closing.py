@@ -23,9 +23,9 @@ CANNOT, MAY, HELD_BALL, HELD = range(4)
 
 @shared("lanes", "bodies", "closing", "soon")
 def find_closing(
-    crew, count, groups, solids, h, rows, watched, center, detected_center, reach, linear, angular, acceleration,
-    index_a, index_b, points, row, group_of, lane_of, start, kind, ball, other, other_position, radius, extent,
-    restitution, resting, lanes, bodies, closing, soon,
+    crew, count, groups, solids, h, rows, watched, stream, center, detected_center, reach, linear, angular,
+    acceleration, index_a, index_b, points, row, group_of, lane_of, start, kind, ball, other, other_position, radius,
+    extent, restitution, resting, lanes, bodies, closing, soon,
 ):  # fmt: skip
     """Tell of each manifold whether it may strike within ``h`` seconds, and how soon a body leaves its reach.
 
@@ -35,7 +35,9 @@ def find_closing(
     manifolds.
     """
     begin, end = part_of(crew, len(watched))
-    soon[crew[1], 0] = time_within_all(watched[begin:end], h, center, detected_center, reach, linear, acceleration)
+    soon[crew[1], 0] = time_within_all(
+        watched[begin:end], h, stream, center, detected_center, reach, linear, acceleration
+    )  # fmt: skip
     if solids:
         begin, end = part_of(crew, len(rows))
         write_velocities(rows[begin:end], linear, angular, bodies[VELOCITY])

@@ -33,7 +33,7 @@ TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 1
 def fly(
     start, h, bend, clock,
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
-    felt, detected_center, reach,
+    felt, stream, detected_center, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
     count, beginning, group_of, stale, body_a, body_b, normal, depth, offset_a, offset_b, share,
     kind, ball, other, extent, radius, other_position, other_rotation, sign,
@@ -245,7 +245,9 @@ def fly(
                 if of_body[slot] != m or (comes and (body == i or i < 0)):
                     seek[seek_count] = of_body[slot]
                     seek_count += 1
-            within = time_within_reach(body, h - now, center, detected_center, reach, linear, acceleration)
+            within = time_within_reach(
+                body, h - now, now - start, stream, center, detected_center, reach, linear, acceleration
+            )  # fmt: skip
             if within < h - now:
                 end = min(end, now + within)
             quick = between(body, body, linear, trusts[:, 3:]) + length_of(body, angular) * trusts[body, 1]

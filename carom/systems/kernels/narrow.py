@@ -19,14 +19,17 @@ SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE, PLANE_SHAPE = Sphere.number, Point.number,
 
 
 @kernel("reaches")
-def reach_of_pairs(pairs, body_row, reach, reaches):
-    """Write how near (m) each pair must come to be a contact: what its two bodies reach within the step."""
+def reach_of_pairs(pairs, body_row, reach, asleep, passes, reaches):
+    """Write how near (m) each pair must come to be a contact: what its two bodies reach within the step.
+
+    Who sleeps and what has no body ``passes`` by where all others go one way.
+    """
     for p in range(len(pairs)):
         reaches[p] = 0.0
         for side in range(2):
             body = body_row[pairs[p, side]]
-            if body >= 0:
-                reaches[p] += reach[body]
+            reaches[p] += reach[body] if body >= 0 else 0.0
+            reaches[p] += passes if body < 0 or asleep[body] else 0.0
 
 
 @shared("side", "order", "first", "second", "counts", "places")

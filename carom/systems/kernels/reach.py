@@ -8,17 +8,17 @@ from math import sqrt
 from carom.systems.constants import REACH_FACTOR, ROOT_GAP
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_columns import ALL, in_a_row, load_one, load_three
-from carom.systems.kernels.lanes import WIDTH, address, which
+from carom.systems.kernels.lanes import WIDTH, address, spread, which
 
 WELL_WITHIN = 3.001  # a little more than 3, whatever rounding does
 
 
 @woven
-def way_within(i, span, linear, acceleration):
-    """Return how far (m) body i can fly within ``span`` seconds."""
+def way_within(i, span, stream, linear, acceleration):
+    """Return how far (m) from where the stream takes it body i can fly within ``span`` seconds."""
     quick, push = 0.0, 0.0
     for k in range(3):
-        quick += linear[i, k] ** 2
+        quick += (linear[i, k] - stream[0, k]) ** 2
         push += acceleration[i, k] ** 2
     return (sqrt(quick) + 0.5 * sqrt(push) * span) * span
 
@@ -37,15 +37,16 @@ def are_apart(p, i, o, span, center, linear, acceleration, other_position, radiu
 
 
 @woven
-def time_within_reach(i, span, center, detected_center, reach, linear, acceleration):
+def time_within_reach(i, span, since, stream, center, detected_center, reach, linear, acceleration):
     """Return for how long (s, at most ``span``) body i cannot leave its reach.
 
-    It may fly anywhere at its speed and acceleration: what strikes it later is asked about then.
+    It may fly anywhere at its speed and acceleration: what strikes it later is asked about then. The way of the stream
+    is that of ``since`` seconds ago.
     """
     away, quick, push = 0.0, 0.0, 0.0
     for k in range(3):
-        away += (center[i, k] - detected_center[i, k]) ** 2
-        quick += linear[i, k] ** 2
+        away += (center[i, k] - detected_center[i, k] - stream[1, k] - since * stream[0, k]) ** 2
+        quick += (linear[i, k] - stream[0, k]) ** 2
         push += acceleration[i, k] ** 2
     # Three lengths whose squares add up to a third of another's square add up to less than that: no roots for most.
     if WELL_WITHIN * (away + span * span * (quick + 0.25 * span * span * push)) <= reach[i] * reach[i]:
@@ -59,7 +60,7 @@ def time_within_reach(i, span, center, detected_center, reach, linear, accelerat
 
 
 @woven
-def are_well_within(rows, n, span, center, detected_center, reach, linear, acceleration):
+def are_well_within(rows, n, span, stream, center, detected_center, reach, linear, acceleration):
     """Tell of eight rows from the n-th on, if they are in a row, that no body can leave its reach; most cannot."""
     if not in_a_row(rows, n):
         return False
@@ -69,33 +70,39 @@ def are_well_within(rows, n, span, center, detected_center, reach, linear, accel
     vx, vy, vz = load_three(address(linear), i)
     ax, ay, az = load_three(address(acceleration), i)
     (room,) = load_one(address(reach), i)
-    away = (x - dx) * (x - dx) + (y - dy) * (y - dy) + (z - dz) * (z - dz)
-    quick, push = vx * vx + vy * vy + vz * vz, ax * ax + ay * ay + az * az
+    x, y, z = x - dx - spread(stream[1, 0]), y - dy - spread(stream[1, 1]), z - dz - spread(stream[1, 2])
+    vx, vy, vz = vx - spread(stream[0, 0]), vy - spread(stream[0, 1]), vz - spread(stream[0, 2])
+    away, quick, push = x * x + y * y + z * z, vx * vx + vy * vy + vz * vz, ax * ax + ay * ay + az * az
     return which(room * room - WELL_WITHIN * (away + span * span * (quick + 0.25 * span * span * push))) == ALL
 
 
 @woven
-def time_within_all(rows, span, center, detected_center, reach, linear, acceleration):
+def time_within_all(rows, span, stream, center, detected_center, reach, linear, acceleration):
     """Return for how long (s, at most ``span``) no body can leave its reach."""
     least = span
     for n in range(0, len(rows), WIDTH):
-        if are_well_within(rows, n, span, center, detected_center, reach, linear, acceleration):
+        if are_well_within(rows, n, span, stream, center, detected_center, reach, linear, acceleration):
             continue
         for k in range(n, min(n + WIDTH, len(rows))):
-            least = min(least, time_within_reach(rows[k], span, center, detected_center, reach, linear, acceleration))
+            within = time_within_reach(
+                rows[k], span, 0.0, stream, center, detected_center, reach, linear, acceleration
+            )  # fmt: skip
+            least = min(least, within)
     return least
 
 
 @kernel("leaving", within=True)
-def find_leaving(rows, span, center, detected_center, reach, linear, acceleration, leaving):
+def find_leaving(rows, span, stream, center, detected_center, reach, linear, acceleration, leaving):
     """Write which bodies may leave their reach within ``span`` seconds, as many as there is room for; count them."""
     count = 0
     for n in range(0, len(rows), WIDTH):
-        if are_well_within(rows, n, span, center, detected_center, reach, linear, acceleration):
+        if are_well_within(rows, n, span, stream, center, detected_center, reach, linear, acceleration):
             continue
         for k in range(n, min(n + WIDTH, len(rows))):
             i = rows[k]
-            if time_within_reach(i, span, center, detected_center, reach, linear, acceleration) < span:
+            if time_within_reach(
+                i, span, 0.0, stream, center, detected_center, reach, linear, acceleration
+            ) < span:  # fmt: skip
                 leaving[count] = i
                 count += 1
                 if count == len(leaving):
@@ -104,21 +111,24 @@ def find_leaving(rows, span, center, detected_center, reach, linear, acceleratio
 
 
 @kernel("reach", "detected_center")
-def widen_reach(leaving, span, center, linear, acceleration, reach, detected_center):
-    """Give bodies the reach that they need for ``span`` seconds as they fly now, around where they are."""
+def widen_reach(leaving, span, stream, center, linear, acceleration, reach, detected_center):
+    """Give bodies the reach that they need for ``span`` seconds as they fly now.
+
+    That is around where they are, which is told as where the stream has come from since detection.
+    """
     for i in leaving:
-        reach[i] = REACH_FACTOR * way_within(i, span, linear, acceleration)
+        reach[i] = REACH_FACTOR * way_within(i, span, stream, linear, acceleration)
         for k in range(3):
-            detected_center[i, k] = center[i, k]
+            detected_center[i, k] = center[i, k] - stream[1, k]
 
 
 @kernel("ways")
-def find_ways(colliders, body_row, center, detected_center, reach, ways):
+def find_ways(colliders, body_row, stream, center, detected_center, reach, ways):
     """Write how far (m) at most the bodies of colliders come, within their reach, from where they are now."""
     for c in colliders:
         i = body_row[c]
         if i >= 0:
             away = 0.0
             for k in range(3):
-                away += (center[i, k] - detected_center[i, k]) ** 2
+                away += (center[i, k] - detected_center[i, k] - stream[1, k]) ** 2
             ways[i] = reach[i] + sqrt(away)

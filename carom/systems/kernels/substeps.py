@@ -40,7 +40,7 @@ HARD = (0.0, 1.0)
     "center", "time", "acceleration", "angular_acceleration", "decay", "angular_decay", "flow", "touching",
     "start_position", "start_rotation", "start_linear", "start_angular", "start_center", "turned",
     "normal", "depth", "point", "offset_a", "offset_b", "resting", "impulse", "friction_impulse", "strikes", "plastic",
-    "arc", "room", "left", "log", "log_pair", "spent",
+    "stream", "arc", "room", "left", "log", "log_pair", "spent",
     makes_arrays=True,
 )  # fmt: skip
 def take_substeps(
@@ -51,7 +51,8 @@ def take_substeps(
     center_of_mass, inverse_mass, inertia, inverse_inertia, principal_axes, freedom, drag, drag_flow, angular_drag,
     position, rotation, linear, angular, last_acceleration, last_angular_acceleration,
     center, time, acceleration, angular_acceleration, felt, decay, angular_decay, flow, touching, held,
-    start_position, start_rotation, start_linear, start_angular, start_center, turned, detected_center, reach,
+    start_position, start_rotation, start_linear, start_angular, start_center, turned,
+    stream, detected_center, reach,
     body_a, body_b, normal, depth, point, offset_a, offset_b, share_of_b, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
     strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
@@ -79,7 +80,7 @@ def take_substeps(
     for k in range(number, substeps + 1):
         clock = begun + (k - 1) * h
         if k > begins:
-            leaves = leave(watched, h, center, detected_center, reach, linear, felt, leaving)
+            leaves = leave(watched, h, stream, center, detected_center, reach, linear, felt, leaving)
             now = note(LOOK_AHEAD, now, spent)
             if leaves:
                 return k - 1, DONE, h, 0, 0, cut, logged, log_pair, log
@@ -143,7 +144,7 @@ def take_substeps(
             for part in range(len(soon)):
                 soon[part, 0], soon[part, 1] = h, 0.0
             share(describe(close, for_closing, (
-                count, groups, solids, h, bound, watched, center, detected_center, reach,
+                count, groups, solids, h, bound, watched, stream, center, detected_center, reach,
                 linear, angular, acceleration, index_a, index_b, points, row, group_of, lane_of, start,
                 kind, ball, other, other_position, radius, extent, restitution, resting, lanes, bodies, closes, soon,
             )))  # fmt: skip
@@ -155,7 +156,7 @@ def take_substeps(
                 share(describe(tell, for_groups, (groups, first, size, row, kind, lanes, depth)))
                 at, reason, events, passed, logged, log_pair, log = soar(
                     0.0, h, bends, clock, center, start_center, rotation, turned, linear, angular, time, acceleration,
-                    angular_acceleration, felt, detected_center, reach, inverse_mass, inertia, inverse_inertia,
+                    angular_acceleration, felt, stream, detected_center, reach, inverse_mass, inertia, inverse_inertia,
                     principal_axes, freedom, count, start, group_of, stale, body_a, body_b, normal, depth,
                     offset_a, offset_b, share_of_b, kind, ball, other, extent, radius, other_position, other_rotation,
                     sign, surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic,
@@ -166,6 +167,8 @@ def take_substeps(
             rows, at, bends, center, rotation, turned, linear, angular, time, acceleration,
             angular_acceleration, inverse_mass, inertia, principal_axes, freedom, pull, arc,
         )))  # fmt: skip
+        for axis in range(3):
+            stream[1, axis] += stream[0, axis] * at
         now = note(DRIFT, now, spent)
         if reason != DONE:
             return k, reason, at, events, rest, cut, logged, log_pair, log

@@ -56,7 +56,7 @@ class Scene(Resource):
         self.position, self.rotation = np.zeros((n, 3)), np.zeros((n, 4))
         self.lower, self.upper = np.zeros((n, 3)), np.zeros((n, 3))
         place_bounds(
-            rows, 0.0, nobody, still, still[:, 0].copy(), still, position, rotation, collider.position,
+            rows, 0.0, nobody, still, still[:, 0].copy(), 0.0, still, position, rotation, collider.position,
             collider.rotation, collider.bound_center, collider.bound_half, collider.bound_radius,
             self.position, self.rotation, self.lower, self.upper, np.empty(n, np.int64), np.empty(n, np.bool_),
         )  # fmt: skip
