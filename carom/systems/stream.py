@@ -12,8 +12,8 @@ class Stream(Resource):
     """How far bodies reach is around where the stream takes them, so that a crowd costs as much wherever it goes.
 
     ``motion`` (2, 3) is its velocity (m/s) and its way (m) since detection. What stands and who sleeps ``passes`` by as
-    far (m) within what is foreseen. There is none, as zeros say, where few are awake or not nearly all of them go one
-    way, or where they come less far than they reach in any case. Made anew in each detection.
+    far (m) within what is foreseen. There is none, as zeros say, where few are awake, where not nearly all of them go
+    one way, or where they come no farther than they are large. Made anew in each detection.
     """
 
     def __init__(self) -> None:

@@ -14,7 +14,7 @@ POINTS = np.random.default_rng(1).normal(size=(12, 3))
 ROUND = {"rolling_friction": 0.02, "spinning_friction": 0.02}
 #: Shapes, materials, and how many of two hundred may still rock, over three supports almost in a line.
 BODIES: dict[str, tuple[dict[str, Any], dict[str, float], int]] = {
-    "boxes": ({"box": {"size": (0.9, 0.7, 0.8)}}, {}, 3),
+    "boxes": ({"box": {"size": (0.9, 0.7, 0.8)}}, {}, 2),
     "hulls": ({"convex": {"points": 0.5 * POINTS / np.linalg.norm(POINTS, axis=1)[:, None]}}, {}, 1),
     "cones": ({"cone": {"radius": 0.45, "length": 0.9}}, ROUND, 0),
     "capsules": ({"capsule": {"radius": 0.35, "length": 0.4}}, ROUND, 0),

@@ -7,10 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carom.ecs import Motion, RigidBody, Transform
+from carom.ecs import ColliderPose, Motion, RigidBody, Transform
 from carom.ecs.column import Floats
+from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.bounds import reach_within
+from carom.systems.detection.broad import overlapping
+from carom.systems.detection.leaving import detection_holds
 from carom.systems.simulation import Simulation
 from carom.systems.stream import Stream
 
@@ -178,3 +182,36 @@ def test_a_pile_in_a_train_costs_what_it_does_at_rest(along: tuple[float, float,
     assert world[Contact].count == 400
     rows = world.row_numbers(RigidBody)
     assert np.abs(world[Motion].linear[rows] - along).max() < 1e-3
+
+
+def test_half_spaces_are_known_once_the_crowd_is_fast_enough_for_them() -> None:
+    """Though nobody has left the bounds by which pairs were found."""
+    simulation = Simulation()
+    simulation.add(collider={"plane": {}})
+    simulation.add(collider={"sphere": {"radius": RADIUS}}, body={}, transform={"position": (0.0, 5.0, 0.0)})
+    simulation.step()
+    world = simulation.world
+    with world.faces(None):
+        assert len(overlapping(world)) == 0
+        world[Stream].passes = 6.0
+        assert overlapping(world).tolist() == [[0, 1]]
+
+
+def test_who_is_struck_is_bounded_as_where_the_stream_came_from() -> None:
+    """As the bounds of the others are, who go on."""
+    simulation = crowd(1.0, 5.0)
+    world, span = simulation.world, 0.004
+    simulation.step()
+    with world.faces(None):
+        reach_within(world, 1.0 / 60.0)
+        flight, stream = world[Flight], world[Stream]
+        assert stream.motion[0] == pytest.approx([SPEED, 0.0, 0.0])
+        flown = span * stream.motion[0]
+        flight.center[: SIDE * SIDE] += flown
+        world[Transform].position[: SIDE * SIDE] += flown
+        stream.flow(span)
+        world[Motion].linear[7] = 0.0
+        assert detection_holds(world, span)
+        pose = world[ColliderPose]
+        assert 0.5 * (pose.lower[7] + pose.upper[7]) == pytest.approx(flight.center[7] - flown, abs=1e-12)
+        assert flight.detected_center[7] == pytest.approx(flight.center[7] - flown, abs=1e-12)

@@ -8,17 +8,16 @@ import numpy as np
 import pytest
 from heaps import add_walls
 
-from carom.ecs import Collider, ColliderPose, Motion, System, Transform, state_hash
+from carom.ecs import Collider, Motion, System, Transform, state_hash
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.answered import Answered, uncounted
 from carom.systems.detection.apart import Apart
+from carom.systems.detection.bounds import reaches_of
 from carom.systems.detection.narrow import measure_pairs
 from carom.systems.kernels.apart import add_ways
-from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.simulation import Simulation
-from carom.systems.stream import Stream
 
 HULL = {"convex": {"points": [(0.2, 0.0, 0.0), (-0.1, 0.0, 0.2), (-0.1, 0.0, -0.2), (0.0, 0.3, 0.0)]}}
 
@@ -57,12 +56,8 @@ def test_pairs_left_out_have_no_contact() -> None:
         nonlocal left
         if system.name != "find_contacts" or not len(apart.pairs):
             return
-        reaches = np.empty(len(apart.pairs))
         with world.faces(None), uncounted(world):
-            reach_of_pairs(
-                apart.pairs, world[ColliderPose].body_row, world[Flight].reach, world[Motion].asleep,
-                world[Stream].passes, reaches,
-            )  # fmt: skip
+            reaches = reaches_of(world, apart.pairs, world[Flight].reach)
             away = apart.until - apart.way[apart.pairs].sum(axis=1) > reaches
             assert len(measure_pairs(world, apart.pairs[away], reaches[away]).row_a) == 0
         left += int(away.sum())

@@ -106,7 +106,7 @@ def ball_that_runs_on_another() -> Simulation:
 
 Edit = Callable[[World], object]
 HEAPS: dict[str, tuple[Callable[[], Simulation], int, int]] = {  # with so many steps, in so many of which groups stay
-    "all kinds": (heap_of_all, 330, 30),
+    "all kinds": (heap_of_all, 300, 30),
     "balls": (lambda: bin_of_balls(60, sleeping=False), 360, 60),
     "boxes": (lambda: stack_of_boxes(sleeping=False), 120, 60),
     "a paddle": (lambda: stirred_heap(sleeping=False), 120, 0),

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, Motion, World
+from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -17,12 +17,11 @@ from carom.ecs.spatial import quaternion, vector
 from carom.systems.compound import shape_at
 from carom.systems.constants import AUDITED_DEPTH, AUDITED_TURN
 from carom.systems.detection.answered import uncounted
+from carom.systems.detection.bounds import reaches_of
 from carom.systems.detection.narrow import BY_FCL, FUNCTION_OF, Found, measure_pairs
-from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.shapes.height_field import HeightField
 from carom.systems.shapes.mesh import Mesh
 from carom.systems.shapes.shape import Shape
-from carom.systems.stream import Stream
 
 MOST_LISTED = 5  # disagreements of a pair of shapes; more say nothing new
 
@@ -62,10 +61,7 @@ class Compared:
 def audit(world: World, report: dict[tuple[str, str], Compared]) -> None:
     """Measure every contact that a kernel may answer both ways, and add what was found to ``report`` by shapes."""
     pairs = audited_pairs(world)
-    reaches = np.empty(len(pairs))
-    reach_of_pairs(
-        pairs, world[ColliderPose].body_row, world[Flight].reach, world[Motion].asleep, world[Stream].passes, reaches
-    )  # fmt: skip
+    reaches = reaches_of(world, pairs, world[Flight].reach)
     with uncounted(world):
         ways = [deepest(measure_pairs(world, pairs, reaches, way), pairs) for way in ("auto", "fcl")]
     for p in range(len(pairs)):

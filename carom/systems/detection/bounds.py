@@ -13,6 +13,7 @@ from carom.ecs.hierarchy import compose
 from carom.systems.awake import Awake
 from carom.systems.compound import bodies_of
 from carom.systems.kernels.broad import foresee_reach, place_bounds
+from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.settings import Settings
 from carom.systems.stream import Stream
 
@@ -51,3 +52,10 @@ def bound(world: World, rows: Integers, bodies: Integers, dt: float, reach: Floa
         sleepers = rows[world[Motion].asleep[pose.body_row[rows]] & (pose.body_row[rows] >= 0)]
         pose.lower[sleepers] -= passes
         pose.upper[sleepers] += passes
+
+
+def reaches_of(world: World, pairs: Integers, reach: Floats) -> Floats:
+    """Return how near (m) each of ``pairs`` (n, 2) of collider rows must come, as bodies ``reach``, to be a contact."""
+    reaches = np.empty(len(pairs))
+    reach_of_pairs(pairs, world[ColliderPose].body_row, reach, world[Motion].asleep, world[Stream].passes, reaches)
+    return reaches

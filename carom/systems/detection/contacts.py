@@ -15,7 +15,7 @@ from carom.systems.constants import CROWDED
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.apart import Apart
-from carom.systems.detection.bounds import reach_within
+from carom.systems.detection.bounds import reach_within, reaches_of
 from carom.systems.detection.broad import BroadPhase, overlapping
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
@@ -28,7 +28,6 @@ from carom.systems.grouping import group_contacts
 from carom.systems.kernels.contacts import complete_contacts
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.crushing import let_go_of_crushed
-from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.kernels.renewal import renew_contacts
 from carom.systems.progress import Progress
@@ -96,10 +95,7 @@ def find(world: World, pairs: Integers) -> Found:
     """Return the points at which ``pairs`` (n, 2) of collider rows touch or may within their reach."""
     if not len(pairs):
         return NOTHING
-    reaches = np.empty(len(pairs))
-    reach_of_pairs(
-        pairs, world[ColliderPose].body_row, world[Flight].reach, world[Motion].asleep, world[Stream].passes, reaches
-    )  # fmt: skip
+    reaches = reaches_of(world, pairs, world[Flight].reach)
     return measure_what_moved(world, *world[Apart].without(world, pairs, reaches))
 
 

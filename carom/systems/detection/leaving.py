@@ -12,12 +12,11 @@ from carom.ecs.relations.contact import Contact
 from carom.systems.awake import Awake
 from carom.systems.constants import MOST_WIDENED
 from carom.systems.continuous import fast_of
-from carom.systems.detection.bounds import bound
+from carom.systems.detection.bounds import bound, reaches_of
 from carom.systems.detection.broad import BroadPhase, still_overlapping
 from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.detection.seams import without_seams
 from carom.systems.kernels.broad_pairs import pairs_of
-from carom.systems.kernels.narrow import reach_of_pairs
 from carom.systems.kernels.reach import find_leaving, find_ways, widen_reach
 from carom.systems.progress import Progress
 from carom.systems.stream import Stream
@@ -62,13 +61,12 @@ def _meet_nobody_new(world: World, leaving: Integers, left: float) -> bool:
     pairs = still_overlapping(world, theirs[: pairs_of(pairs, pose.body_row, leaves, theirs)])
     pairs = world[Ties].without_joined(world, pairs)
     # The others are measured where they are now, and reach as far from there as they did from where they were.
-    colliders, ways, reaches = np.unique(pairs), np.zeros(len(flight.reach)), np.empty(len(pairs))
+    colliders, ways = np.unique(pairs), np.zeros(len(flight.reach))
     find_ways(colliders, pose.body_row, stream.motion, flight.center, flight.detected_center, flight.reach, ways)
     _bound_now(world, colliders, left, ways)
-    reach_of_pairs(pairs, pose.body_row, ways, motion.asleep, stream.passes, reaches)
     if len(fast_of(world, pairs, left)[0]):
         return False
-    return _are_known(world, without_seams(world, measure_pairs(world, pairs, reaches)))
+    return _are_known(world, without_seams(world, measure_pairs(world, pairs, reaches_of(world, pairs, ways))))
 
 
 def _bound_now(world: World, rows: Integers, left: float, reach: Floats) -> None:

@@ -13,7 +13,7 @@ from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.answered import uncounted
-from carom.systems.detection.bounds import reach_within
+from carom.systems.detection.bounds import reach_within, reaches_of
 from carom.systems.detection.narrow import measure_pairs
 from carom.systems.kernels.islands import moves
 from carom.systems.layers import Layers
@@ -77,9 +77,7 @@ class _Pair:
         self.world, self.rows, self.names = world, rows, names
         self.collider, self.pose = world[Collider], world[ColliderPose]
         self.bodies = [int(self.pose.body_row[row]) for row in rows]
-        reach = world[Flight].reach
-        self.reach = sum(float(reach[body]) for body in self.bodies if body >= 0)
-        self.reach += world[Stream].passes * sum(body < 0 or bool(world[Motion].asleep[body]) for body in self.bodies)
+        self.reach = float(reaches_of(world, np.array([rows]), world[Flight].reach)[0])
         self.flat = [int(self.collider.shape[row]) == Plane.number for row in rows]
 
     def refused(self) -> str:

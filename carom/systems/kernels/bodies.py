@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+from math import sqrt
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import IMMOVABLE
 from carom.systems.kernels.freedom import held_turned, inverse_inertia_of
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.spatial import cross, freely_turned, inverse_inertia_times, product, spun
+
+
+@woven
+def length_of(i, vectors):
+    """Return how long the vector of body i is; of none, 0."""
+    return 0.0 if i < 0 else sqrt(vectors[i, 0] ** 2 + vectors[i, 1] ** 2 + vectors[i, 2] ** 2)
 
 
 @inlined

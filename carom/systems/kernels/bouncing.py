@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from math import sqrt
-
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import ENDED, PATIENCE, REST_SPEED_FACTOR, STANDING
-from carom.systems.kernels.bodies import pressing_of
+from carom.systems.kernels.bodies import length_of, pressing_of
 from carom.systems.kernels.kernel import inlined, woven
 
 
@@ -27,12 +25,7 @@ def pressed_by_forces(a, b, nx, ny, nz, felt):
 @inlined
 def pushed(a, b, felt):
     """Return the greater of what forces do to two bodies (m/s2)."""
-    squared = 0.0
-    if a >= 0:
-        squared = felt[a, 0] ** 2 + felt[a, 1] ** 2 + felt[a, 2] ** 2
-    if b >= 0:
-        squared = max(squared, felt[b, 0] ** 2 + felt[b, 1] ** 2 + felt[b, 2] ** 2)
-    return sqrt(squared)
+    return max(length_of(a, felt), length_of(b, felt))
 
 
 @woven

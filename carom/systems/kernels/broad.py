@@ -8,6 +8,7 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import CROWD, REACH_FACTOR, REACH_SLACK, REACH_SMALL, REACH_STIRRED, STREAMS
+from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.flight import offset_of
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_columns import (
@@ -42,7 +43,7 @@ def foresee_reach(
     """
     one, three, four = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4))
     stirred = 0.0
-    find_stream(rows, dt, linear, stream)
+    find_stream(rows, dt, linear, inertia, inverse_mass, stream)
     sx, sy, sz = spread(stream[0, 0]), spread(stream[0, 1]), spread(stream[0, 2])
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
@@ -74,21 +75,24 @@ def foresee_reach(
 
 
 @woven
-def find_stream(rows, dt, linear, stream):
-    """Write the mean velocity of bodies, or 0 where they are few, hardly move, or come as far seen from there."""
+def find_stream(rows, dt, linear, inertia, inverse_mass, stream):
+    """Write the mean velocity of bodies, or 0 where nothing is gained by it.
+
+    That is where they are few, come no farther than they are large, by their least radii of gyration, or where they
+    come about as far as seen from there.
+    """
     for k in range(3):
         stream[0, k] = stream[1, k] = 0.0
         for i in rows:
             stream[0, k] += linear[i, k]
         stream[0, k] /= max(1, len(rows))
-    with_it, without = 0.0, 0.0
+    seen_from_it, ways, sizes = 0.0, 0.0, REACH_SLACK * len(rows)
     for i in rows:
-        with_it += sqrt(
-            (linear[i, 0] - stream[0, 0]) ** 2 + (linear[i, 1] - stream[0, 1]) ** 2 + (linear[i, 2] - stream[0, 2]) ** 2
-        )
-        without += sqrt(linear[i, 0] ** 2 + linear[i, 1] ** 2 + linear[i, 2] ** 2)
-    gains = with_it < STREAMS * without and without * dt > REACH_SLACK * len(rows) and len(rows) >= CROWD
-    if not gains:
+        x, y, z = linear[i, 0] - stream[0, 0], linear[i, 1] - stream[0, 1], linear[i, 2] - stream[0, 2]
+        seen_from_it += sqrt(x * x + y * y + z * z) * dt
+        ways += length_of(i, linear) * dt
+        sizes += sqrt(min(inertia[i, 0], inertia[i, 1], inertia[i, 2]) * inverse_mass[i])
+    if not (len(rows) >= CROWD and ways > sizes and seen_from_it < STREAMS * ways):
         for k in range(3):
             stream[0, k] = 0.0
 

@@ -25,7 +25,7 @@ def let_go_of_crushed(
         driven |= inverse_mass[i] == 0.0 and moves(i, linear, angular)
     if not driven:
         return False
-    reached = between(count, body_a, body_b, depth, inverse_mass, linear, angular, warm_normal)
+    reached = reached_from_both(count, body_a, body_b, depth, inverse_mass, linear, angular, warm_normal)
     crushed, some = np.zeros(len(inverse_mass), np.bool_), False
     for c in range(count):
         for i in (body_a[c], body_b[c]):
@@ -41,7 +41,7 @@ def let_go_of_crushed(
 
 
 @making
-def between(count, body_a, body_b, depth, inverse_mass, linear, angular, warm_normal):
+def reached_from_both(count, body_a, body_b, depth, inverse_mass, linear, angular, warm_normal):
     """Return of each body, and at last of nobody, whether something driven is behind it, and something that stands."""
     nobody = len(inverse_mass)
     reached = np.zeros((nobody + 1, 2), np.bool_)

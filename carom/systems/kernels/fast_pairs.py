@@ -6,6 +6,7 @@ from math import inf, sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import FAST, LEAST_FAST, TRUST
+from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.contacts import is_centred, is_free_ball
 from carom.systems.kernels.cores import AROUND, BEGIN, END, FIRST, HULL, KIND, SECOND, write_core
 from carom.systems.kernels.kernel import kernel, woven
@@ -18,12 +19,6 @@ NEVER = 1e300
 #: contact is trusted.
 NUMBERS = 4
 TRIANGLE_CORNERS = 3
-
-
-@woven
-def length_of(i, vectors):
-    """Return how long the vector of body i is; of none, 0."""
-    return 0.0 if i < 0 else sqrt(vectors[i, 0] ** 2 + vectors[i, 1] ** 2 + vectors[i, 2] ** 2)
 
 
 @woven

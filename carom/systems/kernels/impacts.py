@@ -9,10 +9,10 @@ from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, IMPACTS_AT_LEAS
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blows import blow, foresee_blow
-from carom.systems.kernels.bodies import advance_body, is_on_joint
+from carom.systems.kernels.bodies import advance_body, is_on_joint, length_of
 from carom.systems.kernels.bouncing import patience_of, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
-from carom.systems.kernels.fast_pairs import between, length_of
+from carom.systems.kernels.fast_pairs import between
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, making, woven
 from carom.systems.kernels.reach import time_within_reach

@@ -12,9 +12,10 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import CAST_GAP, MEET, MOST_LOOKS
+from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.cores import AROUND, CORE, PLACE, write_place
 from carom.systems.kernels.distance import FAR, MEETING
-from carom.systems.kernels.fast_pairs import NEVER, between, length_of
+from carom.systems.kernels.fast_pairs import NEVER, between
 from carom.systems.kernels.frames import turned, turned_back
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import MEET
-from carom.systems.kernels.fast_pairs import NEVER, between, length_of, motion_of
+from carom.systems.kernels.bodies import length_of
+from carom.systems.kernels.fast_pairs import NEVER, between, motion_of
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.spatial import cross
 
