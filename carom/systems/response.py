@@ -140,9 +140,11 @@ def drift(world: World, dt: float) -> None:
         _finish(world, dt, ended=False)
         left = dt - at
         soon = fast.look_on(world, at - before[0], left) if looks < MOST_LOOKS else inf
-        if soon > 0.0 and (at, events) != before and (reason == TO_LOOK or detection_holds(world, left)):
+        holds = soon > 0.0 and (at, events) != before and (reason == TO_LOOK or detection_holds(world, left))
+        looks += not holds or events == before[1]  # there is an end to impacts anyway
+        if holds:
             continue
-        soon, looks = None, looks + 1
+        soon = None
         world[Landings].tell(world, dt)
         world[Resting].hand_over(world)
         detect_again(world, left)

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from carom.ecs import Collider, Transform, state_hash
-from carom.systems.constants import TRUST
+from carom.systems.constants import MOST_LOOKS, TRUST
+from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.simulation import Simulation
 
@@ -60,6 +61,23 @@ def test_there_is_an_end_to_looks(monkeypatch: pytest.MonkeyPatch) -> None:
         simulation.step()
         assert answered.detections - before <= simulation.settings.substeps * (most + for_reach)
     assert answered.looks_cut > 0
+
+
+def test_there_is_an_end_to_looks_at_which_nobody_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A pull that may take a body anywhere lets nobody trust what is found for longer than it has just come."""
+    simulation = Simulation(gravity=(0.0, -9.81, 0.0), dt=1.0 / 240.0)
+    simulation.add(collider=CUBE, body={"mass": 1.0, "gravity_scale": -1e30}, transform={"position": (-0.65, 0.3, 0.0)})
+    simulation.add(collider={"box": {"size": (2.4, 0.1, 0.3)}}, transform={"position": (0.0, 2.05, 0.0)})
+    looks, look_on = [], Fast.look_on
+
+    def counted(*arguments: Any) -> float:
+        looks.append(1)
+        assert len(looks) <= simulation.settings.substeps * MOST_LOOKS
+        return look_on(*arguments)
+
+    monkeypatch.setattr(Fast, "look_on", counted)
+    simulation.step()
+    assert looks and simulation.world[Answered].looks_cut > 0
 
 
 def test_a_crowd_goes_the_same_way_whether_somebody_looks_on_or_not() -> None:
