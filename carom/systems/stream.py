@@ -13,11 +13,13 @@ class Stream(Resource):
 
     ``motion`` (2, 3) is its velocity (m/s) and its way (m) since detection. What stands and who sleeps ``passes`` by as
     far (m) within what is foreseen. There is none, as zeros say, where few are awake, where not nearly all of them go
-    one way, or where they come no farther than they are large. Made anew in each detection.
+    one way, or where they come no farther than they are large. Made anew in each detection; ``gone`` (3,) is how far
+    (m) streams went before.
     """
 
     def __init__(self) -> None:
         self.motion: Floats = np.zeros((2, 3))
+        self.gone: Floats = np.zeros(3)
         self.passes = 0.0
 
     def flow(self, span: float) -> None:

@@ -13,6 +13,7 @@ from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import overlapping
 from carom.systems.shapes.plane import Plane
 from carom.systems.simulation import Simulation
+from carom.systems.stream import Stream
 
 DT = 1 / 60
 
@@ -37,7 +38,7 @@ def brute_force(world: World) -> Integers:
         normal = quaternion.rotate(pose.rotation[rows[k]], collider.size[rows[k], :3])
         corners = np.where(normal > 0.0, lower, upper) - pose.position[rows[k]]
         along = np.where(normal == 0.0, 0.0, corners) * normal
-        meets[k] = meets[:, k] = along.sum(axis=1) <= collider.size[rows[k], 3]
+        meets[k] = meets[:, k] = along.sum(axis=1) <= collider.size[rows[k], 3] + world[Stream].passes
     accepted = (mask[:, None] & layer[None]) != 0
     meets &= accepted & accepted.T & (body[:, None] != body[None]) & ~(sensor[:, None] & sensor[None])
     a, b = np.nonzero(np.triu(meets, 1))

@@ -12,13 +12,16 @@ from hypothesis import strategies as st
 from pairs import turns
 
 from carom.ecs import Collider, Motion, RigidBody, Transform, World, restore_snapshot, state_hash, take_snapshot
+from carom.systems.constants import AHEAD, FEW_BESIDE
 from carom.systems.detection.broad import BroadPhase
 from carom.systems.shapes.plane import Plane
 from carom.systems.simulation import Simulation
+from carom.systems.stream import Stream
 
 LAYERS = ("default", "left", "right", "ghost", "none")
 ORIGINS = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (-3.0, 5.0, 1.0), (1e5, 0.0, 0.0), (1e8, -1e8, 1e8))
 Random = np.random.Generator
+END: dict[str, Any] = {"collider": {"plane": {"normal": (-1.0, 0.0, 0.0), "offset": -18.0}}}  # of all, at x = 18 m
 
 
 def any_collider(generator: Random) -> dict[str, Any]:
@@ -114,6 +117,39 @@ def test_the_pairs_are_those_of_brute_force(seed: int, count: int, spread: float
     assert pairs_now(simulation.world).tobytes() == found.tobytes()
 
 
+def move_along(simulation: Simulation, velocity: Any) -> None:
+    """Have the first 64 fly with one velocity."""
+    with simulation.world.edit(Motion) as motion:
+        motion.linear[:64] = velocity
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_pairs_are_those_of_brute_force_in_streams(seed: int) -> None:
+    """Of a crowd that flies now this way and now that, or falls, past others, who are few or many."""
+    generator = np.random.default_rng(seed)
+    simulation = crowd(64, spread=1.0, seed=seed)
+    move_along(simulation, (30.0, 0.0, 0.0))
+    world, saved, flew = simulation.world, [take_snapshot(simulation.world)], 0
+    for _ in range(40):
+        what = generator.integers(8)
+        if what == 0:
+            move_along(simulation, generator.normal(size=3) * 10.0 ** generator.uniform(-1.0, 3.0))
+        elif what == 1:
+            move_along(simulation, (0.0, 0.0, 0.0))
+        elif what in {2, 3}:
+            place = world[Transform].position[:64].mean(axis=0) + generator.normal(size=3) * 8.0
+            moves = {} if what == 2 else {"body": {}}
+            simulation.add(collider={"sphere": {"radius": 1.0}}, transform={"position": place}, visual=False, **moves)
+        elif what == 4:
+            saved.append(take_snapshot(world))
+        elif what == 5 and generator.random() < 0.3:
+            restore_snapshot(world, saved[generator.integers(len(saved))])
+        simulation.step()
+        agree(world)
+        flew += bool(world[Stream].motion[0].any())
+    assert flew
+
+
 def test_a_settled_crowd_is_not_looked_up_again() -> None:
     """Within their fat bounds nothing is; a few that leave are looked up alone; with many all is built anew."""
     simulation = crowd(400, spread=0.9)
@@ -133,6 +169,68 @@ def test_a_settled_crowd_is_not_looked_up_again() -> None:
     agree(simulation.world)
     assert cache.index is not index
     assert not len(cache.index.strays)
+
+
+def tumbling(speed: float, *others: dict[str, Any]) -> Simulation:
+    """Return 125 boxes that tumble and fly along x, 3 m from each other, among others that they pass through."""
+    simulation, random = Simulation(gravity=(0.0, 0.0, 0.0)), np.random.default_rng(2)
+    for place in 3.0 * np.stack(np.unravel_index(np.arange(125), (5, 5, 5)), axis=1):
+        simulation.add(
+            collider={"box": {"size": (0.6, 0.4, 0.2)}}, body={}, transform={"position": place},
+            motion={"linear": random.uniform((speed - 0.2, -0.2, -0.2), (speed + 0.2, 0.2, 0.2)),
+                    "angular": random.uniform(-2.0, 2.0, 3)},
+        )  # fmt: skip
+    for other in others:
+        simulation.add(**other)
+    agree(simulation.world)
+    return simulation
+
+
+def gate(x: float) -> dict[str, Any]:
+    """Return a gate there (m), through which they fly."""
+    return {"collider": {"box": {"size": (0.5, 20.0, 20.0)}, "sensor": True}, "transform": {"position": (x, 0.0, 0.0)}}
+
+
+def widths(simulation: Simulation) -> Any:
+    """Return how wide (m) the fat bounds of those who tumble are."""
+    cache = simulation.world[BroadPhase]
+    return (cache.fat_upper - cache.fat_lower)[:125]
+
+
+def test_who_tumbles_stays_within_its_fat_bounds() -> None:
+    """For as many steps as they are made for, or half of that where a box comes to be twice as wide."""
+    simulation = tumbling(0.0)
+    index = simulation.world[BroadPhase].index
+    for _ in range(int(0.5 * AHEAD)):
+        simulation.step()
+        agree(simulation.world)
+    assert simulation.world[BroadPhase].index is index
+    assert not len(index.strays)
+
+
+@pytest.mark.parametrize("speed", [20.0, 60.0, 300.0])
+def test_who_goes_along_in_a_stream_stays_within_them_too(speed: float) -> None:
+    """The few whom the others pass are looked up in every step, and met in time."""
+    simulation = tumbling(speed, *(gate(x) for x in (15.0, 25.0, 60.0)))
+    index, gates, met = simulation.world[BroadPhase].index, {125, 126, 127}, set()
+    assert widths(simulation) == pytest.approx(widths(tumbling(0.0)), abs=0.01)
+    for _ in range(int(0.5 * AHEAD)):
+        simulation.step()
+        met |= set(agree(simulation.world).ravel().tolist())
+    assert simulation.world[BroadPhase].index is index
+    assert set(index.strays.tolist()) <= gates
+    assert 125 in met
+
+
+@pytest.mark.parametrize("others", [[gate(15.0 + x) for x in range(FEW_BESIDE + 1)], [END]])
+def test_bounds_do_not_go_along_where_many_stand_or_a_half_space(others: list[dict[str, Any]]) -> None:
+    """As seen from the stream these would come on and on; they stay where they are, and who flies is looked up."""
+    simulation, met = tumbling(60.0, *others), set()
+    for _ in range(8):
+        simulation.step()
+        met |= set(agree(simulation.world).ravel().tolist())
+        assert max(simulation.world[BroadPhase].index.strays, default=0) < 125
+    assert 125 in met
 
 
 def test_a_plane_that_moves_is_noticed() -> None:

@@ -35,9 +35,9 @@ REACH_FACTOR = 1.25
 # the cube of it. Smaller: bodies leave their fat bounds sooner and are looked up anew.
 FAT = 0.05
 
-# Steps for which it sees a bound on the way that it goes, and up to which part of its least extent. Larger: more pairs
-# are kept in vain. Smaller: whoever flies is looked up anew in every step.
-AHEAD, MOST_AHEAD = 4.0, 0.5
+# Steps for which it sees a bound on the way that it goes and turns, and up to which part of its least extent. Larger:
+# more pairs are kept in vain. Smaller: whoever flies or tumbles is looked up anew every few steps.
+AHEAD, MOST_AHEAD = 16.0, 0.5
 
 # Sizes that may share a grid, in quarters of a power of two: within a factor of four. More: small bodies crowd in cells
 # made for large ones. Fewer: more bodies are in the tree, which is slower.
@@ -54,3 +54,7 @@ MOST_ASTRAY = 0.125
 
 # Rows that may in any case, since testing these one by one costs a tenth of building anything.
 FEW_ASTRAY = 64
+
+# Colliders that may stand or sleep beside a stream with which the pair cache goes along, in which they are looked up in
+# every step. More: crowds that come to rest are looked up one by one. Fewer: who falls over a few walls is.
+FEW_BESIDE = 16

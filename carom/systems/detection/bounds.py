@@ -30,6 +30,7 @@ def reach_within(world: World, dt: float) -> None:
     transform, motion, body, flight = world[Transform], world[Motion], world[RigidBody], world[Flight]
     stream = world[Stream]
     pull = sqrt(sum(g * g for g in world[Settings].gravity))
+    stream.gone += stream.motion[1]
     foresee_reach(
         world[Awake].now(world), dt, pull, transform.position, transform.rotation, motion.linear,
         body.center_of_mass, body.inertia, body.inverse_mass, motion.linear_acceleration,

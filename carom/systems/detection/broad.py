@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Motion, RigidBody, World
-from carom.ecs.column import Booleans, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.systems.awake import Awake
-from carom.systems.constants import FEW_ASTRAY, MOST_ASTRAY
+from carom.systems.constants import FEW_ASTRAY, FEW_BESIDE, MOST_ASTRAY
 from carom.systems.detection.broad_index import Index
 from carom.systems.kernels.broad_cache import REBUILD, find_leavers, find_met, keep_overlapping
 from carom.systems.kernels.broad_pairs import renew_pairs
@@ -21,6 +21,7 @@ from carom.systems.stream import Stream
 from carom.systems.threads import crew_for
 
 NOBODY: Integers = np.array([-1])
+STAYS: Floats = np.zeros((2, 3))
 
 
 def overlapping(world: World) -> Integers:
@@ -59,7 +60,8 @@ class BroadPhase(Resource):
 
     Those that meet nobody, by their layer or mask, are looked up as little as if they were not there.
 
-    Rows are compared with what they were when they were looked up, so nobody has to tell it of a change.
+    Rows are compared with what they were when they were looked up, so nobody has to tell it of a change. Where all but
+    a few go along in a `Stream`, fat bounds do so too, and only those few leave theirs.
     """
 
     def __init__(self) -> None:
@@ -71,6 +73,7 @@ class BroadPhase(Resource):
         """Forget everything; the next detection finds the same pairs from nothing."""
         self.rows: Integers = NOBODY  # also a world without colliders is new
         self._flat, self._comes = NOBODY[:0], 0.0
+        self._goes_along, self._set_out = False, np.zeros(3)
         self._watched: tuple[Integers, Integers, Integers] | None = None
 
     def watched(self, world: World) -> Integers:
@@ -128,21 +131,35 @@ class BroadPhase(Resource):
         return world[Stream].passes + float(np.where(bodies < 0, 0.0, world[Flight].reach[bodies]).max())
 
     def _found_anew(self, world: World) -> Integers:
-        self._leavers(world, anew=True)
         self._flat = self.rows[world[Collider].shape[self.rows] == Plane.number]
+        self._goes_along, self._set_out = self._flows(world), world[Stream].gone.copy()
+        self._leavers(world, anew=True)
         self._comes = 2.0 * self._half_spaces_come(world)  # so that it is not left at once
         self.index = Index(world, self.rows, self.fat_lower, self.fat_upper, self.known, self._comes)
         self.pairs = self.index.all_pairs(world)
         return self.pairs
+
+    def _flows(self, world: World) -> bool:
+        """Tell whether there is a stream that all but a few go along in, and no half space that comes on and on."""
+        stream = world[Stream]
+        if len(self._flat) or not (stream.motion[0].any() and np.isfinite(stream.gone).all()):
+            return False
+        body = world[ColliderPose].body_row[self.rows]
+        return int(np.count_nonzero((body < 0) | world[Motion].asleep[body])) <= FEW_BESIDE
+
+    def _frame(self, world: World) -> Floats:
+        stream = world[Stream]
+        return np.stack((stream.motion[0], stream.gone - self._set_out)) if self._goes_along else STAYS
 
     def _leavers(self, world: World, *, anew: bool = False) -> Integers | None:
         """Give those new fat bounds who need them and return their rows; None where everyone is to be found anew."""
         collider, pose = world[Collider], world[ColliderPose]
         leavers: Integers = np.empty(len(self.rows), np.int64)
         count = find_leavers(
-            anew, self.rows, collider.shape, collider.size, pose.body_row, world[RigidBody].inverse_mass,
-            collider.layer, collider.mask, collider.sensor, pose.position, pose.rotation, pose.lower, pose.upper,
-            world[Motion].linear, world[Settings].dt,
+            anew, self.rows, collider.shape, collider.size, collider.bound_half, collider.bound_radius, pose.body_row,
+            world[RigidBody].inverse_mass, collider.layer, collider.mask, collider.sensor,
+            pose.position, pose.rotation, pose.lower, pose.upper,
+            world[Motion].linear, world[Motion].angular, world[Flight].reach, world[Settings].dt, self._frame(world),
             self.fat_lower, self.fat_upper, self.known, self.seat, leavers,
         )  # fmt: skip
         return None if count == REBUILD else leavers[:count]

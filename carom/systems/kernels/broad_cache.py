@@ -6,6 +6,7 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import AHEAD, FAT, MOST_AHEAD
+from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.frames import turned
 from carom.systems.kernels.kernel import kernel, woven
@@ -44,13 +45,15 @@ def find_met(rows, layer, mask, met):
 
 @kernel("fat_lower", "fat_upper", "known", "seat", "leavers")
 def find_leavers(
-    anew, rows, shape, size, body_row, inverse_mass, layer, mask, sensor, pose_position, pose_rotation, lower, upper,
-    linear, dt, fat_lower, fat_upper, known, seat, leavers,
+    anew, rows, shape, size, bound_half, bound_radius, body_row, inverse_mass, layer, mask, sensor,
+    pose_position, pose_rotation, lower, upper, linear, angular, reach, dt, frame,
+    fat_lower, fat_upper, known, seat, leavers,
 ):  # fmt: skip
     """Write the rows that left their fat bounds or whose pairs others may be now, with new fat bounds; count them.
 
     Returns REBUILD where that is not enough: a half space moved, or a row became one, or bounds have no end. ``anew``
-    takes every row for a leaver. Fat bounds reach on the way that a body goes, which it will not leave at once again.
+    takes every row for a leaver. Fat bounds reach on the way that a body goes, which it will not leave at once again,
+    and around one that turns. They are in a ``frame`` (2, 3) that moves, as its velocity (m/s) and where it is (m) say.
     Two of which nothing can push either are no pair: `known` has one flag for them.
     """
     count = 0
@@ -66,9 +69,10 @@ def find_leavers(
             if flat:
                 same &= pose_position[i, k] == seat[i, k]
             else:
-                same &= (fat_lower[i, k] <= lower[i, k]) & (upper[i, k] <= fat_upper[i, k])
+                low, high = lower[i, k] - frame[1, k], upper[i, k] - frame[1, k]
+                same &= (fat_lower[i, k] <= low) & (high <= fat_upper[i, k])
                 ends &= (fat_lower[i, k] > -ENDLESS) & (fat_upper[i, k] < ENDLESS)
-                ends &= (lower[i, k] > -ENDLESS) & (upper[i, k] < ENDLESS)
+                ends &= (low > -ENDLESS) & (high < ENDLESS)
                 least = min(least, upper[i, k] - lower[i, k])
         if flat:
             for k in range(4):
@@ -77,12 +81,18 @@ def find_leavers(
             continue
         if not (ends or anew):
             return REBUILD
-        margin = 0.5 * FAT * least if ends else 0.0
+        diagonal = length_of(i, bound_half)
+        turning = dt * length_of(b, angular) * diagonal
+        widest = bound_radius[i] + diagonal + turning + (reach[b] if b >= 0 else 0.0)  # as `place_bounds` has it
         for k in range(3):
-            way = AHEAD * dt * linear[b, k] if ends and b >= 0 else 0.0
-            way = max(-MOST_AHEAD * least, min(way, MOST_AHEAD * least)) if way != 0.0 else 0.0
-            fat_lower[i, k] = lower[i, k] - margin + min(way, 0.0)
-            fat_upper[i, k] = upper[i, k] + margin + max(way, 0.0)
+            margin, way = 0.0, 0.0
+            if ends:
+                turns = min(AHEAD * turning, MOST_AHEAD * least, widest - 0.5 * (upper[i, k] - lower[i, k]))
+                margin = 0.5 * FAT * least + max(0.0, turns)
+                way = AHEAD * dt * ((linear[b, k] if b >= 0 else 0.0) - frame[0, k])
+                way = max(-MOST_AHEAD * least, min(way, MOST_AHEAD * least)) if way != 0.0 else 0.0
+            fat_lower[i, k] = lower[i, k] - frame[1, k] - margin + min(way, 0.0)
+            fat_upper[i, k] = upper[i, k] - frame[1, k] + margin + max(way, 0.0)
             if flat:
                 seat[i, k] = pose_position[i, k]
         if flat:
