@@ -17,6 +17,7 @@ from carom.systems.kernels.fast_pairs import (
     TRIANGLE_CORNERS,
     find_far,
     find_fast,
+    find_trusts,
     let_go,
     place_fast,
 )
@@ -42,11 +43,18 @@ class Fast(Resource):
         """The pairs (n, 2) of collider rows that are looked after, a mesh first."""
         return self.all.pairs[self.all.asked]
 
-    def find(self, world: World, pairs: Integers, found: Found, span: float) -> None:
-        """Find who of ``pairs`` (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them."""
-        collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
-        center = world[Flight].detected_center
+    def find(self, world: World, pairs: Integers, free: Integers, found: Found, span: float) -> None:
+        """Find who of ``pairs`` (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them.
+
+        So are pairs of two that are ``free`` (m, 2), which `without_passing` tells.
+        """
+        pose, motion, center = world[ColliderPose], world[Motion], world[Flight].detected_center
         fast, numbers = fast_of(world, pairs, span)
+        if len(free):
+            free, free_numbers = fast_of(world, free, span, free=True)
+            fast, numbers = np.concatenate([fast, free]), np.concatenate([numbers, free_numbers])
+            order = np.lexsort(fast.T[::-1])
+            fast, numbers = fast[order], numbers[order]
         size = len(motion.asleep)
         if self._limited or len(self.trusts) != size:
             self.trusts, self._limited = np.tile([np.inf, *np.zeros(5)], (size, 1)), False
@@ -55,14 +63,8 @@ class Fast(Resource):
             return
         self.all = FastPairs.of(fast, Looked.room(numbers), motion.linear, motion.angular)
         given, reaches = fast.copy(), numbers.copy()
-        hulls, meshes = world[PackedHulls].holding(world), world[PackedMeshes].holding(world)
-        room = np.concatenate([hulls.vertices, np.zeros((TRIANGLE_CORNERS, 3))])
-        self.land, self._limited = Land(meshes.bounds, meshes.nodes, meshes.triangles, room), True
-        place_fast(
-            fast, collider.shape, collider.size, collider.geometry, pose.body_row, pose.position, pose.rotation,
-            center, world[Transform].rotation, motion.linear, motion.angular, hulls, meshes.root, *self.all.looked,
-            self.trusts,
-        )  # fmt: skip
+        self.land, self._limited = look_at(world, fast, center, self.all.looked), True
+        find_trusts(self.all.looked.bodies, numbers, motion.linear, motion.angular, self.trusts)
         times, agrees = self._times(world, center, span, found=True), np.empty(len(fast), np.bool_)
         find_agreeing(
             given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
@@ -119,14 +121,29 @@ class Fast(Resource):
         return times
 
 
-def fast_of(world: World, pairs: Integers, span: float) -> tuple[Integers, Floats]:
-    """Return who of ``pairs`` (n, 2) is fast enough within ``span`` seconds to be looked after, and their numbers."""
+def look_at(world: World, fast: Integers, center: Floats, looked: Looked) -> Land:
+    """Write what is ``looked`` at of pairs (n, 2), bodies at their ``center``; return the land they fly over."""
+    collider, pose = world[Collider], world[ColliderPose]
+    hulls, meshes = world[PackedHulls].holding(world), world[PackedMeshes].holding(world)
+    place_fast(
+        fast, collider.shape, collider.size, collider.geometry, pose.body_row, pose.position, pose.rotation,
+        center, world[Transform].rotation, hulls, meshes.root, *looked,
+    )  # fmt: skip
+    room = np.concatenate([hulls.vertices, np.zeros((TRIANGLE_CORNERS, 3))])
+    return Land(meshes.bounds, meshes.nodes, meshes.triangles, room)
+
+
+def fast_of(world: World, pairs: Integers, span: float, *, free: bool = False) -> tuple[Integers, Floats]:
+    """Return who of ``pairs`` (n, 2) is fast enough within ``span`` seconds to be looked after, and their numbers.
+
+    They are of a body and what nothing moves, or of one that is continuous; those of others if they are to be ``free``.
+    """
     fast, numbers = np.empty_like(pairs), np.empty((len(pairs), NUMBERS))
     if not len(pairs):
         return fast, numbers
     collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
     count = find_fast(
-        pairs, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
+        pairs, free, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
         collider.bound_radius, pose.position, pose.body_row, world[Flight].detected_center, body.inverse_mass,
         body.continuous, motion.linear, motion.angular, fast, numbers,
     )  # fmt: skip

@@ -17,9 +17,9 @@ EVENTS = (Impact, Hit, Enter, Exit, ContactBegin, ContactEnd, JointBreak)
 class Progress(Resource):
     """Simulated time at the start of the substep, what the step has left after it (s), and its resting manifolds.
 
-    Where it is ``crowded``, so many may meet within the step that detection foresees a substep only. Once it has
-    ``gone_on`` nothing is left to do in the substep, but where its flight has ``stopped``: when, why, after how many
-    impacts.
+    Where it is ``crowded``, so many may meet within the step that detection foresees a substep only. There were so many
+    ``detections`` in the step. Once it has ``gone_on`` nothing is left to do in the substep, but where its flight has
+    ``stopped``: when, why, after how many impacts.
     """
 
     clock: float = 0.0
@@ -28,6 +28,7 @@ class Progress(Resource):
     resting: int = 0
     crowded: bool = False
     gone_on: bool = False
+    detections: int = 0
     stopped: tuple[float, int, int] | None = None
 
     def come_to(self, substep: int, dt: float, world: World) -> None:
@@ -47,7 +48,7 @@ class Progress(Resource):
 def begin_step(world: World, dt: float) -> None:
     """Forget the events of the step before and set the clock."""
     progress = world[Progress]
-    progress.substep, progress.crowded = 0, False
+    progress.substep, progress.crowded, progress.detections = 0, False, 0
     for kind in EVENTS:
         if world[kind].count:
             world.resize(kind, 0)

@@ -9,11 +9,15 @@ import numba
 import numpy as np
 
 from carom.ecs import Collider, Motion
+from carom.ecs.components.flight import Flight
 from carom.systems.constants import SLEEP_TIME
 from carom.systems.detection.apart import Apart
 from carom.systems.detection.leaving import detection_holds
+from carom.systems.detection.narrow import Found
 from carom.systems.grouping import group_contacts
+from carom.systems.kernels.fast_pairs import NUMBERS
 from carom.systems.kernels.stored import NotStoredError, only_stored
+from carom.systems.passing import seeming, without_seeming
 from carom.systems.step import STEP
 
 if TYPE_CHECKING:
@@ -36,7 +40,7 @@ class Rehearsal:
     def hold(cls, simulation: Simulation) -> None:
         """Let balls and boxes of an empty simulation rest, strike, be too fast for their size, fall asleep and wake.
 
-        One body has two colliders side by side, and two are said to be apart.
+        One body has two colliders side by side, two are said to be apart, and some to be many that pass by.
         """
         cls.due = False
         simulation.schedule = STEP  # without what extensions have placed in it, which knows nothing of this
@@ -57,6 +61,9 @@ class Rehearsal:
             with simulation.world.faces(None):
                 detection_holds(simulation.world, 1.0)  # for somebody it does not
                 apart, pair = simulation.world[Apart], simulation.world.row_numbers(Collider)[None, :2]
+                none, center = Found.room(0), simulation.world[Flight].center
+                seeming(simulation.world, none, 1.0, center)
+                without_seeming(simulation.world, none, 1.0, center, pair, np.ones((1, NUMBERS)))
                 apart.many = True
                 apart.note(apart.without(simulation.world, pair, np.ones(1))[0], np.zeros(1, np.int64), np.ones(1))
                 group_contacts(simulation.world, same=True)

@@ -19,6 +19,10 @@ MEET = 0.25
 # past others are given up before they meet; those are counted.
 MOST_LOOKS = 64
 
+# Pairs of two fast bodies that can both be pushed, up to which they are looked after, and detections in a step up to
+# which they are. More: clouds of fragments are detected again and again. Fewer: some turn off by a tenth.
+FEW_MEETING = 8
+
 # m/s. A body no point of which is faster may fall asleep, with its island. Larger: what rolls out slowly stops short.
 # Smaller: tall piles, of which cubes tremble by a tenth of this, stay awake longer.
 SLEEP_SPEED = 0.03

@@ -30,6 +30,7 @@ from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.crushing import let_go_of_crushed
 from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.kernels.renewal import renew_contacts
+from carom.systems.passing import without_passing
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
@@ -75,7 +76,7 @@ def detect(world: World, left: float, soon: float) -> None:
     sleeps and is found by somebody who does not is woken, and looked for in turn.
     """
     progress, pose = world[Progress], world[ColliderPose]
-    world[Answered].detections += 1
+    world[Answered].detections, progress.detections = world[Answered].detections + 1, progress.detections + 1
     while True:
         pairs = world[Ties].without_joined(world, without_sensors(world, overlapping(world)))
         if len(pairs) and soon < left and len(pairs) > CROWDED * np.count_nonzero(np.bincount(pairs.ravel())):
@@ -83,11 +84,11 @@ def detect(world: World, left: float, soon: float) -> None:
             reach_within(world, left)
             pose.moved[:] |= moved  # nothing has since it was placed just now, but since the step before
             continue
-        found = find(world, pairs)
+        found, free = without_passing(world, find(world, pairs), left, world[Flight].detected_center)
         if not rouse(world, found):
             break
         reach_within(world, left)
-    world[Fast].find(world, pairs, found, left)
+    world[Fast].find(world, pairs, free, found, left)
     store(world, without_seams(world, world[Fast].trusted(found)))
 
 

@@ -18,6 +18,7 @@ from carom.systems.detection.narrow import Found, measure_pairs
 from carom.systems.detection.seams import without_seams
 from carom.systems.kernels.broad_pairs import pairs_of
 from carom.systems.kernels.reach import find_leaving, find_ways, widen_reach
+from carom.systems.passing import without_passing
 from carom.systems.progress import Progress
 from carom.systems.stream import Stream
 from carom.systems.ties import Ties
@@ -66,7 +67,9 @@ def _meet_nobody_new(world: World, leaving: Integers, left: float) -> bool:
     _bound_now(world, colliders, left, ways)
     if len(fast_of(world, pairs, left)[0]):
         return False
-    return _are_known(world, without_seams(world, measure_pairs(world, pairs, reaches_of(world, pairs, ways))))
+    found = measure_pairs(world, pairs, reaches_of(world, pairs, ways))
+    found, _ = without_passing(world, found, left, flight.center)
+    return _are_known(world, without_seams(world, found))
 
 
 def _bound_now(world: World, rows: Integers, left: float, reach: Floats) -> None:

@@ -70,9 +70,30 @@ def reach_of(c, i, local_position, bound_center, bound_half, position, center):
     return sqrt(away) + sqrt(off) + sqrt(half)
 
 
+@kernel()
+def some_are_fast(span, rows, bound_half, bound_radius, position, body_row, center, inverse_mass, linear, angular):
+    """Tell whether two bodies that can be pushed may be fast, within ``span`` seconds, as the fastest and smallest are.
+
+    Most often none are, and their pairs need not be gone through.
+    """
+    smallest, speed, spin, lever = NEVER, 0.0, 0.0, 0.0
+    for c in rows:
+        i = body_row[c]
+        if i >= 0 and inverse_mass[i] > 0.0:
+            extent = min(bound_half[c, 0], bound_half[c, 1], bound_half[c, 2]) + bound_radius[c]
+            smallest, away, half = min(smallest, max(LEAST_FAST, extent)), 0.0, 0.0
+            for k in range(3):
+                away += (position[c, k] - center[i, k]) ** 2
+                half += bound_half[c, k] ** 2
+            lever = max(lever, sqrt(away) + sqrt(half) + bound_radius[c])
+            speed, spin = max(speed, length_of(i, linear)), max(spin, length_of(i, angular))
+    way = (2.0 * speed + 4.0 * spin * lever) * span  # either turns, and moves what is out there with it
+    return way * (1.0 + spin * span) > FAST * smallest
+
+
 @kernel("fast", "numbers")
 def find_fast(
-    pairs, span, shape, local_position, bound_center, bound_half, bound_radius, position, body_row, center,
+    pairs, free, span, shape, local_position, bound_center, bound_half, bound_radius, position, body_row, center,
     inverse_mass, continuous, linear, angular, fast, numbers,
 ):  # fmt: skip
     """Write which pairs are to be looked after within ``span`` seconds, and their numbers; return how many.
@@ -85,7 +106,7 @@ def find_fast(
         a, b = pairs[p, 0], pairs[p, 1]
         i, o = body_row[a], body_row[b]
         free_a, free_b = i >= 0 and inverse_mass[i] > 0.0, o >= 0 and inverse_mass[o] > 0.0
-        if free_a and free_b and not (continuous[i] or continuous[o]):
+        if free != (free_a and free_b and not (continuous[i] or continuous[o])):
             continue
         if shape[a] == PLANE_SHAPE or shape[b] == PLANE_SHAPE:
             continue
@@ -112,17 +133,15 @@ def find_fast(
     return count
 
 
-@kernel("pairs", "bodies", "numbers", "cores", "roots", "position", "rotation", "trusts")
+@kernel("pairs", "bodies", "numbers", "cores", "roots", "position", "rotation")
 def place_fast(
-    pairs, shape, size, geometry, body_row, pose_position, pose_rotation, center, body_rotation, linear, angular, hulls,
-    root, bodies, numbers, cores, roots, position, rotation, trusts,
+    pairs, shape, size, geometry, body_row, pose_position, pose_rotation, center, body_rotation, hulls,
+    root, bodies, numbers, cores, roots, position, rotation,
 ):  # fmt: skip
     """Put the mesh of a pair first, and write what both shapes are around, and where they are.
 
     They are in the frames of their ``bodies``, or in the world. Of a mesh there is where its tree begins, and the room
-    behind the vertices of all hulls for those of one triangle at a time. Of each body there is how far its contacts are
-    trusted (m), how far it reaches from its centre (m), and how fast those are whom it may meet (m/s), as seen from the
-    first of them, whose velocity is the rest; a ball about its body's centre turns without effect.
+    behind the vertices of all hulls for those of one triangle at a time.
     """
     for p in range(len(pairs)):
         if shape[pairs[p, 1]] == MESH_SHAPE or shape[pairs[p, 1]] == FIELD_SHAPE:
@@ -145,16 +164,30 @@ def place_fast(
                 bx, by, bz, bw = -body_rotation[i, 0], -body_rotation[i, 1], -body_rotation[i, 2], body_rotation[i, 3]
                 x, y, z = turn(bx, by, bz, bw, x - center[i, 0], y - center[i, 1], z - center[i, 2])
                 q = product(bx, by, bz, bw, q[0], q[1], q[2], q[3])
-                o = body_row[pairs[p, 1 - side]]
-                for k in range(3 if trusts[i, 0] == inf and o >= 0 else 0):
-                    trusts[i, 3 + k] = linear[o, k]
-                trusts[i, 0] = min(trusts[i, 0], numbers[p, 3])
-                trusts[i, 1] = max(trusts[i, 1], numbers[p, side])
-                comes = between(o, i, linear, trusts[:, 3:]) + length_of(o, angular) * numbers[p, 1 - side]
-                trusts[i, 2] = max(trusts[i, 2], comes)
             position[p, side, 0], position[p, side, 1], position[p, side, 2] = x, y, z
             for k in range(4):
                 rotation[p, side, k] = q[k]
+
+
+@kernel("trusts")
+def find_trusts(bodies, numbers, linear, angular, trusts):
+    """Write of each body of these pairs how far it is trusted to go, how far it reaches, and how fast others come.
+
+    That is how far its contacts are trusted (m), how far it reaches from its centre (m), and how fast those are whom it
+    may meet (m/s), as seen from the first of them, whose velocity is the rest; a ball about its body's centre turns
+    without effect.
+    """
+    for p in range(len(bodies)):
+        for side in range(2):
+            i, o = bodies[p, side], bodies[p, 1 - side]
+            if i < 0:
+                continue
+            for k in range(3 if trusts[i, 0] == inf and o >= 0 else 0):
+                trusts[i, 3 + k] = linear[o, k]
+            trusts[i, 0] = min(trusts[i, 0], numbers[p, 3])
+            trusts[i, 1] = max(trusts[i, 1], numbers[p, side])
+            comes = between(o, i, linear, trusts[:, 3:]) + length_of(o, angular) * numbers[p, 1 - side]
+            trusts[i, 2] = max(trusts[i, 2], comes)
 
 
 @woven

@@ -55,6 +55,7 @@ def compile_measuring() -> None:
     import numpy as np
 
     from carom.ecs import Collider, Motion
+    from carom.ecs.components.flight import Flight
     from carom.systems.detection.apart import Apart
     from carom.systems.detection.leaving import detection_holds
     from carom.systems.detection.manifolds import reduce_points
@@ -65,6 +66,7 @@ def compile_measuring() -> None:
     from carom.systems.kernels.lanes import WIDTH, aligned
     from carom.systems.kernels.manifolds import part_masses
     from carom.systems.kernels.recycling import merge_contacts
+    from carom.systems.passing import seeming, without_passing, without_seeming
     from carom.systems.shapes.geometry import hull_of
     from carom.systems.shapes.mesh import Mesh
     from carom.systems.simulation import Simulation
@@ -88,6 +90,9 @@ def compile_measuring() -> None:
         found = without_seams(world, measure_pairs(world, pairs, np.ones(len(pairs))))
         world[Motion].linear[:] = 1.0
         detection_holds(world, 1.0)  # with everybody leaving
+        without_passing(world, found, 1.0, world[Flight].center)
+        seeming(world, found, 1.0, world[Flight].center)
+        without_seeming(world, found, 1.0, world[Flight].center, pairs[-1:].copy(), np.ones((1, NUMBERS)))
         apart = world[Apart]
         apart.many = True
         apart.without(world, pairs, np.ones(len(pairs)))

@@ -1,0 +1,79 @@
+"""Passing: bodies that fly past each other are not struck by contacts that only seem to close."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from carom.ecs import Collider, ColliderPose, Motion, RigidBody, Transform, World
+from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.components.flight import Flight
+from carom.systems.constants import FEW_MEETING, MEET
+from carom.systems.continuous import fast_of, look_at
+from carom.systems.detection.narrow import Found
+from carom.systems.kernels.fast_pairs import NEVER, find_far, some_are_fast
+from carom.systems.kernels.meeting import foresee_meetings
+from carom.systems.kernels.trust import find_agreeing, find_closing, find_nearing
+from carom.systems.looked import Looked
+from carom.systems.progress import Progress
+
+
+def without_passing(world: World, found: Found, span: float, center: Floats) -> tuple[Found, Integers]:
+    """Return what is found without what only seems to close within ``span`` seconds, and who is to be looked after.
+
+    Asked are pairs (n, 2) of two that can both be pushed and come far for their size, their centres at ``center``. They
+    are looked after where they meet otherwise than contacts say, followed straight on, where only a few may meet, and a
+    few times in a step. Of many only those are looked at who seem to meet.
+    """
+    collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
+    pairs: Integers = np.empty((len(found.row_a), 2), np.int64)
+    if not len(pairs) or not some_are_fast(
+        span, world.row_numbers(Collider), collider.bound_half, collider.bound_radius, pose.position, pose.body_row,
+        center, world[RigidBody].inverse_mass, motion.linear, motion.angular,
+    ):  # fmt: skip
+        return found, pairs[:0]
+    count = find_nearing(
+        span, found.row_a, found.row_b, found.depth, found.point, pose.body_row, center, motion.linear, motion.angular,
+        pairs,
+    )  # fmt: skip
+    free = fast_of(world, pairs[:count], span, free=True)
+    if max(len(free[0]), world[Progress].detections) <= FEW_MEETING:
+        return without_seeming(world, found, span, center, *free)
+    return without_seeming(world, found, span, center, *seeming(world, found, span, center))[0], pairs[:0]
+
+
+def seeming(world: World, found: Found, span: float, center: Floats) -> tuple[Integers, Floats]:
+    """Return those of such pairs that seem to meet, by contacts followed straight on, and their numbers."""
+    motion, pairs = world[Motion], np.empty((len(found.row_a), 2), np.int64)
+    count = find_closing(
+        span, found.row_a, found.row_b, found.normal, found.depth, found.point, world[ColliderPose].body_row, center,
+        motion.linear, motion.angular, pairs,
+    )  # fmt: skip
+    return fast_of(world, pairs[:count], span, free=True)
+
+
+def without_seeming(
+    world: World, found: Found, span: float, center: Floats, free: Integers, numbers: Floats
+) -> tuple[Found, Integers]:
+    """Return what is found without far contacts of those of the pairs who never touch, as they move and turn.
+
+    And the pairs who touch, but not when contacts say, followed straight on.
+    """
+    if not len(free):
+        return found, free
+    pose, motion = world[ColliderPose], world[Motion]
+    given, reaches, looked = free.copy(), numbers.copy(), Looked.room(numbers)  # of meshes the sides change places
+    times, agrees = np.empty(len(free)), np.empty(len(free), np.bool_)
+    land = look_at(world, free, center, looked)
+    foresee_meetings(
+        span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, world[Flight].felt,
+        *looked, *land, np.ones(len(free), np.bool_), np.zeros(len(free)), times,
+    )  # fmt: skip
+    find_agreeing(
+        given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
+        pose.body_row, center, motion.linear, motion.angular, agrees,
+    )  # fmt: skip
+    passes = times == NEVER
+    reaches[:, 3] *= MEET  # they are looked at until they are as near as that
+    far: Booleans = np.empty(len(found.row_a), np.bool_)
+    number = find_far(given[passes], reaches[passes], found.row_a, found.row_b, found.depth, far)
+    return found.without(far) if number else found, given[~(agrees | passes)]

@@ -1,0 +1,124 @@
+"""Bodies that fly past each other strike nobody, and who meets does so where the two touch first."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from carom.ecs import Collider, ColliderPose, Motion, RigidBody
+from carom.ecs.column import Floats
+from carom.ecs.components.flight import Flight
+from carom.ecs.relations.impact import Impact
+from carom.ecs.spatial import quaternion
+from carom.systems.constants import FEW_MEETING
+from carom.systems.continuous import fast_of
+from carom.systems.detection.bounds import reach_within
+from carom.systems.detection.broad import overlapping
+from carom.systems.kernels.fast_pairs import some_are_fast
+from carom.systems.simulation import Simulation
+
+SHAPES: dict[str, Any] = {
+    "box": {"box": {"size": (0.1, 0.1, 0.1)}},
+    "plate": {"box": {"size": (0.15, 0.09, 0.02)}},
+    "capsule": {"capsule": {"radius": 0.02, "length": 0.1}},
+    "hull": {
+        "convex": {"points": 0.1 * np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]])}
+    },
+}
+RADIUS = 0.1  # m; no point of any of them is farther out
+
+
+def placed(place: Any, random: np.random.Generator) -> dict[str, Any]:
+    """Return a place (m), turned anyhow."""
+    return {"position": place, "rotation": quaternion.normalise(random.normal(size=4))}
+
+
+def flight(
+    shape: str, speed: float, apart: float, *, seed: int = 0, pairs: int = 1, **body: Any
+) -> tuple[Simulation, Floats]:
+    """Return pairs of bodies, each in a place of its own, of which one flies by the other, and all their velocities.
+
+    Its way is so far ``apart`` (m) from the middle of the other.
+    """
+    simulation, random = Simulation(gravity=(0.0, 0.0, 0.0)), np.random.default_rng(seed)
+    for k in range(pairs):
+        for fast in (0.0, 1.0):
+            place = -fast * (RADIUS + speed * random.uniform(0.01, 0.05)), fast * apart, 2.0 * k
+            simulation.add(
+                collider=SHAPES[shape], transform=placed(place, random), body=body,
+                motion={"linear": (fast * speed, 0.0, 0.0), "angular": 5.0 * random.normal(size=3)},
+            )  # fmt: skip
+    return simulation, simulation.world[Motion].linear[: 2 * pairs].copy()
+
+
+@pytest.mark.parametrize("speed", [6.0, 20.0, 100.0])
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize(("pairs", "seeds"), [(1, 12), (3 * FEW_MEETING, 1)], ids=["alone", "crowd"])
+def test_who_passes_by_strikes_nobody(shape: str, speed: float, pairs: int, seeds: int) -> None:
+    """However near, and whether few do or many at once."""
+    for seed in range(seeds):
+        simulation, begun = flight(shape, speed, 2.0 * RADIUS + 1e-3, seed=seed, pairs=pairs)
+        simulation.step(10)
+        assert (simulation.world[Motion].linear[: 2 * pairs] == begun).all()
+
+
+@pytest.mark.parametrize("speed", [6.0, 20.0])
+@pytest.mark.parametrize("shape", ["box", "capsule", "hull"])
+def test_in_a_crowd_who_meets_is_struck(shape: str, speed: float) -> None:
+    """None flies through another, and none is struck but by its own."""
+    pairs = 3 * FEW_MEETING
+    simulation, begun = flight(shape, speed, 0.02, pairs=pairs)
+    simulation.step(10)
+    after = simulation.world[Motion].linear[: 2 * pairs]
+    assert (np.abs(after - begun).max(axis=1) > 0.1 * speed).all()
+    assert after[::2] + after[1::2] == pytest.approx(begun[::2] + begun[1::2], abs=1e-9 * speed)
+
+
+@pytest.mark.parametrize("speed", [6.0, 20.0, 60.0])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_few_meet_as_those_do_who_are_always_looked_after(shape: str, speed: float) -> None:
+    """Their first impact is the same to the last bit: contacts found from afar say another time, point and normal."""
+    met = 0
+    for seed in range(10):
+        firsts = []
+        for body in ({}, {"continuous": True}):
+            simulation, _ = flight(shape, speed, 0.05, seed=seed, **body)
+            while not simulation.world[Impact].count and simulation.frame < 10:
+                simulation.step()
+            impact = simulation.world[Impact]
+            firsts.append(
+                [column[:1].tolist() for column in (impact.time, impact.impulse, impact.point, impact.normal)]
+            )
+        assert firsts[0] == firsts[1]
+        met += len(firsts[0][0])
+    assert met
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_where_none_may_be_fast_none_are(seed: int) -> None:
+    """Pairs are gone through where the fastest and the smallest of all might be fast, and else they need not be."""
+    random, answers = np.random.default_rng(seed), set()
+    for speed in 10.0 ** np.arange(-2.0, 2.0, 0.25):
+        simulation = Simulation(gravity=(0.0, 0.0, 0.0))
+        for _ in range(12):
+            simulation.add(
+                collider={**SHAPES["plate"], "position": 0.2 * random.normal(size=3)}, body={},
+                transform=placed(0.1 * random.normal(size=3), random),
+                motion={"linear": speed * random.normal(size=3), "angular": 10.0 * speed * random.normal(size=3)},
+            )  # fmt: skip
+        world, span = simulation.world, simulation.settings.dt
+        with world.faces(None):
+            reach_within(world, span)
+            pairs = overlapping(world)
+            fast, _ = fast_of(world, pairs, span, free=True)
+            collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
+            some = some_are_fast(
+                span, world.row_numbers(Collider), collider.bound_half, collider.bound_radius, pose.position,
+                pose.body_row, world[Flight].detected_center, world[RigidBody].inverse_mass, motion.linear,
+                motion.angular,
+            )  # fmt: skip
+        assert some or not len(fast)
+        answers.add(some)
+    assert answers == {False, True}
