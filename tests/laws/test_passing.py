@@ -14,6 +14,7 @@ from carom.ecs.relations.impact import Impact
 from carom.ecs.spatial import quaternion
 from carom.systems.constants import FEW_MEETING
 from carom.systems.continuous import fast_of
+from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import overlapping
 from carom.systems.kernels.fast_pairs import some_are_fast
@@ -94,6 +95,18 @@ def test_a_few_meet_as_those_do_who_are_always_looked_after(shape: str, speed: f
         assert firsts[0] == firsts[1]
         met += len(firsts[0][0])
     assert met
+
+
+@pytest.mark.parametrize("speed", [6.0, 20.0, 60.0, 200.0])
+@pytest.mark.parametrize("pairs", [FEW_MEETING - 2, 3 * FEW_MEETING])
+def test_there_is_an_end_to_looking_after_them(pairs: int, speed: float) -> None:
+    """Where they turn on each other, and where many do; who leaves his reach is detected anew in any substep."""
+    simulation, _ = flight("plate", speed, 0.05, pairs=pairs)
+    answered = simulation.world[Answered]
+    for _ in range(10):
+        before = answered.detections
+        simulation.step()
+        assert answered.detections - before <= FEW_MEETING + simulation.settings.substeps
 
 
 @pytest.mark.parametrize("seed", range(20))
