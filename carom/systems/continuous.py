@@ -49,9 +49,9 @@ class Fast(Resource):
         So are pairs of two that are ``free`` (m, 2), which `without_passing` tells.
         """
         pose, motion, center = world[ColliderPose], world[Motion], world[Flight].detected_center
-        fast, numbers = fast_of(world, pairs, span)
+        fast, numbers = fast_of(world, pairs, span, center)
         if len(free):
-            free, free_numbers = fast_of(world, free, span, free=True)
+            free, free_numbers = fast_of(world, free, span, center, free=True)
             fast, numbers = np.concatenate([fast, free]), np.concatenate([numbers, free_numbers])
             order = np.lexsort(fast.T[::-1])
             fast, numbers = fast[order], numbers[order]
@@ -133,10 +133,13 @@ def look_at(world: World, fast: Integers, center: Floats, looked: Looked) -> Lan
     return Land(meshes.bounds, meshes.nodes, meshes.triangles, room)
 
 
-def fast_of(world: World, pairs: Integers, span: float, *, free: bool = False) -> tuple[Integers, Floats]:
+def fast_of(
+    world: World, pairs: Integers, span: float, center: Floats, *, free: bool = False
+) -> tuple[Integers, Floats]:
     """Return who of ``pairs`` (n, 2) is fast enough within ``span`` seconds to be looked after, and their numbers.
 
     They are of a body and what nothing moves, or of one that is continuous; those of others if they are to be ``free``.
+    Colliders and the centres of bodies, at ``center``, are where they are at one time.
     """
     fast, numbers = np.empty_like(pairs), np.empty((len(pairs), NUMBERS))
     if not len(pairs):
@@ -144,7 +147,7 @@ def fast_of(world: World, pairs: Integers, span: float, *, free: bool = False) -
     collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
     count = find_fast(
         pairs, free, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
-        collider.bound_radius, pose.position, pose.body_row, world[Flight].detected_center, body.inverse_mass,
+        collider.bound_radius, pose.position, pose.body_row, center, body.inverse_mass,
         body.continuous, motion.linear, motion.angular, fast, numbers,
     )  # fmt: skip
     return fast[:count], numbers[:count]

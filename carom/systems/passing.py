@@ -10,9 +10,10 @@ from carom.ecs.components.flight import Flight
 from carom.systems.constants import FEW_MEETING, MEET
 from carom.systems.continuous import fast_of, look_at
 from carom.systems.detection.narrow import Found
-from carom.systems.kernels.fast_pairs import NEVER, find_far, some_are_fast
+from carom.systems.kernels.fast_pairs import NEVER, find_far
 from carom.systems.kernels.meeting import foresee_meetings
-from carom.systems.kernels.trust import find_agreeing, find_closing, find_nearing
+from carom.systems.kernels.passing import find_nearing, find_seeming, some_are_fast
+from carom.systems.kernels.trust import find_agreeing
 from carom.systems.looked import Looked
 from carom.systems.progress import Progress
 
@@ -27,15 +28,16 @@ def without_passing(world: World, found: Found, span: float, center: Floats) -> 
     collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
     pairs: Integers = np.empty((len(found.row_a), 2), np.int64)
     if not len(pairs) or not some_are_fast(
-        span, world.row_numbers(Collider), collider.bound_half, collider.bound_radius, pose.position, pose.body_row,
-        center, world[RigidBody].inverse_mass, motion.linear, motion.angular,
+        span, world.row_numbers(Collider), collider.position, collider.bound_center, collider.bound_half,
+        collider.bound_radius, pose.position, pose.body_row, center, world[RigidBody].inverse_mass,
+        motion.linear, motion.angular,
     ):  # fmt: skip
         return found, pairs[:0]
     count = find_nearing(
         span, found.row_a, found.row_b, found.depth, found.point, pose.body_row, center, motion.linear, motion.angular,
         pairs,
     )  # fmt: skip
-    free = fast_of(world, pairs[:count], span, free=True)
+    free = fast_of(world, pairs[:count], span, center, free=True)
     if max(len(free[0]), world[Progress].detections) <= FEW_MEETING:
         return without_seeming(world, found, span, center, *free)
     return without_seeming(world, found, span, center, *seeming(world, found, span, center))[0], pairs[:0]
@@ -44,11 +46,11 @@ def without_passing(world: World, found: Found, span: float, center: Floats) -> 
 def seeming(world: World, found: Found, span: float, center: Floats) -> tuple[Integers, Floats]:
     """Return those of such pairs that seem to meet, by contacts followed straight on, and their numbers."""
     motion, pairs = world[Motion], np.empty((len(found.row_a), 2), np.int64)
-    count = find_closing(
+    count = find_seeming(
         span, found.row_a, found.row_b, found.normal, found.depth, found.point, world[ColliderPose].body_row, center,
         motion.linear, motion.angular, pairs,
     )  # fmt: skip
-    return fast_of(world, pairs[:count], span, free=True)
+    return fast_of(world, pairs[:count], span, center, free=True)
 
 
 def without_seeming(
@@ -61,19 +63,19 @@ def without_seeming(
     if not len(free):
         return found, free
     pose, motion = world[ColliderPose], world[Motion]
-    given, reaches, looked = free.copy(), numbers.copy(), Looked.room(numbers)  # of meshes the sides change places
+    looked, reaches = Looked.room(numbers.copy()), numbers.copy()
     times, agrees = np.empty(len(free)), np.empty(len(free), np.bool_)
-    land = look_at(world, free, center, looked)
+    land = look_at(world, free.copy(), center, looked)  # of meshes the sides change places
     foresee_meetings(
         span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, world[Flight].felt,
         *looked, *land, np.ones(len(free), np.bool_), np.zeros(len(free)), times,
     )  # fmt: skip
     find_agreeing(
-        given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
+        free, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
         pose.body_row, center, motion.linear, motion.angular, agrees,
     )  # fmt: skip
     passes = times == NEVER
     reaches[:, 3] *= MEET  # they are looked at until they are as near as that
     far: Booleans = np.empty(len(found.row_a), np.bool_)
-    number = find_far(given[passes], reaches[passes], found.row_a, found.row_b, found.depth, far)
-    return found.without(far) if number else found, given[~(agrees | passes)]
+    number = find_far(free[passes], reaches[passes], found.row_a, found.row_b, found.depth, far)
+    return found.without(far) if number else found, free[~(agrees | passes)]

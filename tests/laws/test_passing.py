@@ -17,7 +17,7 @@ from carom.systems.continuous import fast_of
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import overlapping
-from carom.systems.kernels.fast_pairs import some_are_fast
+from carom.systems.kernels.passing import some_are_fast
 from carom.systems.simulation import Simulation
 
 SHAPES: dict[str, Any] = {
@@ -109,15 +109,37 @@ def test_there_is_an_end_to_looking_after_them(pairs: int, speed: float) -> None
         assert answered.detections - before <= FEW_MEETING + simulation.settings.substeps
 
 
+def test_who_is_fast_does_not_hang_on_how_far_all_have_gone() -> None:
+    """A box that turns slowly beside another is not fast where both have flown on since detection."""
+    simulation = Simulation(gravity=(0.0, 0.0, 0.0))
+    for k in range(2):
+        simulation.add(
+            collider=SHAPES["box"],
+            body={},
+            transform={"position": (0.0, 0.2 * k, 0.0)},
+            motion={"angular": (0, 0, 1 - k)},
+        )
+    world, pairs = simulation.world, np.array([[0, 1]])
+    with world.faces(None):
+        reach_within(world, simulation.settings.dt)
+        flight, pose = world[Flight], world[ColliderPose]
+        flight.center[:2] = flight.detected_center[:2] + 50.0
+        pose.position[:2] += 50.0
+        assert not len(fast_of(world, pairs, simulation.settings.dt, flight.center, free=True)[0])
+        assert len(fast_of(world, pairs, simulation.settings.dt, flight.detected_center, free=True)[0])
+
+
+@pytest.mark.parametrize("shape", ["plate", "wedge"])
 @pytest.mark.parametrize("seed", range(20))
-def test_where_none_may_be_fast_none_are(seed: int) -> None:
+def test_where_none_may_be_fast_none_are(seed: int, shape: str) -> None:
     """Pairs are gone through where the fastest and the smallest of all might be fast, and else they need not be."""
-    random, answers = np.random.default_rng(seed), set()
-    for speed in 10.0 ** np.arange(-2.0, 2.0, 0.25):
+    random, answers, far = np.random.default_rng(seed), set(), np.array([1.0, 0.0, 0.0])
+    bodies = {**SHAPES, "wedge": {"convex": {"points": far + SHAPES["hull"]["convex"]["points"]}}}
+    for speed in 10.0 ** np.arange(-2.5, 2.0, 0.25):
         simulation = Simulation(gravity=(0.0, 0.0, 0.0))
         for _ in range(12):
             simulation.add(
-                collider={**SHAPES["plate"], "position": 0.2 * random.normal(size=3)}, body={},
+                collider={**bodies[shape], "position": 0.2 * random.normal(size=3)}, body={},
                 transform=placed(0.1 * random.normal(size=3), random),
                 motion={"linear": speed * random.normal(size=3), "angular": 10.0 * speed * random.normal(size=3)},
             )  # fmt: skip
@@ -125,12 +147,13 @@ def test_where_none_may_be_fast_none_are(seed: int) -> None:
         with world.faces(None):
             reach_within(world, span)
             pairs = overlapping(world)
-            fast, _ = fast_of(world, pairs, span, free=True)
+            center = world[Flight].detected_center
+            fast, _ = fast_of(world, pairs, span, center, free=True)
             collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
             some = some_are_fast(
-                span, world.row_numbers(Collider), collider.bound_half, collider.bound_radius, pose.position,
-                pose.body_row, world[Flight].detected_center, world[RigidBody].inverse_mass, motion.linear,
-                motion.angular,
+                span, world.row_numbers(Collider), collider.position, collider.bound_center, collider.bound_half,
+                collider.bound_radius, pose.position, pose.body_row, center, world[RigidBody].inverse_mass,
+                motion.linear, motion.angular,
             )  # fmt: skip
         assert some or not len(fast)
         answers.add(some)

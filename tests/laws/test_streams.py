@@ -15,6 +15,7 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import overlapping
 from carom.systems.detection.leaving import detection_holds
+from carom.systems.detection.why import why_no_contact
 from carom.systems.simulation import Simulation
 from carom.systems.stream import Stream
 
@@ -215,3 +216,14 @@ def test_who_is_struck_is_bounded_as_where_the_stream_came_from() -> None:
         pose = world[ColliderPose]
         assert 0.5 * (pose.lower[7] + pose.upper[7]) == pytest.approx(flight.center[7] - flown, abs=1e-12)
         assert flight.detected_center[7] == pytest.approx(flight.center[7] - flown, abs=1e-12)
+
+
+def test_asking_why_two_do_not_touch_leaves_the_stream_as_it_is() -> None:
+    """How far it went is not told twice."""
+    simulation = crowd(1.0, 5.0)
+    simulation.step()
+    stream = simulation.world[Stream]
+    before = stream.motion.tolist(), stream.gone.tolist(), stream.passes
+    assert stream.motion.any(axis=1).all()
+    why_no_contact(simulation, *simulation.world.entities(np.arange(2)).tolist())
+    assert (stream.motion.tolist(), stream.gone.tolist(), stream.passes) == before

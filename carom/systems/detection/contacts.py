@@ -76,7 +76,8 @@ def detect(world: World, left: float, soon: float) -> None:
     sleeps and is found by somebody who does not is woken, and looked for in turn.
     """
     progress, pose = world[Progress], world[ColliderPose]
-    world[Answered].detections, progress.detections = world[Answered].detections + 1, progress.detections + 1
+    world[Answered].detections += 1
+    progress.detections += 1
     while True:
         pairs = world[Ties].without_joined(world, without_sensors(world, overlapping(world)))
         if len(pairs) and soon < left and len(pairs) > CROWDED * np.count_nonzero(np.bincount(pairs.ravel())):

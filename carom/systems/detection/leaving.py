@@ -65,7 +65,7 @@ def _meet_nobody_new(world: World, leaving: Integers, left: float) -> bool:
     colliders, ways = np.unique(pairs), np.zeros(len(flight.reach))
     find_ways(colliders, pose.body_row, stream.motion, flight.center, flight.detected_center, flight.reach, ways)
     _bound_now(world, colliders, left, ways)
-    if len(fast_of(world, pairs, left)[0]):
+    if len(fast_of(world, pairs, left, flight.center)[0]):
         return False
     found = measure_pairs(world, pairs, reaches_of(world, pairs, ways))
     found, _ = without_passing(world, found, left, flight.center)

@@ -59,7 +59,7 @@ def _placed(world: World) -> Iterator[None]:
         for name in names.split()
     ]
     stream = world[Stream]
-    flowing = stream.motion.copy(), stream.passes
+    flowing = stream.motion.copy(), stream.gone.copy(), stream.passes
     with world.faces(None), uncounted(world):
         reach_within(world, world[Settings].dt)
         try:
@@ -67,7 +67,7 @@ def _placed(world: World) -> Iterator[None]:
         finally:
             for kind, name, values in kept:
                 getattr(world[kind], name)[:] = values
-            stream.motion[:], stream.passes = flowing
+            stream.motion[:], stream.gone[:], stream.passes = flowing
 
 
 class _Pair:

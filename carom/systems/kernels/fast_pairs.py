@@ -70,25 +70,10 @@ def reach_of(c, i, local_position, bound_center, bound_half, position, center):
     return sqrt(away) + sqrt(off) + sqrt(half)
 
 
-@kernel()
-def some_are_fast(span, rows, bound_half, bound_radius, position, body_row, center, inverse_mass, linear, angular):
-    """Tell whether two bodies that can be pushed may be fast, within ``span`` seconds, as the fastest and smallest are.
-
-    Most often none are, and their pairs need not be gone through.
-    """
-    smallest, speed, spin, lever = NEVER, 0.0, 0.0, 0.0
-    for c in rows:
-        i = body_row[c]
-        if i >= 0 and inverse_mass[i] > 0.0:
-            extent = min(bound_half[c, 0], bound_half[c, 1], bound_half[c, 2]) + bound_radius[c]
-            smallest, away, half = min(smallest, max(LEAST_FAST, extent)), 0.0, 0.0
-            for k in range(3):
-                away += (position[c, k] - center[i, k]) ** 2
-                half += bound_half[c, k] ** 2
-            lever = max(lever, sqrt(away) + sqrt(half) + bound_radius[c])
-            speed, spin = max(speed, length_of(i, linear)), max(spin, length_of(i, angular))
-    way = (2.0 * speed + 4.0 * spin * lever) * span  # either turns, and moves what is out there with it
-    return way * (1.0 + spin * span) > FAST * smallest
+@woven
+def extent_of(c, bound_half, bound_radius):
+    """Return the smallest half extent (m) that collider c is taken to have."""
+    return max(LEAST_FAST, min(bound_half[c, 0], bound_half[c, 1], bound_half[c, 2]) + bound_radius[c])
 
 
 @kernel("fast", "numbers")
@@ -99,7 +84,8 @@ def find_fast(
     """Write which pairs are to be looked after within ``span`` seconds, and their numbers; return how many.
 
     Those of a body that comes farther than FAST of its smallest half extent and what stands or is kinematic; where both
-    can be pushed, only if one is ``continuous``. Half spaces let nobody through.
+    can be pushed, only if one is ``continuous``; those of the others if they are to be ``free``. Half spaces let nobody
+    through.
     """
     count = 0
     for p in range(len(pairs)):
@@ -113,7 +99,7 @@ def find_fast(
         smallest, smaller = NEVER, 0
         for side in range(2):
             c = a if side == 0 else b
-            extent = max(LEAST_FAST, min(bound_half[c, 0], bound_half[c, 1], bound_half[c, 2]) + bound_radius[c])
+            extent = extent_of(c, bound_half, bound_radius)
             if (free_a if side == 0 else free_b) and extent < smallest:
                 smallest, smaller = extent, side
         way, turning = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)

@@ -62,7 +62,7 @@ def compile_measuring() -> None:
     from carom.systems.detection.narrow import measure_pairs
     from carom.systems.detection.seams import without_seams
     from carom.systems.kernels.broad_pairs import renew_pairs
-    from carom.systems.kernels.fast_pairs import NUMBERS, find_far, let_go
+    from carom.systems.kernels.fast_pairs import NUMBERS, let_go
     from carom.systems.kernels.lanes import WIDTH, aligned
     from carom.systems.kernels.manifolds import part_masses
     from carom.systems.kernels.recycling import merge_contacts
@@ -92,7 +92,7 @@ def compile_measuring() -> None:
         detection_holds(world, 1.0)  # with everybody leaving
         without_passing(world, found, 1.0, world[Flight].center)
         seeming(world, found, 1.0, world[Flight].center)
-        without_seeming(world, found, 1.0, world[Flight].center, pairs[-1:].copy(), np.ones((1, NUMBERS)))
+        without_seeming(world, found, 1.0, world[Flight].center, pairs[-1:], np.ones((1, NUMBERS)))
         apart = world[Apart]
         apart.many = True
         apart.without(world, pairs, np.ones(len(pairs)))
@@ -100,7 +100,6 @@ def compile_measuring() -> None:
     count = len(found.row_a)
     merge_contacts(count, *found, *found, *found.room(2 * count))
     far = np.zeros(count, np.bool_)  # of somebody fast
-    find_far(pairs, np.ones((len(pairs), NUMBERS)), found.row_a, found.row_b, found.depth, far)
     let_go(pairs, count, found.row_a, found.row_b, far)
     found.without(far)
     none, place = np.zeros(1, np.int64), np.zeros((1, 3))  # manifolds that bodies have side by side
