@@ -8,9 +8,10 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.ball_seams import is_borne_beside
 from carom.systems.kernels.balls import BOX, gap_of_ball, pose_of_other
 from carom.systems.kernels.balls_in_lanes import are_balls, measure_balls_in_lanes
+from carom.systems.kernels.balls_on_still import are_on_still, measure_on_still
 from carom.systems.kernels.bodies import is_on_joint
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
-from carom.systems.kernels.filling import find_tangents, place_points
+from carom.systems.kernels.filling import find_tangents, place_points, places_of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.kinematic import follow_turning
@@ -73,6 +74,12 @@ def sort_groups(
         moved_on = measured
         if measured:
             measure_balls_in_lanes(g, r, are_even(r, lanes), of_a, of_b, rows, packed)
+        elif looks[g] and are_on_still(places_of(g, 0, first, size), load(rows, r + of.SHARE), kind, other):
+            measure_balls_on_still(
+                g, r, first, size, beside, center, rotation, kind, ball, other, sign, radius, extent,
+                other_position, other_rotation, normal, depth, point, offset_a, offset_b, lanes,
+            )  # fmt: skip
+            moved_on = True
         elif looks[g]:
             for lane in range(WIDTH):
                 c = first[g, lane]
@@ -144,6 +151,31 @@ def sort_groups(
     begin, end = part_of(crew, len(touching))
     for i in range(begin, end):
         touching[i] |= leans[0, i] | leans[1, i]
+
+
+@woven
+def measure_balls_on_still(
+    g, r, first, size, beside, center, rotation, kind, ball, other, sign, radius, extent,
+    other_position, other_rotation, normal, depth, point, offset_a, offset_b, lanes,
+):  # fmt: skip
+    """Measure the contacts of a group of balls on what belongs to no body anew, in its lanes and in the table."""
+    across = measure_on_still(
+        r, places_of(g, 0, first, size), load(address(lanes), r + of.SHARE), center, kind, ball, sign, radius, extent,
+        other_position, other_rotation, address(lanes),
+    )  # fmt: skip
+    for lane in range(WIDTH):
+        c = first[g, lane]
+        if c < 0:
+            continue
+        gap, sense, n = -lanes[r + MANIFOLD_ROWS + of.DEPTH, lane], -sign[c], r + of.NORMAL
+        write_ball(
+            c, gap, sense * lanes[n, lane], sense * lanes[n + 1, lane], sense * lanes[n + 2, lane],
+            center, ball, other, sign, radius, other_position, normal, depth, point, offset_a, offset_b,
+        )  # fmt: skip
+        lanes[r + of.BESIDE, lane] = (across >> lane & 1) and is_borne_beside(
+            c, beside, center, rotation, ball, other, sign, radius, extent, other_position, other_rotation,
+            normal, depth,
+        )  # fmt: skip
 
 
 @woven
@@ -257,6 +289,17 @@ def measure_ball(
         kind[c], center[i, 0], center[i, 1], center[i, 2], radius[c], ox, oy, oz, qx, qy, qz, qw,
         extent[c, 0], extent[c, 1], extent[c, 2],
     )  # fmt: skip
+    write_ball(
+        c, gap, nx, ny, nz, center, ball, other, sign, radius, other_position, normal, depth, point, offset_a, offset_b
+    )
+
+
+@woven
+def write_ball(
+    c, gap, nx, ny, nz, center, ball, other, sign, radius, other_position, normal, depth, point, offset_a, offset_b
+):
+    """Write the contact of a ball by its gap and the normal that points from the other to it."""
+    i, o = ball[c], other[c]
     depth[c] = -gap
     for k, n in enumerate((nx, ny, nz)):
         normal[c, k] = -sign[c] * n
