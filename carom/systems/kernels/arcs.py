@@ -8,7 +8,7 @@ from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_al
 from carom.systems.kernels.groups import RUNS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import dot, minus, three, times
-from carom.systems.kernels.lanes import address, choose, gather, load, planes, scatter, spread
+from carom.systems.kernels.lanes import address, choose, gather_four, load, planes, scatter_four, spread
 from carom.systems.kernels.packing import CHANGE, MASS_AND_FELT
 from carom.systems.kernels.resting_balls import are_even
 from carom.systems.kernels.rubbing import IDLE
@@ -60,12 +60,12 @@ def keep_across(g, r, index_a, index_b, lanes, bodies):
     rows = address(lanes)
     n, rests = three(rows, r + of.NORMAL), load(rows, r + of.RESTS)
     for index in (index_a, index_b):
-        v = gather(bodies[CHANGE], index, g)
+        v = gather_four(bodies[CHANGE], index, g, 0)
         along = times(rests * dot(n, v), n)
         if not are_even(r, lanes):
-            masses, zero = gather(bodies[MASS_AND_FELT], index, g), spread(0.0)
+            masses, zero = gather_four(bodies[MASS_AND_FELT], index, g, 0), spread(0.0)
             along = (
                 choose(masses[0], along[0], zero), choose(masses[1], along[1], zero), choose(masses[2], along[2], zero)
             )  # fmt: skip
         x, y, z = minus(v, along)
-        scatter(bodies[CHANGE], index, g, (x, y, z, v[3], v[4], v[5], v[6], v[7]))
+        scatter_four(bodies[CHANGE], index, g, 0, (x, y, z, v[3]))

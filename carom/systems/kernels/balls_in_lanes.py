@@ -9,7 +9,7 @@ from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import pick, pick_one
 from carom.systems.kernels.lane_vectors import TINY, dot, keep
-from carom.systems.kernels.lanes import address, choose, gather, larger, load, root, some, spread, store
+from carom.systems.kernels.lanes import address, choose, gather_four, larger, load, root, some, spread, store
 from carom.systems.kernels.packing import CENTER
 
 
@@ -49,7 +49,7 @@ def are_balls(r, lanes):
 def measure_balls_in_lanes(g, r, even, index_a, index_b, lanes, bodies):
     """Measure the contacts of a group where the balls are; as `measure_ball` does, one by one."""
     of_a, of_b = (of.LEVER_A, of.LEVER_B) if even else (of.MIDDLE_A + 2, of.MIDDLE_B + 2)
-    a, b = gather(bodies[CENTER], index_a, g), gather(bodies[CENTER], index_b, g)
+    a, b = gather_four(bodies[CENTER], index_a, g, 0), gather_four(bodies[CENTER], index_b, g, 0)
     reach = load(lanes, r + of_a) - load(lanes, r + of_b)
     there, zero = load(lanes, r + of.SHARE), spread(0.0)
     way = (b[0] - a[0], b[1] - a[1], b[2] - a[2])

@@ -13,7 +13,7 @@ from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import address, choose, gather, larger, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
-from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY, write_velocities
+from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY, felt_of, write_velocities
 from carom.systems.kernels.reach import are_apart, time_within_all
 
 # Of manifolds: it cannot strike as its bodies move now, or may; it rests, and only a heavy blow makes an impact of it:
@@ -75,7 +75,7 @@ def close_group(g, r, points, h, index_a, index_b, lanes, bodies):
         store(lanes, r + of.CLOSES, one)
         return
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-    felt_a, felt_b = gather(bodies[MASS_AND_FELT], index_a, g)[3:6], gather(bodies[MASS_AND_FELT], index_b, g)[3:6]
+    felt_a, felt_b = felt_of(bodies[MASS_AND_FELT], index_a, g), felt_of(bodies[MASS_AND_FELT], index_b, g)
     n, parting, closes = three(lanes, r + of.NORMAL), parting_of(r, lanes, a, b), none
     pressed = (larger(none, dot(n, felt_a)) + larger(none, -dot(n, felt_b))) * (0.5 * h * h)
     for p in range(points):

@@ -78,5 +78,15 @@ def scatter(plane, index, group, lanes):
     plane[index[group]] = np.array(lanes).T
 
 
+def gather_four(plane, index, group, at):
+    """Return four of the numbers that `gather` returns, from the at-th on."""
+    return tuple(plane[index[group], at : at + 4].T.copy())
+
+
+def scatter_four(plane, index, group, at, lanes):
+    """Write what `gather_four` returns."""
+    plane[index[group], at : at + 4] = np.array(lanes).T
+
+
 def fetch(plane, index, group):
     """Have the processor bring what `gather` returns into its cache: here, nothing."""

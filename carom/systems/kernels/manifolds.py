@@ -13,7 +13,7 @@ from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import TINY, about, dot, keep, three
 from carom.systems.kernels.lanes import choose, gather, larger, load, root, spread, store
 from carom.systems.kernels.levers import coupled, frame_of
-from carom.systems.kernels.packing import INVERSE
+from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT
 from carom.systems.kernels.rubbing import ROLLING, TWISTING
 
 
@@ -95,12 +95,13 @@ def inverse_or_none(rests, x):
 
 
 @woven
-def prepare(g, r, points, asks, rests, index_a, index_b, masses_a, masses_b, lanes, bodies):
+def prepare(g, r, points, asks, rests, index_a, index_b, lanes, bodies):
     """Write what follows for a group from where its bodies are; masses are 0 where a manifold does not rest.
 
     What friction, spinning and rolling need is written where the group ``asks`` for them.
     """
     zero = spread(0.0)
+    masses_a, masses_b = gather(bodies[MASS_AND_FELT], index_a, g), gather(bodies[MASS_AND_FELT], index_b, g)
     masses_a, inertia_a, movable_a, roll_a = prepare_body(g, r, 0, index_a, masses_a, lanes, bodies)
     masses_b, inertia_b, movable_b, roll_b = prepare_body(g, r, 1, index_b, masses_b, lanes, bodies)
     movable = movable_a + movable_b

@@ -10,7 +10,7 @@ from carom.systems.kernels.freedom import inverse_inertia_of
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_columns import are_all, in_a_row, take_four, take_freedom, take_one, take_three
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
-from carom.systems.kernels.lanes import WIDTH, address, choose, larger, planes, scatter, some, spread
+from carom.systems.kernels.lanes import WIDTH, address, choose, gather_four, larger, planes, scatter, some, spread
 from carom.systems.kernels.spatial import inverse_inertia_in_world, product
 
 # The planes, each of eight numbers a body: what one sweep reads of neighbours lies side by side.
@@ -21,6 +21,7 @@ from carom.systems.kernels.spatial import inverse_inertia_in_world, product
 # rotation (4); and while arcs are bent, to what velocities have changed by (3).
 VELOCITY, WAY, INVERSE, MASS_AND_FELT = range(PLANES)
 CENTER = POSE = CHANGE = WAY
+FELT = 3  # where what forces do begins
 INVERSE_MASS, ANGULAR, EVEN_INERTIA = 3, 4, 7  # where what is angular begins, and what velocities lie beside
 
 
@@ -109,6 +110,12 @@ def pack_held(i, inverse_inertia, principal, freedom, rotation, bodies):
         bodies[INVERSE, i, k] = value
 
 
+@woven
+def felt_of(plane, index, g):
+    """Return the acceleration by forces of the bodies of a group."""
+    return gather_four(plane, index, g, FELT)[:3]
+
+
 @kernel()
 def are_placed(rows, center, rotation, bodies):
     """Tell whether bodies are where they were packed."""
@@ -128,7 +135,7 @@ def pack_moving(rows, linear, angular, felt, bodies):
     for i in rows:
         for k in range(3):
             bodies[VELOCITY, i, k], bodies[VELOCITY, i, ANGULAR + k] = linear[i, k], angular[i, k]
-            bodies[MASS_AND_FELT, i, 3 + k] = felt[i, k]
+            bodies[MASS_AND_FELT, i, FELT + k] = felt[i, k]
 
 
 @kernel("velocity")

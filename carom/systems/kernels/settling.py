@@ -11,7 +11,7 @@ from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, store_flat
 from carom.systems.kernels.lane_vectors import dot, minus, three
-from carom.systems.kernels.lanes import WIDTH, address, choose, gather, load, planes, some, spread, store
+from carom.systems.kernels.lanes import WIDTH, address, choose, gather, gather_four, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import WAY, write_ways
 from carom.systems.kernels.resting_balls import are_even
@@ -93,12 +93,12 @@ def sink_contacts(
     begin, end = part_of(crew, groups)
     for g in range(begin, end):
         r = row[g]
-        a, b = gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g)
         if are_even(r, lanes):
+            a, b = gather_four(moved[WAY], index_a, g, 0), gather_four(moved[WAY], index_b, g, 0)
             q = r + MANIFOLD_ROWS
             store(into, q + of.DEPTH, load(into, q + of.DEPTH) - dot(three(into, r + of.NORMAL), minus(b, a)))
             continue
-        parting = parting_of(r, into, a, b)
+        parting = parting_of(r, into, gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g))
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
             store(into, q + of.DEPTH, load(into, q + of.DEPTH) - parting_at(q, into, parting))

@@ -33,7 +33,7 @@ from carom.systems.kernels.lanes import (
 )
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.manifolds import prepare
-from carom.systems.kernels.packing import INVERSE_MASS, MASS_AND_FELT, VELOCITY
+from carom.systems.kernels.packing import INVERSE_MASS, MASS_AND_FELT, VELOCITY, felt_of
 from carom.systems.kernels.resting_balls import are_even, follow_normals, weigh_balls
 from carom.systems.kernels.rubbing import BALLS, IDLE, RESTING, ROLLING, RUBBING, TWISTING
 from carom.systems.kernels.settling import tell_depth
@@ -117,8 +117,7 @@ def sort_groups(
             recall(g, r, fresh[g], index_a, index_b, first, on_joint, resting, strikes, lanes)
         else:
             store(rows, r + of.TOGETHER, before * RESTED)
-        masses_a, masses_b = gather(packed[MASS_AND_FELT], of_a, g), gather(packed[MASS_AND_FELT], of_b, g)
-        rests, lies = find_resting(g, r, points[g], measured, h, of_a, of_b, masses_a, masses_b, rows, packed)
+        rests, lies = find_resting(g, r, points[g], measured, h, of_a, of_b, rows, packed)
         rests = rests * resting_stage
         store(rows, r + of.RESTS, rests)
         others = some(rests - before) or some(before - rests)
@@ -145,7 +144,7 @@ def sort_groups(
             if changed:
                 weigh_balls(g, r, rests, of_a, of_b, rows, packed)
         elif asks[g] != IDLE and (changed or moved_on):
-            prepare(g, r, points[g], asks[g], rests, of_a, of_b, masses_a, masses_b, rows, packed)
+            prepare(g, r, points[g], asks[g], rests, of_a, of_b, rows, packed)
     numbers[crew[1]] = number
     wait_for_all(crew, 1)
     begin, end = part_of(crew, len(touching))
@@ -229,7 +228,7 @@ def forget(r, points, rests, even, lanes):
 
 
 @woven
-def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, lanes, bodies):
+def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     """Return 1 for each manifold that rests, else 0, and for each that lies: of which its bodies feel that they touch.
 
     One rests when one of its points touches or would by the end of the substep (a ball only once it touches), unless
@@ -239,7 +238,7 @@ def find_resting(g, r, points, balls, h, index_a, index_b, masses_a, masses_b, l
     pushed out of those. But it does not lie.
     """
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-    felt_a, felt_b = masses_a[3:6], masses_b[3:6]
+    felt_a, felt_b = felt_of(bodies[MASS_AND_FELT], index_a, g), felt_of(bodies[MASS_AND_FELT], index_b, g)
     n, together, zero, one = three(lanes, r + of.NORMAL), load(lanes, r + of.TOGETHER), spread(0.0), spread(1.0)
     joined = together - 0.5 * JOINED
     is_ball = choose(joined, zero, load(lanes, r + of.BALL))
