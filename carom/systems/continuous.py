@@ -19,6 +19,7 @@ from carom.systems.kernels.fast_pairs import (
     find_fast,
     find_trusts,
     let_go,
+    may_be_fast,
     place_fast,
 )
 from carom.systems.kernels.meeting import foresee_meetings
@@ -131,6 +132,22 @@ def look_at(world: World, fast: Integers, center: Floats, looked: Looked) -> Lan
     )  # fmt: skip
     room = np.concatenate([hulls.vertices, np.zeros((TRIANGLE_CORNERS, 3))])
     return Land(meshes.bounds, meshes.nodes, meshes.triangles, room)
+
+
+def some_may_be_fast(world: World, pairs: Integers, span: float, center: Floats) -> bool:
+    """Tell whether some of ``pairs`` (n, 2) may be fast, as `fast_of` says; most often none are in a crowd.
+
+    Of fewer pairs than colliders it takes as long to ask them.
+    """
+    collider, pose, motion, rows = world[Collider], world[ColliderPose], world[Motion], world.row_numbers(Collider)
+    if len(pairs) < len(rows):
+        return len(pairs) > 0
+    found: bool = may_be_fast(
+        span, rows, collider.position, collider.bound_center, collider.bound_half,
+        collider.bound_radius, pose.position, pose.body_row, center, world[RigidBody].inverse_mass,
+        motion.linear, motion.angular,
+    )  # fmt: skip
+    return found
 
 
 def fast_of(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, Motion, RigidBody, Transform, World
+from carom.ecs import ColliderPose, Motion, Transform, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.components.flight import Flight
 from carom.systems.constants import FEW_MEETING, MEET
@@ -12,7 +12,7 @@ from carom.systems.continuous import fast_of, look_at
 from carom.systems.detection.narrow import Found
 from carom.systems.kernels.fast_pairs import NEVER, find_far
 from carom.systems.kernels.meeting import foresee_meetings
-from carom.systems.kernels.passing import find_nearing, find_seeming, some_are_fast
+from carom.systems.kernels.passing import find_nearing, find_seeming
 from carom.systems.kernels.trust import find_agreeing
 from carom.systems.looked import Looked
 from carom.systems.progress import Progress
@@ -25,14 +25,7 @@ def without_passing(world: World, found: Found, span: float, center: Floats) -> 
     are looked after where they meet otherwise than contacts say, followed straight on, where only a few may meet, and a
     few times in a step. Of many only those are looked at who seem to meet.
     """
-    collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
-    pairs: Integers = np.empty((len(found.row_a), 2), np.int64)
-    if not len(pairs) or not some_are_fast(
-        span, world.row_numbers(Collider), collider.position, collider.bound_center, collider.bound_half,
-        collider.bound_radius, pose.position, pose.body_row, center, world[RigidBody].inverse_mass,
-        motion.linear, motion.angular,
-    ):  # fmt: skip
-        return found, pairs[:0]
+    pose, motion, pairs = world[ColliderPose], world[Motion], np.empty((len(found.row_a), 2), np.int64)
     count = find_nearing(
         span, found.row_a, found.row_b, found.depth, found.point, pose.body_row, center, motion.linear, motion.angular,
         pairs,

@@ -31,6 +31,7 @@ from carom.systems.kernels.packing import (
     unpack_velocities,
 )
 from carom.systems.kernels.resting import SCRATCH_ROWS, press_groups
+from carom.systems.kernels.rows import are_same_rows
 from carom.systems.kernels.settling import sink_contacts, tell_depths
 from carom.systems.kernels.sorting import sort_groups
 from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
@@ -100,7 +101,7 @@ class Resting(Resource):
                 awake, self.bodies.shape[1] - 1, self.groups, self.index_a, self.index_b,
                 linkage.groups, linkage.index_a, linkage.index_b, found,
             )  # fmt: skip
-            if not np.array_equal(found[:count], self.bound):  # else they may be packed already
+            if not are_same_rows(found[:count], self.bound):  # else they may be packed already
                 self.bound = found[:count]
         return self.bound
 

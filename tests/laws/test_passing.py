@@ -17,7 +17,7 @@ from carom.systems.continuous import fast_of
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import overlapping
-from carom.systems.kernels.passing import some_are_fast
+from carom.systems.kernels.fast_pairs import may_be_fast
 from carom.systems.simulation import Simulation
 
 SHAPES: dict[str, Any] = {
@@ -137,9 +137,10 @@ def test_where_none_may_be_fast_none_are(seed: int, shape: str) -> None:
     bodies = {**SHAPES, "wedge": {"convex": {"points": far + SHAPES["hull"]["convex"]["points"]}}}
     for speed in 10.0 ** np.arange(-2.5, 2.0, 0.25):
         simulation = Simulation(gravity=(0.0, 0.0, 0.0))
-        for _ in range(12):
+        for k in range(12):
             simulation.add(
-                collider={**bodies[shape], "position": 0.2 * random.normal(size=3)}, body={},
+                collider={**bodies[shape], "position": 0.2 * random.normal(size=3)},
+                body={"type": "kinematic"} if k % 4 == 0 else {"continuous": k % 4 == 1},
                 transform=placed(0.1 * random.normal(size=3), random),
                 motion={"linear": speed * random.normal(size=3), "angular": 10.0 * speed * random.normal(size=3)},
             )  # fmt: skip
@@ -148,9 +149,9 @@ def test_where_none_may_be_fast_none_are(seed: int, shape: str) -> None:
             reach_within(world, span)
             pairs = overlapping(world)
             center = world[Flight].detected_center
-            fast, _ = fast_of(world, pairs, span, center, free=True)
+            fast = [pair for free in (False, True) for pair in fast_of(world, pairs, span, center, free=free)[0]]
             collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
-            some = some_are_fast(
+            some = may_be_fast(
                 span, world.row_numbers(Collider), collider.position, collider.bound_center, collider.bound_half,
                 collider.bound_radius, pose.position, pose.body_row, center, world[RigidBody].inverse_mass,
                 motion.linear, motion.angular,

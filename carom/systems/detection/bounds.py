@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import sqrt
+from math import hypot
 
 import numpy as np
 
@@ -29,14 +29,14 @@ def reach_within(world: World, dt: float) -> None:
     compose(world)
     transform, motion, body, flight = world[Transform], world[Motion], world[RigidBody], world[Flight]
     stream = world[Stream]
-    pull = sqrt(sum(g * g for g in world[Settings].gravity))
+    pull = hypot(*world[Settings].gravity)
     stream.gone += stream.motion[1]
     foresee_reach(
         world[Awake].now(world), dt, pull, transform.position, transform.rotation, motion.linear,
         body.center_of_mass, body.inertia, body.inverse_mass, motion.linear_acceleration,
         flight.reach, flight.detected_center, stream.motion,
     )  # fmt: skip
-    stream.passes = dt * float(np.linalg.norm(stream.motion[0]))
+    stream.passes = dt * hypot(*stream.motion[0].tolist())
     bound(world, world.row_numbers(Collider), bodies_of(world), dt, flight.reach, flight.detected_center)
 
 

@@ -15,6 +15,7 @@ from carom.systems.kernels.broad_cache import REBUILD, find_leavers, find_met, k
 from carom.systems.kernels.broad_pairs import renew_pairs
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.islands import find_lively
+from carom.systems.kernels.rows import are_same_rows
 from carom.systems.settings import Settings
 from carom.systems.shapes.plane import Plane
 from carom.systems.stream import Stream
@@ -99,7 +100,7 @@ class BroadPhase(Resource):
         collider, there = world[Collider], world.row_numbers(Collider)
         met: Integers = np.empty(len(there), np.int64)
         rows = met[: find_met(there, collider.layer, collider.mask, met)]
-        if not np.array_equal(rows, self.rows):
+        if not are_same_rows(rows, self.rows):
             if len(rows) and rows[-1] >= len(self.known):
                 self._make_room(world.capacity)
             self.rows = rows

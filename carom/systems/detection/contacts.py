@@ -12,7 +12,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake
 from carom.systems.constants import CROWDED
-from carom.systems.continuous import Fast
+from carom.systems.continuous import Fast, some_may_be_fast
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.apart import Apart
 from carom.systems.detection.bounds import reach_within, reaches_of
@@ -30,6 +30,7 @@ from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.crushing import let_go_of_crushed
 from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.kernels.renewal import renew_contacts
+from carom.systems.kernels.rows import count_in_pairs
 from carom.systems.passing import without_passing
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
@@ -41,6 +42,7 @@ from carom.systems.threads import Threads, crew_for
 from carom.systems.ties import Ties
 
 NOTHING = Found.room(0)
+NOBODY: Integers = np.empty((0, 2), np.int64)
 
 
 @system(
@@ -80,16 +82,19 @@ def detect(world: World, left: float, soon: float) -> None:
     progress.detections += 1
     while True:
         pairs = world[Ties].without_joined(world, without_sensors(world, overlapping(world)))
-        if len(pairs) and soon < left and len(pairs) > CROWDED * np.count_nonzero(np.bincount(pairs.ravel())):
+        if len(pairs) and soon < left and len(pairs) > CROWDED * count_in_pairs(world.used(), pairs):
             progress.crowded, left, moved = True, soon, np.array(pose.moved)
             reach_within(world, left)
             pose.moved[:] |= moved  # nothing has since it was placed just now, but since the step before
             continue
-        found, free = without_passing(world, find(world, pairs), left, world[Flight].detected_center)
+        found, free, center = find(world, pairs), NOBODY, world[Flight].detected_center
+        fast = some_may_be_fast(world, pairs, left, center)
+        if fast:
+            found, free = without_passing(world, found, left, center)
         if not rouse(world, found):
             break
         reach_within(world, left)
-    world[Fast].find(world, pairs, free, found, left)
+    world[Fast].find(world, pairs if fast else NOBODY, free, found, left)
     store(world, without_seams(world, world[Fast].trusted(found)))
 
 
@@ -134,7 +139,7 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
         collider.shape, collider.size, collider.geometry, pose.position, pose.rotation,
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
-    known = count == old_count and not changed.any() and world[Resting].knows(world)
+    known = count == old_count and not any(changed.tolist()) and world[Resting].knows(world)
     complete_contacts(
         crew, count, known, changed, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,
         pose.body_row, collider.shape, collider.size, collider.bound_half, collider.bound_radius,
@@ -152,4 +157,4 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
         world[Motion].linear, world[Motion].angular,
         contact.warm_normal, contact.warm_friction, contact.warm_rolling,
     )  # fmt: skip
-    return not changed.any() and not crushed
+    return not any(changed.tolist()) and not crushed

@@ -144,7 +144,7 @@ def measure_pairs(
     counts = np.zeros((2, threads_of(crew), len(FUNCTIONS) + 1), np.int64)
     table = FUNCTION_OF if (collision or world[Settings].collision) == "auto" else NO_STAND_INS
     sort_by_function(crew, pairs, collider.shape, table, SWAPS, side, order, first, second, *counts)
-    buckets = [(number, count) for number, count in enumerate(counts[0].sum(axis=0).tolist()) if count]
+    buckets = [(number, count) for number, count in enumerate(map(sum, zip(*counts[0].tolist(), strict=True))) if count]
     points = Points(n, sum(ROOMS[number] * count for number, count in buckets))
     hulls, meshes = world[PackedHulls].holding(world), world[PackedMeshes].holding(world)
     begin = taken = 0

@@ -76,6 +76,26 @@ def extent_of(c, bound_half, bound_radius):
     return max(LEAST_FAST, min(bound_half[c, 0], bound_half[c, 1], bound_half[c, 2]) + bound_radius[c])
 
 
+@kernel()
+def may_be_fast(
+    span, rows, local_position, bound_center, bound_half, bound_radius, position, body_row, center, inverse_mass,
+    linear, angular,
+):  # fmt: skip
+    """Tell whether somebody may be fast within ``span`` seconds, if the fastest and the smallest of all were one."""
+    smallest, speed, spin, lever = NEVER, 0.0, 0.0, 0.0
+    for c in rows:
+        i = body_row[c]
+        if i < 0:
+            continue
+        if inverse_mass[i] > 0.0:
+            smallest = min(smallest, extent_of(c, bound_half, bound_radius))
+        reach = reach_of(c, i, local_position, bound_center, bound_half, position, center)
+        lever = max(lever, reach + bound_radius[c])
+        speed, spin = max(speed, length_of(i, linear)), max(spin, length_of(i, angular))
+    way = (2.0 * speed + 4.0 * spin * lever) * span  # either turns, and moves what is out there with it
+    return way * (1.0 + spin * span) > FAST * smallest
+
+
 @kernel("fast", "numbers")
 def find_fast(
     pairs, free, span, shape, local_position, bound_center, bound_half, bound_radius, position, body_row, center,

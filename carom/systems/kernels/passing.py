@@ -5,32 +5,10 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FAST
 from carom.systems.kernels.bodies import length_of
-from carom.systems.kernels.fast_pairs import NEVER, between, extent_of, reach_of
+from carom.systems.kernels.fast_pairs import NEVER, between
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.trust import closing_of
-
-
-@kernel()
-def some_are_fast(
-    span, rows, local_position, bound_center, bound_half, bound_radius, position, body_row, center, inverse_mass,
-    linear, angular,
-):  # fmt: skip
-    """Tell whether two bodies that can be pushed may be fast, within ``span`` seconds, as the fastest and smallest are.
-
-    Most often none are, and their pairs need not be gone through.
-    """
-    smallest, speed, spin, lever = NEVER, 0.0, 0.0, 0.0
-    for c in rows:
-        i = body_row[c]
-        if i >= 0 and inverse_mass[i] > 0.0:
-            smallest = min(smallest, extent_of(c, bound_half, bound_radius))
-            reach = reach_of(c, i, local_position, bound_center, bound_half, position, center)
-            lever = max(lever, reach + bound_radius[c])
-            speed, spin = max(speed, length_of(i, linear)), max(spin, length_of(i, angular))
-    way = (2.0 * speed + 4.0 * spin * lever) * span  # either turns, and moves what is out there with it
-    return way * (1.0 + spin * span) > FAST * smallest
 
 
 @woven
