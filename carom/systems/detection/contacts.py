@@ -124,9 +124,9 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
     """
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     crew = crew_for(world, count)
-    changed = np.zeros(threads_of(crew), np.bool_)
+    match, changed = np.empty(count, np.int64), np.zeros(threads_of(crew), np.bool_)
     renew_contacts(
-        crew, np.empty(count, np.int64), np.zeros(old_count, np.bool_), changed, old_count,
+        crew, match, np.zeros(old_count, np.bool_), changed, old_count,
         world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
         found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point, found.by_fcl,
         found.old, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
@@ -139,11 +139,10 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
         collider.shape, collider.size, collider.geometry, pose.position, pose.rotation,
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
-    known = count == old_count and not any(changed.tolist()) and world[Resting].knows(world)
     complete_contacts(
-        crew, count, known, changed, contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b,
-        pose.body_row, collider.shape, collider.size, collider.bound_half, collider.bound_radius,
-        pose.position, pose.rotation,
+        crew, count, match, world[Resting].knows(world), changed,
+        contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
+        collider.shape, collider.size, collider.bound_half, collider.bound_radius, pose.position, pose.rotation,
         world[Flight].detected_center, world[Transform].rotation, world[RigidBody].inverse_mass,
         material.friction, material.restitution, material.rolling_friction, material.spinning_friction,
         material.friction_combine, material.restitution_combine, collider.surface_velocity,
@@ -157,4 +156,4 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
         world[Motion].linear, world[Motion].angular,
         contact.warm_normal, contact.warm_friction, contact.warm_rolling,
     )  # fmt: skip
-    return not any(changed.tolist()) and not crushed
+    return count == old_count and not any(changed.tolist()) and not crushed

@@ -41,7 +41,7 @@ def combined(x, y, rule_x, rule_y, default):
     "other_position", "other_rotation",
 )  # fmt: skip
 def complete_contacts(
-    crew, count, known, changed, normal, depth, point, row_a, row_b,
+    crew, count, match, known, changed, normal, depth, point, row_a, row_b,
     body_row, shape, size, bound_half, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
     material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
     surface_velocity, friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b,
@@ -50,13 +50,14 @@ def complete_contacts(
     """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
     Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces. Where all
-    are ``known``, what follows from shapes and materials, and where others stand, is there. Each thread tells in
-    ``changed`` whether it was not, or a surface runs.
+    are ``known``, what follows from shapes and materials, and where others stand, is there of pairs that are where they
+    were (``match``). Each thread tells in ``changed`` whether it was not, or a surface runs.
     """
     end, until = runs_of(crew, row_a[:count], row_b[:count])
     while end < until:
-        first, a, b = end, row_a[end], row_b[end]
+        first, a, b, there = end, row_a[end], row_b[end], known
         while end < until and row_a[end] == a and row_b[end] == b:
+            there &= match[end] == end
             end += 1
         on_a, on_b = body_row[a], body_row[b]
         ax, ay, az = seat_of(a, on_a, center, pose_position)
@@ -65,7 +66,7 @@ def complete_contacts(
         what, i, o, sense, ex, ey, ez = exact_pair(
             a, b, shape, size, body_row, pose_position, pose_rotation, center, rotation, inverse_mass
         )
-        anew = not known or what != kind[first]
+        anew = not there or what != kind[first]
         changed[crew[1]] |= anew or belt
         if anew:
             rubs = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)

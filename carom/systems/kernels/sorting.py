@@ -255,17 +255,19 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     slow = choose(engaged, larger(all_forces, bearing), choose(restitution, pressing, all_forces))
     limit = slow * (REST_SPEED_FACTOR * h) + APPROACH
     near, striking = spread(-1.0), spread(-1.0)
+    # What forces kept together before, is on a joint or inside one another, and does not bounce, rests however fast it
+    # closes.
+    known = larger(choose(all_forces, together, zero), joined)
+    may_strike = some(choose(load(lanes, r + of.SHARE), choose(known, restitution, one), zero))
     parting = (dot(n, minus(b, a)), zero, zero) if balls else parting_of(r, lanes, a, b)
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         closing = -(parting_at(q, lanes, parting) if points > 1 else parting[0])
         gap = -load(lanes, q + of.DEPTH)
         after = gap - closing * h - pressing * (0.5 * h * h)
-        # What forces kept together before, is on a joint or inside one another, and does not bounce, rests however
-        # fast it closes.
-        known = larger(choose(all_forces, together, zero), joined)
-        bounces = choose(larger(known, -SLOP - gap), restitution, one)
-        striking = choose(after, striking, choose(bounces, larger(striking, closing - limit), striking))
+        if may_strike:
+            bounces = choose(larger(known, -SLOP - gap), restitution, one)
+            striking = choose(after, striking, choose(bounces, larger(striking, closing - limit), striking))
         touching = smaller(TOUCH - gap, -after)
         near = larger(near, choose(is_ball, touching, choose(gap - SLOP, zero, spread(SLOP)) - after))
     lies = choose(-near, zero, choose(choose(is_ball, zero, held), one, choose(striking, zero, one)))
