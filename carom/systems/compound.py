@@ -14,6 +14,7 @@ from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import levels
 from carom.ecs.spatial import quaternion
 from carom.systems.bodies import centers_of_mass
+from carom.systems.kernels.rows import own_rows
 from carom.systems.mass import Part, rigid_body
 from carom.systems.settings import Settings
 from carom.systems.shapes import BY_NUMBER, Shape
@@ -37,7 +38,8 @@ class StatedBodies(Resource):
 def bodies_of(world: World) -> Integers:
     """Return for each row in use the row of the body it belongs to: itself, the nearest that carries it, or -1."""
     is_body = world.table(RigidBody).present[: world.used()]
-    body = np.where(is_body, np.arange(len(is_body)), -1)
+    body: Integers = np.empty(len(is_body), np.int64)
+    own_rows(is_body, body)
     for level in levels(world, world.row_numbers(Parent, Transform)):
         carriers = world.slots.rows(world[Parent].entity[level])
         body[level] = np.where(is_body[level], level, body[carriers])

@@ -58,7 +58,9 @@ def wake_disturbed(world: World, dt: float) -> None:
     changes, turned = awake.look(world), _turned(world)
     if changes or awake.strangers:
         awake.find(world)
-    asked = awake.sleepers[world[Motion].still[awake.sleepers] < 0.0]
+    asked = awake.sleepers
+    if len(asked):
+        asked = asked[world[Motion].still[asked] < 0.0]
     if not changes and not len(asked) and not len(turned) and awake.idle:
         return
     ties, joined = world[Ties], Joint in changes.edited

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from carom.ecs import ExternalForce, World
+from carom.ecs import ExternalForce, RigidBody, World
 from carom.ecs.column import Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.spring import Spring
 from carom.systems.awake import Awake
 from carom.systems.forces.law import Forces
+from carom.systems.kernels.forces import some_are_turned
 
 
 class Standing(Resource):
@@ -25,7 +26,7 @@ class Standing(Resource):
     def judge(self, world: World) -> None:
         """Say at the beginning of a step whether its forces stay."""
         looked_at = self.heard or world[Awake].strangers or world[Forces].count or len(world.row_numbers(Spring))
-        self.stay = not looked_at and not world[ExternalForce].torque[: world.used()].any()
+        self.stay = not looked_at and not some_are_turned(world.row_numbers(RigidBody), world[ExternalForce].torque)
         self.rows = None
 
 

@@ -25,6 +25,15 @@ def clear_external(rows, force, torque):
             force[i, k], torque[i, k] = 0.0, 0.0
 
 
+@kernel()
+def some_are_turned(rows, torque):
+    """Tell whether a torque acts on some of these rows; NaN is one."""
+    none = True
+    for i in rows:
+        none &= torque[i, 0] == 0.0 and torque[i, 1] == 0.0 and torque[i, 2] == 0.0
+    return not none
+
+
 @kernel("force")
 def add_weight(rows, mass, scale, gx, gy, gz, force):
     """Add m g, times the body's own scale."""
