@@ -74,6 +74,7 @@ def go_on(world: World, dt: float) -> None:
         resting.index_a, resting.index_b, resting.first, resting.size, resting.points, resting.row,
         resting.fresh, resting.stale, resting.looks, resting.asks, resting.ends, resting.run_ends, resting.closes,
         resting.leans, resting.lanes, resting.bodies, resting.pages_for(crew),
+        resting.crushed, resting.stirred,
         body.center_of_mass, body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes, body.freedom,
         force.drag, force.drag_flow, force.angular_drag,
         transform.position, transform.rotation, motion.linear, motion.angular,

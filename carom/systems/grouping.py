@@ -30,7 +30,7 @@ def group_contacts(world: World, *, same: bool) -> None:
         resting.rested = np.empty(2 * points, np.bool_)
     if resting.bodies.shape[1] != nobody + 1:
         resting.bodies, resting.packed = aligned(PLANES, nobody + 1, BLOCK), None
-        resting.leans = np.zeros((2, nobody + 1), np.bool_)
+        resting.leans, resting.stirred = np.zeros((2, nobody + 1), np.bool_), np.empty(nobody + 1, np.int64)
     if not points:
         if resting.count:
             resting.bound_of = None

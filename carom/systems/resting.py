@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Floats, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.awake import Awake
-from carom.systems.constants import MANIFOLD_POINTS, RELAX_SWEEPS
+from carom.systems.constants import MORE_SWEEPS, RELAX_SWEEPS
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
 from carom.systems.kernels.crew import threads_of
@@ -30,10 +30,11 @@ from carom.systems.kernels.packing import (
     pack_velocities,
     unpack_velocities,
 )
-from carom.systems.kernels.resting import SCRATCH_ROWS, press_groups
+from carom.systems.kernels.resting import press_groups
 from carom.systems.kernels.rows import are_same_rows
 from carom.systems.kernels.settling import sink_contacts, tell_depths
 from carom.systems.kernels.sorting import sort_groups
+from carom.systems.kernels.stirring import KEPT_ROWS
 from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
@@ -70,7 +71,9 @@ class Resting(Resource):
         self.placed = False  # whether they have not moved since
         self.start, self.beside = np.zeros(1, np.int64), np.zeros(0, np.int64)
         self.rested = np.zeros(0, np.bool_)  # which manifolds did when they were put into groups
-        self.bodies, self.lanes, self.scratch = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH), aligned(0, 0, WIDTH)
+        self.bodies, self.lanes, self.scratch = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH), aligned(0, 2, 0, WIDTH)
+        self.stirred = np.empty(1, np.int64)  # the last sweep by which each body was
+        self.crushed = np.zeros(1, np.bool_)  # who is, for whom sweeping on would be in vain
         self.leans = np.zeros((2, 1), np.bool_)  # who rests on something, as balls on exact arcs do in the second row
         self.reserve(0)
 
@@ -104,6 +107,13 @@ class Resting(Resource):
             if not are_same_rows(found[:count], self.bound):  # else they may be packed already
                 self.bound = found[:count]
         return self.bound
+
+    def crushed_among(self, world: World) -> Booleans:
+        """Return the column of bodies that are crushed, the last of which is nobody."""
+        size = len(world[RigidBody].inverse_mass) + 1
+        if len(self.crushed) != size:
+            self.crushed = np.zeros(size, np.bool_)
+        return self.crushed
 
     def level_ends(self) -> list[int]:
         """Return where the groups of each level end."""
@@ -221,7 +231,8 @@ class Resting(Resource):
         rows, motion, linkage, relaxing = self.rows(world), world[Motion], world[Linkage], stage.name == "relax"
         if not (self.hearers or (self.groups and linkage.groups)):
             if self.groups:
-                self._press(world, stage, stage.sweeps, begins=not relaxing, ended=relaxing, rows=rows, motion=motion)
+                most = stage.sweeps + MORE_SWEEPS
+                self._press(world, stage, 0, most, begins=not relaxing, ended=relaxing, rows=rows, motion=motion)
             else:
                 linkage.solve(
                     stage.sweeps, stage.h, self.bodies, relaxing=relaxing, begins=not relaxing, ended=relaxing,
@@ -231,34 +242,40 @@ class Resting(Resource):
         pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
         if not relaxing:
             linkage.solve(0, stage.h, self.bodies, begins=True)
-            self._press(world, stage, 0, begins=True)
+            self._press(world, stage, 0, 0, begins=True)
         self._tell(stage, 0)
-        for done in range(1, stage.sweeps + 1):
-            linkage.solve(1, stage.h, self.bodies, relaxing=relaxing)
-            self._press(world, stage, 1, ended=relaxing and done == stage.sweeps)
+        done, follow = 0, True
+        while done < stage.sweeps or (follow and done < stage.sweeps + MORE_SWEEPS):
+            if done < stage.sweeps:
+                linkage.solve(1, stage.h, self.bodies, relaxing=relaxing)
+            follow = self._press(world, stage, done, 1, ended=relaxing)
+            done += 1
             self._tell(stage, done)
         if relaxing:
             linkage.solve(0, stage.h, self.bodies, relaxing=relaxing, ended=True)
         unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
     def _press(
-        self, world: World, stage: Stage, sweeps: int, *, begins: bool = False, ended: bool = False,
+        self, world: World, stage: Stage, swept: int, most: int, *, begins: bool = False, ended: bool = False,
         rows: Integers = NOBODY, motion: Velocities = STILL,
-    ) -> None:  # fmt: skip
-        """Press all groups, level by level."""
+    ) -> bool:  # fmt: skip
+        """Press all groups, ``most`` times after those ``swept``, level by level; tell whether others are to follow."""
         if not self.groups:
-            return
+            return False
         crew = crew_for(world, self.count)
+        stirs = np.zeros((2, threads_of(crew)), np.bool_)
         press_groups(
-            crew, begins, sweeps, ended, stage.h, self.ends, self.levels, self.run_ends, stage.soft, stage.rigid,
-            self.index_a, self.index_b, self.points, self.row, self.asks, rows, self.pages_for(crew), self.lanes,
-            self.bodies, motion.linear, motion.angular,
+            crew, begins, swept, most, stage.sweeps, ended, stage.h, self.ends, self.levels, self.run_ends,
+            stage.soft, stage.rigid, self.index_a, self.index_b, self.points, self.row, self.asks, rows,
+            self.pages_for(crew), self.lanes, self.bodies, motion.linear, motion.angular, self.crushed,
+            self.stirred, stirs,
         )  # fmt: skip
+        return bool(stirs[swept % 2].any())
 
     def pages_for(self, crew: Integers) -> Floats:
-        """Return room in which each thread of a crew solves the points of a group."""
+        """Return room in which each thread of a crew solves the points of a group, and keeps what that had before."""
         if len(self.scratch) < threads_of(crew):
-            self.scratch = aligned(threads_of(crew), SCRATCH_ROWS * MANIFOLD_POINTS, WIDTH)
+            self.scratch = aligned(threads_of(crew), 2, KEPT_ROWS, WIDTH)
         return self.scratch
 
     def _tell(self, stage: Stage, done: int) -> None:

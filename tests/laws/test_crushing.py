@@ -109,10 +109,13 @@ def test_only_who_is_between_what_drives_and_what_stands_is_crushed() -> None:
     for turn in (linear, angular):
         turn[drives] = 0.0, -1.0, 0.0
         normal, rubs, rolls = np.ones(6), np.ones((6, 3)), np.ones((6, 3))
-        arguments = np.arange(7), 6, a, b, depth, inverse_mass, linear, angular, normal, rubs, rolls
+        found = np.ones(8, np.bool_)
+        arguments = np.arange(7), 6, a, b, depth, inverse_mass, linear, angular, normal, rubs, rolls, found
         assert let_go_of_crushed(*arguments)
+        assert np.flatnonzero(found).tolist() == [crushed]
         kept = [*[CRUSHED_PART] * 3, 1.0, 1.0, 1.0]
         assert np.column_stack([normal, rubs, rolls]).tolist() == [[part] * 7 for part in kept]
         turn[drives] = 0.0
         assert not let_go_of_crushed(*arguments)
+        assert not found.any()
         assert normal.tolist() == kept

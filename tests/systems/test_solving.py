@@ -30,7 +30,9 @@ def last(solving: Solving) -> Sweep:
     return solving.sweeps[-1]
 
 
-@pytest.mark.parametrize("make", [stack_of_boxes, lambda: bin_of_balls(40), lambda: bin_of_balls(20, threads=2)])
+@pytest.mark.parametrize(
+    "make", [lambda: stack_of_boxes(sleeping=False), lambda: bin_of_balls(40), lambda: bin_of_balls(20, threads=2)]
+)
 def test_looking_on_changes_no_bit(make: Any) -> None:
     """Also when it begins and ends in the middle of a run."""
     plain, watched = make(), make()

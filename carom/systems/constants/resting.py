@@ -44,5 +44,10 @@ PUSH_SPEED = 3.0
 # drift leaves 3 mm/s in a pyramid; with fewer over rolling a ball takes more substeps to stop than theory does.
 POINT_SWEEPS, RELAX_SWEEPS, ROLL_SWEEPS = 2, 2, 8
 
+# m/s. Where the last of these sweeps changed how fast two bodies part by more than the first, others follow until one
+# changes nothing by more than the second; and how many at most. Larger: columns that land go on closing, sink into each
+# other by centimetres and bounce off that. Smaller: piles are swept often while they settle.
+STIRRED, CALM, MORE_SWEEPS = 0.5, 0.1, 20
+
 # Squared part of the most that friction and rolling may be, by which a sweep changes what is found: rounding.
 ROLLING_SOLVED = 1e-28

@@ -154,6 +154,6 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
     crushed = let_go_of_crushed(
         world[Awake].now(world), count, contact.body_a, contact.body_b, contact.depth, world[RigidBody].inverse_mass,
         world[Motion].linear, world[Motion].angular,
-        contact.warm_normal, contact.warm_friction, contact.warm_rolling,
+        contact.warm_normal, contact.warm_friction, contact.warm_rolling, world[Resting].crushed_among(world),
     )  # fmt: skip
     return count == old_count and not any(changed.tolist()) and not crushed

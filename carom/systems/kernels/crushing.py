@@ -9,16 +9,17 @@ from carom.systems.constants import CRUSHED, CRUSHED_PART
 from carom.systems.kernels.kernel import kernel, making, woven
 
 
-@kernel("warm_normal", "warm_friction", "warm_rolling", makes_arrays=True)
+@kernel("warm_normal", "warm_friction", "warm_rolling", "crushed", makes_arrays=True)
 def let_go_of_crushed(
-    rows, count, body_a, body_b, depth, inverse_mass, linear, angular, warm_normal, warm_friction, warm_rolling
+    rows, count, body_a, body_b, depth, inverse_mass, linear, angular, warm_normal, warm_friction, warm_rolling, crushed
 ):
-    """Let who is crushed keep a part of all impulses on it; tell whether anybody is. All that moves is in ``rows``.
+    """Let who is ``crushed`` keep a part of all impulses on it; tell whether anybody is. All that moves is in ``rows``.
 
     That is who is held between what is driven and what stands, and overlaps somebody by more than CRUSHED. Impulses
     would add up in each step, since neither side gives way.
     """
     deep, driven = False, False
+    crushed[:] = False
     for c in range(count):
         deep |= depth[c] > CRUSHED
     for i in rows if deep else rows[:0]:
@@ -26,7 +27,7 @@ def let_go_of_crushed(
     if not driven:
         return False
     reached = reached_from_both(count, body_a, body_b, depth, inverse_mass, linear, angular, warm_normal)
-    crushed, some = np.zeros(len(inverse_mass), np.bool_), False
+    some = False
     for c in range(count):
         for i in (body_a[c], body_b[c]):
             if depth[c] > CRUSHED and i >= 0 and inverse_mass[i] > 0.0 and reached[i, 0] and reached[i, 1]:

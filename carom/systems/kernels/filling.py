@@ -33,12 +33,10 @@ from carom.systems.kernels.groups import (
     WARM,
 )
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_columns import lane_of, numbers_at, pick, pick_one, pick_three
+from carom.systems.kernels.lane_columns import LANES, lane_of, numbers_at, pick, pick_one, pick_three
 from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, spread, store
 from carom.systems.kernels.resting_balls import are_even
-
-LANES = tuple(range(WIDTH))
 
 
 @shared("lanes")

@@ -9,6 +9,7 @@ import numpy as np
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, spread, which
 
+LANES = tuple(range(WIDTH))
 ALL = (1 << WIDTH) - 1
 SMALLEST = 5e-324  # the smallest number above 0: nothing lies between
 

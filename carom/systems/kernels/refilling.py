@@ -6,10 +6,10 @@ from __future__ import annotations
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls_in_lanes import are_balls
 from carom.systems.kernels.crew import part_of, shared
-from carom.systems.kernels.filling import LANES, find_tangents, keep_where, place_points, places_of
+from carom.systems.kernels.filling import find_tangents, keep_where, place_points, places_of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_columns import lane_of, numbers_at, pick_three
+from carom.systems.kernels.lane_columns import LANES, lane_of, numbers_at, pick_three
 from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times
 from carom.systems.kernels.lanes import address, choose, load, spread, store
 

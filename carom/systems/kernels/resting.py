@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import POINT_SWEEPS
+from carom.systems.constants import CALM, POINT_SWEEPS, STIRRED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, RUNS, couplings, pair
@@ -12,20 +12,24 @@ from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import (
     address,
+    choose,
     fetch,
     gather,
     larger,
     load,
     planes,
     scatter,
+    some,
     spread,
     store,
+    which,
 )
 from carom.systems.kernels.levers import frame_of, parting_at, parting_of
 from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
-from carom.systems.kernels.resting_balls import press_balls, press_balls_warm
+from carom.systems.kernels.resting_balls import parted_by, press_balls, press_balls_warm
 from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, rub
 from carom.systems.kernels.softness import aimed_at
+from carom.systems.kernels.stirring import NEVER, are_stirred, put_aside, put_back, some_stir, stir
 
 # Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, and the
 # mass that counts along the normal.
@@ -56,25 +60,32 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
     scatter(bodies[VELOCITY], index_b, g, b)
 
 
-@shared("scratch", "lanes", "bodies", "linear", "angular")
+@shared("scratch", "lanes", "bodies", "linear", "angular", "stirred", "stirs")
 def press_groups(
-    crew, begins, sweeps, ended, h, ends, levels, run_ends, soft, rigid,
-    index_a, index_b, points, row, asks, rows, scratch, lanes, bodies, linear, angular,
+    crew, begins, swept, most, sweeps, ended, h, ends, levels, run_ends, soft, rigid,
+    index_a, index_b, points, row, asks, rows, scratch, lanes, bodies, linear, angular, crushed, stirred, stirs,
 ):  # fmt: skip
-    """Solve every group that rests ``sweeps`` times over.
+    """Solve every group that rests, in a stage of ``sweeps`` of which so many are ``swept``: ``most`` more of them.
 
-    ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`aimed_at`). Those with something
-    that cannot move come last, so that what is under a pile has the last word. Where the substep ``begins`` with them,
-    the impulses of the one before are applied first; where it has ``ended``, its impulses are added to those of the
-    step. Velocities of ``rows`` are packed before and unpacked behind.
+    Where the last of a stage still stirs somebody (STIRRED), others follow until all are CALM, over the groups of those
+    bodies that are not: ``stirred`` is the last sweep in which each was stirred. In the row of ``stirs`` that even or
+    odd sweeps have, each thread tells whether others are to follow. ``soft`` and ``rigid`` say how contacts of two
+    moving bodies and of one yield (`aimed_at`). Those with something that cannot move come last, so that what is under
+    a pile has the last word. Where the substep ``begins`` with them, the impulses of the one before are applied first;
+    where it has ``ended``, its impulses are added to those of the step. Velocities of ``rows`` are packed before and
+    unpacked behind.
 
-    A thread takes its part of each run of a level, waits for the others after that, and has a page of ``scratch``.
+    A thread takes its part of each run of a level, waits for the others after that, and has two pages of ``scratch``.
     """
-    velocity, scratch = bodies[VELOCITY], address(scratch[crew[1]])
-    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
+    _, part, parts = crew
+    velocity, kept, scratch = bodies[VELOCITY], address(scratch[part, 1]), address(scratch[part, 0])
+    lanes, bodies, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     begin, end = part_of(crew, len(rows))
     mine = rows[begin:end]
     write_velocities(mine, linear, angular, velocity)
+    if swept == 0:
+        begin, end = part_of(crew, len(stirred))
+        stirred[begin:end] = NEVER
     passed = 1
     wait_for_all(crew, passed)
     for level in range(levels if begins else 0):
@@ -82,27 +93,44 @@ def press_groups(
             begin, end = part_of_run(crew, run, run_ends)
             for g in range(begin, end):
                 if asks[g] != IDLE:
-                    fetch_next(g, end, index_a, index_b, bodies)
-                    press_warm(g, row[g], points[g], asks[g], index_a, index_b, lanes, bodies)
+                    fetch_next(g, end, of_a, of_b, bodies)
+                    press_warm(g, row[g], points[g], asks[g], of_a, of_b, lanes, bodies)
         passed += 1
         wait_for_all(crew, passed)
-    for sweep in range(sweeps):
+    for sweep in range(swept, swept + most):
+        last, again, stirs_some = sweep >= sweeps - 1, sweep >= sweeps, False
+        limit = CALM if again else STIRRED
         for level in range(levels):
             for run in range(RUNS * level, RUNS * (level + 1)):
                 begin, end = part_of_run(crew, run, run_ends)
                 for g in range(begin, end):
                     if asks[g] == IDLE:
                         continue
-                    fetch_next(g, end, index_a, index_b, bodies)
+                    fetch_next(g, end, of_a, of_b, bodies)
                     rate, hardness = soft if g < ends[0] else rigid
-                    press(
+                    if again:
+                        concerned = are_stirred(g, sweep - 1, index_a, index_b, stirred)
+                        if not some(concerned):
+                            continue
+                        put_aside(g, row[g], points[g], asks[g], of_a, of_b, lanes, bodies, kept)
+                    change = press(
                         g, row[g], points[g], asks[g], 1.0 / h, rate, hardness,
-                        index_a, index_b, lanes, bodies, scratch,
+                        of_a, of_b, lanes, bodies, scratch,
                     )  # fmt: skip
-                    if ended and sweep == sweeps - 1:
+                    if again:
+                        put_back(concerned, g, row[g], points[g], asks[g], ended, of_a, of_b, lanes, bodies, kept)
+                        change = choose(concerned, change, spread(0.0))
+                    elif ended and last:
                         sum_impulses(row[g], points[g], lanes)
+                    if last and some(change - limit):
+                        stir(g, sweep, which(change - limit), index_a, index_b, velocity, crushed, stirred)
+                        stirs_some = True
             passed += 1
+            if level == levels - 1:
+                stirs[sweep % 2, part] = stirs_some
             wait_for_all(crew, passed)
+        if last and not some_stir(stirs, sweep, parts):
+            break
     read_velocities(mine, velocity, linear, angular)
 
 
@@ -126,31 +154,35 @@ def sum_impulses(r, points, lanes):
 
 @woven
 def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lanes, bodies, scratch):
-    """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling."""
+    """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling.
+
+    Return by how much that changes how fast bodies part.
+    """
     if asks == BALLS:
-        press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies)
-        return
+        return press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies)
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     # Loops over a known number of points are unrolled.
     if points == 1:
-        a, b, total, twisting = press_points(1, r, per_second, rate, hardness, a, b, lanes, scratch)
+        a, b, total, twisting, push = press_points(1, r, per_second, rate, hardness, a, b, lanes, scratch)
     elif points == 2:
-        a, b, total, twisting = press_points(2, r, per_second, rate, hardness, a, b, lanes, scratch)
+        a, b, total, twisting, push = press_points(2, r, per_second, rate, hardness, a, b, lanes, scratch)
     elif points == 3:
-        a, b, total, twisting = press_points(3, r, per_second, rate, hardness, a, b, lanes, scratch)
+        a, b, total, twisting, push = press_points(3, r, per_second, rate, hardness, a, b, lanes, scratch)
     else:
-        a, b, total, twisting = press_points(4, r, per_second, rate, hardness, a, b, lanes, scratch)
+        a, b, total, twisting, push = press_points(4, r, per_second, rate, hardness, a, b, lanes, scratch)
     if asks >= RUBBING:
         a, b = rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies)
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
+    return parted_by(push, a, b)
 
 
 @woven
 def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
     """Solve the points of a group.
 
-    Return the velocities of both bodies, the sum of the impulses, and that of each times its distance from the middle.
+    Return the velocities of both bodies, the sum of the impulses, that of each times its distance from the middle, and
+    what they changed by.
     Each point has a target, the impulse that is `aimed_at`; others move it, and the bodies learn of all at once.
     """
     parting, zero = parting_of(r, lanes, a, b), spread(0.0)
@@ -182,4 +214,4 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
             twisting = twisting + after * load(lanes, q + of.AWAY)
             by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
     a, b = pressed(r, lanes, a, b, push, by_t, by_u)
-    return a, b, total, twisting
+    return a, b, total, twisting, push

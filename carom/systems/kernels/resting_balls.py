@@ -83,7 +83,10 @@ def press_balls_warm(g, r, index_a, index_b, lanes, bodies):
 
 @woven
 def press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies):
-    """Solve a group once, as `press_points` and `rub` do: what parts balls does not rub them, so that both are one."""
+    """Solve a group once, as `press_points` and `rub` do: what parts balls does not rub them, so that both are one.
+
+    Return by how much that changes how fast they part.
+    """
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     q, zero = r + MANIFOLD_ROWS, spread(0.0)
     depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
@@ -98,3 +101,10 @@ def press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodie
     a, b = struck_balls(r, lanes, a, b, after - before, minus(new, f))
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
+    return parted_by(after - before, a, b)
+
+
+@woven
+def parted_by(j, a, b):
+    """Return by how much (m/s) an impulse changes how fast the centres of two bodies part, or close."""
+    return larger(j, -j) * (a[INVERSE_MASS] + b[INVERSE_MASS])

@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
-from carom.systems.constants import RELAX_SWEEPS
+from carom.systems.constants import MORE_SWEEPS, RELAX_SWEEPS
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
@@ -35,7 +35,7 @@ HARD = (0.0, 1.0)
 
 
 @kernel(
-    "fresh", "stale", "looks", "asks", "closes", "leans", "lanes", "bodies", "scratch",
+    "fresh", "stale", "looks", "asks", "closes", "leans", "lanes", "bodies", "scratch", "stirred",
     "position", "rotation", "linear", "angular", "last_acceleration", "last_angular_acceleration",
     "center", "time", "acceleration", "angular_acceleration", "decay", "angular_decay", "flow", "touching",
     "start_position", "start_rotation", "start_linear", "start_angular", "start_center", "turned",
@@ -47,7 +47,7 @@ def take_substeps(
     crew, alone, fewest, number, substeps, h, begun, scheme, resting_stage, soft, rigid,
     rows, watched, bound, contacts, count, groups, levels, solids, balls,
     start, beside, group_of, lane_of, index_a, index_b, first, size, points, row, fresh, stale, looks, asks, ends,
-    run_ends, closes, leans, lanes, bodies, scratch,
+    run_ends, closes, leans, lanes, bodies, scratch, crushed, stirred,
     center_of_mass, inverse_mass, inertia, inverse_inertia, principal_axes, freedom, drag, drag_flow, angular_drag,
     position, rotation, linear, angular, last_acceleration, last_angular_acceleration,
     center, time, acceleration, angular_acceleration, felt, decay, angular_decay, flow, touching, held,
@@ -74,7 +74,7 @@ def take_substeps(
     bends, leaving = 0.5 if scheme == VERLET else 0.0, np.empty(1, np.int64)
     apart, rests = np.zeros(len(crew) // ROOM, np.bool_), np.zeros(len(crew) // ROOM, np.int64)
     soon, cut, begins, flown = np.empty((len(crew) // ROOM, 2)), 0, number, True
-    times = np.empty(len(fast))
+    times, stirs = np.empty(len(fast)), np.empty((2, len(crew) // ROOM), np.bool_)
     none = logged = np.int64(0)  # a bare 0 has a type of its own, for which `fly` would be compiled once more
     now = nanoseconds()
     for k in range(number, substeps + 1):
@@ -118,8 +118,8 @@ def take_substeps(
         now = note(KICK, now, spent)
         if rest:
             share(describe(press, for_groups, (
-                True, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
-                row, asks, bound, scratch, lanes, bodies, linear, angular,
+                True, 0, 1 + MORE_SWEEPS, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
+                row, asks, bound, scratch, lanes, bodies, linear, angular, crushed, stirred, stirs,
             )))  # fmt: skip
             if scheme == VERLET and some_lean(leans):
                 share(describe(bend, for_groups, (
@@ -185,8 +185,9 @@ def take_substeps(
         now = note(SETTLE, now, spent)
         if rest:
             share(describe(press, for_groups, (
-                False, RELAX_SWEEPS, True, h, ends, levels, run_ends, HARD, HARD, index_a, index_b,
-                points, row, asks, bound, scratch, lanes, bodies, linear, angular,
+                False, 0, RELAX_SWEEPS + MORE_SWEEPS, RELAX_SWEEPS, True, h, ends, levels, run_ends, HARD, HARD,
+                index_a, index_b, points, row, asks, bound, scratch, lanes, bodies, linear, angular,
+                crushed, stirred, stirs,
             )))  # fmt: skip
             now = note(RELAX, now, spent)
     return substeps, DONE, h, 0, 0, cut, logged, log_pair, log
