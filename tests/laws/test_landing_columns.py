@@ -67,3 +67,15 @@ def test_columns_land_alike_whoever_listens_and_however_many_solve(other: str) -
             simulation.step()
     assert state_hash(simulations[0].world) == state_hash(simulations[1].world)
     assert not sweeps or max(sweeps) > 2
+
+
+def test_a_column_lands_alike_where_a_joint_holds_somebody_else() -> None:
+    """To the bit: contacts and joints are swept in turns there, and contacts alone where sweeps go on."""
+    alone, beside = columns(9, 0.5, 6.0), columns(9, 0.5, 6.0)
+    bob = beside.add(collider={"sphere": {"radius": 0.1}}, body={}, transform={"position": (9.0, 5.0, 0.0)})
+    beside.add(joint={"ball": {"b": bob, "at": (9.5, 5.0, 0.0)}})
+    for _ in range(12):
+        alone.step()
+        beside.step()
+        found = [one.world[Transform].position[one.world.row_numbers(RigidBody)[:9]] for one in (alone, beside)]
+        np.testing.assert_array_equal(*found)
