@@ -135,9 +135,9 @@ def look_at(world: World, fast: Integers, center: Floats, looked: Looked) -> Lan
 
 
 def some_may_be_fast(world: World, pairs: Integers, span: float, center: Floats) -> bool:
-    """Tell whether some of ``pairs`` (n, 2) may be fast, as `fast_of` says; most often none are in a crowd.
+    """Tell whether some of ``pairs`` (n, 2) may be fast, as `fast_of` says, of those that can meet within the ``span``.
 
-    Of fewer pairs than colliders it takes as long to ask them.
+    Most often none are in a crowd. Of fewer pairs than colliders it takes as long to ask them.
     """
     collider, pose, motion, rows = world[Collider], world[ColliderPose], world[Motion], world.row_numbers(Collider)
     if len(pairs) < len(rows):

@@ -30,11 +30,10 @@ from carom.systems.kernels.packing import (
     pack_velocities,
     unpack_velocities,
 )
-from carom.systems.kernels.resting import press_groups
+from carom.systems.kernels.resting import PAGE_ROWS, press_groups
 from carom.systems.kernels.rows import are_same_rows
 from carom.systems.kernels.settling import sink_contacts, tell_depths
 from carom.systems.kernels.sorting import sort_groups
-from carom.systems.kernels.stirring import KEPT_ROWS
 from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
@@ -259,7 +258,7 @@ class Resting(Resource):
         self, world: World, stage: Stage, swept: int, most: int, *, begins: bool = False, ended: bool = False,
         rows: Integers = NOBODY, motion: Velocities = STILL,
     ) -> bool:  # fmt: skip
-        """Press all groups, ``most`` times after those ``swept``, level by level; tell whether others are to follow."""
+        """Press all groups, ``most`` times after those ``swept``; tell, of one time, whether others are to follow."""
         if not self.groups:
             return False
         crew = crew_for(world, self.count)
@@ -275,7 +274,7 @@ class Resting(Resource):
     def pages_for(self, crew: Integers) -> Floats:
         """Return room in which each thread of a crew solves the points of a group, and keeps what that had before."""
         if len(self.scratch) < threads_of(crew):
-            self.scratch = aligned(threads_of(crew), 2, KEPT_ROWS, WIDTH)
+            self.scratch = aligned(threads_of(crew), 2, PAGE_ROWS, WIDTH)
         return self.scratch
 
     def _tell(self, stage: Stage, done: int) -> None:

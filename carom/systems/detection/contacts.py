@@ -14,7 +14,7 @@ from carom.systems.awake import Awake
 from carom.systems.constants import CROWDED
 from carom.systems.continuous import Fast, some_may_be_fast
 from carom.systems.detection.answered import Answered
-from carom.systems.detection.apart import Apart
+from carom.systems.detection.apart import NOBODY, Apart
 from carom.systems.detection.bounds import reach_within, reaches_of
 from carom.systems.detection.broad import BroadPhase, overlapping
 from carom.systems.detection.fcl_objects import FclObjects
@@ -42,7 +42,6 @@ from carom.systems.threads import Threads, crew_for
 from carom.systems.ties import Ties
 
 NOTHING = Found.room(0)
-NOBODY: Integers = np.empty((0, 2), np.int64)
 
 
 @system(

@@ -38,15 +38,9 @@ else:
     from carom.systems.kernels.lanes_compiled import (
         address,
         choose,
-        fetch,
-        gather,
-        gather_four,
         larger,
         load,
-        planes,
         root,
-        scatter,
-        scatter_four,
         smaller,
         some,
         spread,
@@ -54,6 +48,7 @@ else:
         which,
         whole,
     )
+    from carom.systems.kernels.lanes_of_bodies import fetch, gather, gather_four, planes, scatter, scatter_four
 
 __all__ = [
     "WIDTH",

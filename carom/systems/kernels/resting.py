@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import CALM, POINT_SWEEPS, STIRRED
+from carom.systems.constants import CALM, MANIFOLD_POINTS, POINT_SWEEPS, STIRRED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, RUNS, couplings, pair
@@ -29,11 +29,12 @@ from carom.systems.kernels.packing import VELOCITY, read_velocities, write_veloc
 from carom.systems.kernels.resting_balls import parted_by, press_balls, press_balls_warm
 from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, rub
 from carom.systems.kernels.softness import aimed_at
-from carom.systems.kernels.stirring import NEVER, are_stirred, put_aside, put_back, some_stir, stir
+from carom.systems.kernels.stirring import KEPT_ROWS, NEVER, are_stirred, put_aside, put_back, some_stir, stir
 
 # Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, and the
 # mass that counts along the normal.
 IMPULSE, TARGET, STIFF, SCRATCH_ROWS = 0, 1, 2, 3
+PAGE_ROWS = max(SCRATCH_ROWS * MANIFOLD_POINTS, KEPT_ROWS)  # of points, and of what a group had before they are solved
 
 
 @woven
