@@ -55,9 +55,17 @@ def shapes():
             simulation.add(collider=kind, transform={"position": (3.0 * k, height, 0.0)}, **body)
     return simulation
 
+def column():
+    simulation = Simulation()
+    simulation.add(collider={"plane": {}})
+    for k in range(4):
+        box, place = {"box": {"size": (1.0, 1.0, 1.0)}}, {"position": (0.01 * k, 0.52 + k, 0.0)}
+        simulation.add(collider=box, body={}, transform=place, motion={"linear": (0.0, -6.0, 0.0)})
+    return simulation
+
 frames, worlds = int(sys.argv[1]), sys.argv[2:]
 for name in worlds:
-    simulation = globals()[name]() if name in ("stack", "shapes", "heap") else load_world(name).simulation
+    simulation = globals()[name]() if name in ("stack", "shapes", "heap", "column") else load_world(name).simulation
     for _ in range(frames):
         simulation.step()
         print(name, simulation.frame, state_hash(simulation.world))
@@ -107,10 +115,13 @@ def test_a_processor_without_wide_vectors_gives_the_same_bits(here: list[str], t
 
 
 def test_kernels_do_the_same_without_the_jit(here: list[str]) -> None:
-    """Every kernel runs as plain Python under NUMBA_DISABLE_JIT=1, gives the same bits and makes no warning."""
-    frames = 3
-    plain = hashes(frames, *WORLDS, "shapes", NUMBA_DISABLE_JIT="1")
-    assert plain == [line for line in here if int(line.split()[1]) <= frames] + hashes(frames, "shapes")
+    """Every kernel runs as plain Python under NUMBA_DISABLE_JIT=1, gives the same bits and makes no warning.
+
+    A column that lands is swept on.
+    """
+    frames, further = 3, ("shapes", "column")
+    plain = hashes(frames, *WORLDS, *further, NUMBA_DISABLE_JIT="1")
+    assert plain == [line for line in here if int(line.split()[1]) <= frames] + hashes(frames, *further)
 
 
 FEWEST = 64  # bodies, pairs or contacts that are shared here, fewer than pays
