@@ -173,7 +173,7 @@ def test_live_starts_a_viewer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
         deadline = time.monotonic() + viewer.PATIENCE
         ends: set[int] = set()
         views: set[str] = set()
-        while 60 not in ends or "World" not in views:  # it takes up frames when they come, views when it draws
+        while 60 not in ends or "World" not in views:  # both need not be there at once
             assert time.monotonic() < deadline, (ends, views)
             time.sleep(0.2)
             state = client.get_state()
