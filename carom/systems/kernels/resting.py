@@ -9,7 +9,7 @@ from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_al
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, RUNS, couplings, pair
 from carom.systems.kernels.impulses import pressed, rolled, struck
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import dot, three
+from carom.systems.kernels.lane_vectors import TINY, dot, three
 from carom.systems.kernels.lanes import (
     address,
     choose,
@@ -19,6 +19,7 @@ from carom.systems.kernels.lanes import (
     load,
     planes,
     scatter,
+    smaller,
     some,
     spread,
     store,
@@ -31,9 +32,10 @@ from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTIN
 from carom.systems.kernels.softness import aimed_at
 from carom.systems.kernels.stirring import KEPT_ROWS, NEVER, are_stirred, put_aside, put_back, some_stir, stir
 
-# Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, and the
-# mass that counts along the normal.
-IMPULSE, TARGET, STIFF, SCRATCH_ROWS = 0, 1, 2, 3
+# Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, the mass
+# that counts along the normal, the same where it presses, and how fast the point parts when others bear by that.
+IMPULSE, TARGET, STIFF, BEARS, OTHERS, SCRATCH_ROWS = 0, 1, 2, 3, 4, 5
+FAR = 1e300  # N s, more than any point lacks
 PAGE_ROWS = max(SCRATCH_ROWS * MANIFOLD_POINTS, KEPT_ROWS)  # of points, and of what a group had before they are solved
 
 
@@ -184,7 +186,8 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
 
     Return the velocities of both bodies, the sum of the impulses, that of each times its distance from the middle, and
     what they changed by.
-    Each point has a target, the impulse that is `aimed_at`; others move it, and the bodies learn of all at once.
+    Each point has a target, the impulse that is `aimed_at`; others move it, and the bodies learn of all at once. What
+    all need alike comes first, then one after the other what it lacks.
     """
     parting, zero = parting_of(r, lanes, a, b), spread(0.0)
     for p in range(points):
@@ -195,6 +198,8 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
         store(scratch, x + IMPULSE, before)
         store(scratch, x + TARGET, target)
         store(scratch, x + STIFF, stiff)
+    if points > 1:
+        share_out(points, r, lanes, scratch)
     for _ in range(POINT_SWEEPS if points > 1 else 1):
         for p in range(points):
             after = larger(zero, load(scratch, SCRATCH_ROWS * p + TARGET))
@@ -216,3 +221,35 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
             by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
     a, b = pressed(r, lanes, a, b, push, by_t, by_u)
     return a, b, total, twisting, push
+
+
+@woven
+def share_out(points, r, lanes, scratch):
+    """Give the points of a manifold that press, or did, what all of them lack at least, each by its mass.
+
+    Else the first of them would bear what all do, and what lands squarely would turn. Where some lack what others have
+    too much of, nothing is shared. It is one step of Galerkin's method along these masses.
+    """
+    zero, one, given, number = spread(0.0), spread(1.0), spread(TINY), spread(0.0)
+    least, most = spread(FAR), spread(-FAR)
+    for p in range(points):
+        x = SCRATCH_ROWS * p
+        before, target = load(scratch, x + IMPULSE), load(scratch, x + TARGET)
+        presses, lacks = larger(before, target), target - before
+        store(scratch, x + BEARS, choose(presses, load(scratch, x + STIFF), zero))
+        least, most = choose(presses, smaller(least, lacks), least), choose(presses, larger(most, lacks), most)
+        number = number + choose(presses, one, zero)
+    for p in range(points):
+        x, others = SCRATCH_ROWS * p, zero
+        for o in range(points):
+            if o != p:
+                coupling = load(lanes, couplings(r, points) + pair(max(p, o), min(p, o)))
+                others = others + load(scratch, SCRATCH_ROWS * o + BEARS) * coupling
+        store(scratch, x + OTHERS, others)
+        given = given + load(scratch, x + BEARS) * (one + others)
+    share = number * (larger(zero, least) + smaller(zero, most)) / given
+    for p in range(points):
+        x = SCRATCH_ROWS * p
+        by_others = load(scratch, x + STIFF) * load(scratch, x + OTHERS)
+        store(scratch, x + IMPULSE, load(scratch, x + IMPULSE) + share * load(scratch, x + BEARS))
+        store(scratch, x + TARGET, load(scratch, x + TARGET) - share * by_others)
