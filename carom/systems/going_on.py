@@ -30,7 +30,7 @@ from carom.systems.settings import Settings
 from carom.systems.stream import Stream
 from carom.systems.threads import FEWEST, Threads, crew_for
 from carom.systems.ties import Ties
-from carom.systems.yielding import yielding
+from carom.systems.yielding import relax_sweeps, yielding
 
 #: The systems whose work `take_substeps` does, in its order.
 DONE_AT_ONCE = (
@@ -69,6 +69,7 @@ def go_on(world: World, dt: float) -> None:
     number, reason, at, events, rests, cut, count, pair, log = take_substeps(
         crew, ALONE, FEWEST, progress.substep, settings.substeps, dt, begun,
         SCHEMES[settings.integrator], float(settings.response == "full"), *yielding(dt),
+        relax_sweeps(settings.substeps),
         rows, watched, resting.rows(world), contact.count, resting.count, resting.groups, resting.levels,
         resting.solids, resting.balls, resting.start, resting.beside, resting.group_of, resting.lane_of,
         resting.index_a, resting.index_b, resting.first, resting.size, resting.points, resting.row,

@@ -13,7 +13,7 @@ from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.awake import Awake
-from carom.systems.constants import MORE_SWEEPS, RELAX_SWEEPS
+from carom.systems.constants import MORE_SWEEPS
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
 from carom.systems.kernels.crew import threads_of
@@ -38,7 +38,7 @@ from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.threads import crew_for
-from carom.systems.yielding import Yielding, yielding
+from carom.systems.yielding import Yielding, relax_sweeps, yielding
 
 
 class Stage(NamedTuple):
@@ -220,7 +220,7 @@ class Resting(Resource):
             self._pack_anew(world)  # all of them have moved
             self.placed = True
             linkage.measure(world, self.bodies)
-        self._solve(world, Stage("relax", RELAX_SWEEPS, h, hard, hard))
+        self._solve(world, Stage("relax", relax_sweeps(world[Settings].substeps), h, hard, hard))
 
     def _solve(self, world: World, stage: Stage) -> None:
         """Do all sweeps of a stage: at once where joints or contacts are alone and nobody is to hear of each.

@@ -1,10 +1,10 @@
-"""Yielding: how soft contacts are, by how long a substep is."""
+"""Yielding: how soft contacts are, and how often they are swept, by how long a substep is."""
 
 from __future__ import annotations
 
 from math import pi
 
-from carom.systems.constants import CONTACT_DAMPING, CONTACT_PERIODS, RIGID_RATE
+from carom.systems.constants import CONTACT_DAMPING, CONTACT_PERIODS, RELAX_SWEEPS, RIGID_RATE, STEP_SWEEPS
 
 Yielding = tuple[float, float]
 
@@ -19,3 +19,8 @@ def yielding(h: float) -> tuple[Yielding, Yielding]:
     one = 2.0 * CONTACT_DAMPING + h * circle
     two = h * circle * one
     return (circle / one, two / (1.0 + two)), (RIGID_RATE / h, 1.0)
+
+
+def relax_sweeps(substeps: int) -> int:
+    """Return how many sweeps come after the drift of each of so many substeps: in coarse ones more."""
+    return max(RELAX_SWEEPS, STEP_SWEEPS // substeps)

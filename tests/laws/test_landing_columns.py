@@ -66,12 +66,15 @@ def test_a_column_that_lands_stays_down(count: int, size: float, speed: float) -
         (2, (0.1, 0.3, 0.05)),
         (3, (1.0, 1.0, 1.0)),
         (3, (2.0, 0.5, 0.7)),
+        (5, (1.0, 1.0, 1.0)),
+        (5, (0.5, 0.2, 0.5)),
     ],
 )
 def test_what_lands_squarely_does_not_turn(count: int, speed: float, size: tuple[float, float, float]) -> None:
-    """To rounding, however it is turned about the vertical; who turned a little when he landed does so no more.
+    """To rounding, however it is turned about the vertical; who turned a little when he landed does so hardly more.
 
-    All corners bear alike what all lack: one after the other, they left 0.04 m/s and 0.07 rad/s.
+    All corners bear alike what all lack: one after the other, they left 0.04 m/s and 0.07 rad/s. And how a contact
+    yields goes over from gaps to overlap without a step: with one, a billionth made a thousandth in columns of five.
     """
     for turning in (0.0, 1e-9):
         simulation, half_turn = columns(0, 1.0, 0.0), 0.15
@@ -88,8 +91,8 @@ def test_what_lands_squarely_does_not_turn(count: int, speed: float, size: tuple
         rows, motion = simulation.world.row_numbers(RigidBody), simulation.world[Motion]
         for _ in range(60):
             simulation.step()
-            assert np.abs(motion.linear[rows][:, [0, 2]]).max() <= 1e-11 + 100.0 * turning
-            assert np.abs(motion.angular[rows]).max() <= 1e-11 + 100.0 * turning
+            assert np.abs(motion.linear[rows][:, [0, 2]]).max() <= 1e-10 + 1000.0 * turning
+            assert np.abs(motion.angular[rows]).max() <= 1e-10 + 1000.0 * turning
 
 
 @pytest.mark.parametrize("other", ["heard", "two threads"])

@@ -76,7 +76,7 @@ def test_the_residual_falls_as_fast_as_theory_says(upper: float, monkeypatch: py
     simulation = on_the_ground(collider={"sphere": {"radius": 0.5}}, material={"density": 6.0 / np.pi})
     place = {"position": (0.0, 1.5, 0.0)}
     simulation.add(collider={"sphere": {"radius": 0.5}}, body={"mass": upper}, transform=place)
-    monkeypatch.setattr(resting, "RELAX_SWEEPS", 10)
+    monkeypatch.setattr(resting, "relax_sweeps", lambda substeps: 10)
     solving = Solving(simulation)
     simulation.step(2)
     left = np.array([sweep.residual for sweep in solving.sweeps[2:13]])

@@ -18,9 +18,18 @@ MANIFOLD_POINTS = 4
 # 25 mm instead of 11 (1/8), and towers buckle sooner. A heavy body sinks into light ones.
 CONTACT_PERIODS, CONTACT_DAMPING = 0.1875, 10.0
 
+# m. A gap between two moving bodies yields the less the wider it is, up to this. Narrower: of corners that land at once
+# some yield and some do not, by how they turned by a billionth, and columns fall elsewhere. Wider: pyramids sway.
+HARD_GAP = 1e-4
+
 # Part of the overlap with what cannot move that leaves in a substep; such contacts do not yield, so that what lies on
 # the ground lies where it should. Larger: bodies under a pile tremble. Smaller: it takes longer.
 RIGID_RATE = 0.05
+
+# rad/s, m. Who rocks so fast on what cannot move leaves it by half of that, who is faster by less; overlap beyond so
+# much leaves as ever. Larger, or less overlap: he is lifted after each landing as far as he sank in it, and rocks on
+# for good. Smaller: what trembles sinks in. More overlap: what a press crushes comes out late.
+ROCKING, ROCKING_DEPTH = 3e-3, 5e-4
 
 # m, and part of its impulses that a body keeps from step to step where it overlaps by more with what is driven against
 # it: it is being crushed, which no impulse can help, and those that add up throw it out. A smaller overlap: what is
@@ -39,10 +48,18 @@ BOUNCE_SPEED = 0.01
 # m/s. Overlap leaves no faster: what begins deep inside another would be shot out.
 PUSH_SPEED = 3.0
 
-# Sweeps of the resting stage: over the points of a manifold, over all manifolds after the drift, and over friction and
-# rolling of a manifold that resists rolling. One sweep over points lets stacks drift by centimetres; one after the
-# drift leaves 3 mm/s in a pyramid; with fewer over rolling a ball takes more substeps to stop than theory does.
-POINT_SWEEPS, RELAX_SWEEPS, ROLL_SWEEPS = 2, 2, 8
+# Sweeps of the resting stage: over the points of a manifold, and over friction and rolling of a manifold that resists
+# rolling. One sweep over points lets stacks drift by centimetres; with fewer over rolling a ball takes more substeps to
+# stop than theory does.
+POINT_SWEEPS, ROLL_SWEEPS = 2, 8
+
+# Sweeps over all manifolds after the drift: in all substeps of a step, and in each of them at least. Fewer: a pyramid
+# in one substep sways for long, one in several is left at 3 mm/s. More: the former settles aside.
+STEP_SWEEPS, RELAX_SWEEPS = 6, 2
+
+# Sweeps more over those bodies on which somebody starts to press: points and friction find together by half in each.
+# Fewer: what starts on a slope gets ahead of theory by a third of what it gains in its first step. More: it takes time.
+START_SWEEPS = 2
 
 # m/s. Where the last of these sweeps changed how fast two bodies part by more than the first, others follow until one
 # changes nothing by more than the second; and how many at most. Larger: columns that land go on closing, sink into each

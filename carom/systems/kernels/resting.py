@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import CALM, MANIFOLD_POINTS, POINT_SWEEPS, STIRRED
+from carom.systems.constants import CALM, MANIFOLD_POINTS, POINT_SWEEPS, START_SWEEPS, STIRRED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, RUNS, couplings, pair
@@ -29,7 +29,7 @@ from carom.systems.kernels.levers import frame_of, parting_at, parting_of
 from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
 from carom.systems.kernels.resting_balls import parted_by, press_balls, press_balls_warm
 from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, rub
-from carom.systems.kernels.softness import aimed_at
+from carom.systems.kernels.softness import aimed_at, leaving
 from carom.systems.kernels.stirring import KEPT_ROWS, NEVER, are_stirred, put_aside, put_back, some_stir, stir
 
 # Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, the mass
@@ -71,12 +71,12 @@ def press_groups(
     """Solve every group that rests, in a stage of ``sweeps`` of which so many are ``swept``: ``most`` more of them.
 
     Where the last of a stage still stirs somebody (STIRRED), others follow until all are CALM, over the groups of those
-    bodies that are not: ``stirred`` is the last sweep in which each was stirred. In the row of ``stirs`` that even or
-    odd sweeps have, each thread tells whether others are to follow. ``soft`` and ``rigid`` say how contacts of two
-    moving bodies and of one yield (`aimed_at`). Those with something that cannot move come last, so that what is under
-    a pile has the last word. Where the substep ``begins`` with them, the impulses of the one before are applied first;
-    where it has ``ended``, its impulses are added to those of the step. Velocities of ``rows`` are packed before and
-    unpacked behind.
+    bodies that are not: ``stirred`` is the last sweep in which each was stirred. Whose manifold starts to press is
+    stirred in the START_SWEEPS that follow. In the row of ``stirs`` that even or odd sweeps have, each thread tells
+    whether others are to follow. ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield
+    (`aimed_at`). Those with something that cannot move come last, so that what is under a pile has the last word. Where
+    the substep ``begins`` with them, the impulses of the one before are applied first; where it has ``ended``, its
+    impulses are added to those of the step. Velocities of ``rows`` are packed before and unpacked behind.
 
     A thread takes its part of each run of a level, waits for the others after that, and has two pages of ``scratch``.
     """
@@ -116,15 +116,20 @@ def press_groups(
                         if not some(concerned):
                             continue
                         put_aside(g, row[g], points[g], asks[g], of_a, of_b, lanes, bodies, kept)
-                    change = press(
+                    change, starts = press(
                         g, row[g], points[g], asks[g], 1.0 / h, rate, hardness,
                         of_a, of_b, lanes, bodies, scratch,
                     )  # fmt: skip
                     if again:
                         put_back(concerned, g, row[g], points[g], asks[g], ended, of_a, of_b, lanes, bodies, kept)
                         change = choose(concerned, change, spread(0.0))
+                        go_on = are_stirred(g, sweep, index_a, index_b, stirred)
+                        stirs_some |= some(choose(concerned, go_on, spread(0.0)))
                     elif ended and last:
                         sum_impulses(row[g], points[g], lanes)
+                    if last and not again and some(starts):
+                        stir(g, sweep + START_SWEEPS - 1, which(starts), index_a, index_b, velocity, crushed, stirred)
+                        stirs_some = True
                     if last and some(change - limit):
                         stir(g, sweep, which(change - limit), index_a, index_b, velocity, crushed, stirred)
                         stirs_some = True
@@ -159,10 +164,11 @@ def sum_impulses(r, points, lanes):
 def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lanes, bodies, scratch):
     """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling.
 
-    Return by how much that changes how fast bodies part.
+    Return by how much that changes how fast bodies part, and more than 0 where no point has pressed before: friction
+    turns bodies, against which points cannot press before the next sweep. Balls need none for that.
     """
     if asks == BALLS:
-        return press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies)
+        return press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies), spread(0.0)
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     # Loops over a known number of points are unrolled.
     if points == 1:
@@ -177,7 +183,8 @@ def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lane
         a, b = rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies)
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
-    return parted_by(push, a, b)
+    # One point cannot hold up what turns over it.
+    return parted_by(push, a, b), choose(total - push, spread(0.0), total) if points > 1 else spread(0.0)
 
 
 @woven
@@ -190,11 +197,12 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
     all need alike comes first, then one after the other what it lacks.
     """
     parting, zero = parting_of(r, lanes, a, b), spread(0.0)
+    slow = leaving(points, rate, hardness, parting)
     for p in range(points):
         q, x = r + MANIFOLD_ROWS + POINT_ROWS * p, SCRATCH_ROWS * p
         depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
         parts = parting_at(q, lanes, parting) if points > 1 else parting[0]
-        target, stiff = aimed_at(depth, before, mass, parts, per_second, rate, hardness)
+        target, stiff = aimed_at(depth, before, mass, parts, per_second, rate, slow, hardness)
         store(scratch, x + IMPULSE, before)
         store(scratch, x + TARGET, target)
         store(scratch, x + STIFF, stiff)

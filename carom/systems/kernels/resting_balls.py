@@ -91,7 +91,7 @@ def press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodie
     q, zero = r + MANIFOLD_ROWS, spread(0.0)
     depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
     parts, slips = parting_of_balls(r, lanes, a, b)
-    after = larger(zero, aimed_at(depth, before, mass, parts, per_second, rate, hardness)[0])
+    after = larger(zero, aimed_at(depth, before, mass, parts, per_second, rate, rate, hardness)[0])
     store(lanes, q + of.WARM, after)
     f = three(lanes, r + of.RUB)
     new = minus(f, times(load(lanes, r + of.GIVE), slips))

@@ -3,21 +3,33 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import PUSH_SPEED, ROOT_GAP
+from carom.systems.constants import HARD_GAP, PUSH_SPEED, ROCKING, ROCKING_DEPTH
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lanes import choose, smaller, spread
+from carom.systems.kernels.lanes import larger, smaller, spread
 
 
 @woven
-def aimed_at(depth, before, mass, parts, per_second, rate, hardness):
+def leaving(points, rate, hardness, parting):
+    """Return which part of itself overlap leaves by (1/s): of what rocks on what cannot move, the less the faster.
+
+    Lifted meanwhile as far as it sank in when it landed, it would rock on for good. Only what it sinks in by
+    (ROCKING_DEPTH) leaves so slowly.
+    """
+    if points == 1 or hardness < 1.0 or rate == 0.0:
+        return spread(rate)
+    return rate / (1.0 + (parting[1] * parting[1] + parting[2] * parting[2]) * (1.0 / (ROCKING * ROCKING)))
+
+
+@woven
+def aimed_at(depth, before, mass, parts, per_second, rate, slow, hardness):
     """Return the impulse after which points would part as wanted, were all else to stay, and by how much per m/s.
 
-    Overlap leaves at ``rate`` (1/s) times itself. A soft contact is a spring and a damper, stepped implicitly, of which
-    ``hardness`` (part of the mass, and of the impulse that stays) remains: Catto, Soft Constraints, GDC 2011, and
-    Solver2D, 2024 (soft step). A gap may close until the end of the substep, of which there are so many ``per_second``;
-    one that is rounding is none, or corners that land together would not be alike.
+    Overlap leaves at ``rate`` (1/s) times itself, that up to ROCKING_DEPTH at the ``slow`` one. A soft contact is a
+    spring and a damper, stepped implicitly, of which ``hardness`` (part of the mass, and of the impulse that stays)
+    remains: Catto, Soft Constraints, GDC 2011, and Solver2D, 2024 (soft step). A gap may close until the end of the
+    substep, of which there are so many ``per_second``; from HARD_GAP on it does not yield.
     """
-    gap = -depth - ROOT_GAP
-    wanted = choose(gap, depth * per_second, smaller(depth * rate, spread(PUSH_SPEED)))
-    hard = choose(gap, spread(1.0), spread(hardness))
+    sunk = smaller(depth, spread(ROCKING_DEPTH))
+    wanted = smaller(smaller(depth * per_second, sunk * slow + (depth - sunk) * rate), spread(PUSH_SPEED))
+    hard = smaller(spread(1.0), hardness + larger(spread(0.0), -depth) * (1.0 / HARD_GAP))
     return hard * (before - mass * (parts - wanted)), hard * mass

@@ -97,14 +97,14 @@ def put_velocities_back(concerned, g, index, at, bodies, kept):
 
 @woven
 def stir(g, sweep, lanes, index_a, index_b, velocity, crushed, stirred):
-    """Note that a sweep has stirred the bodies of some lanes of a group, each a bit.
+    """Note that a sweep has stirred the bodies of some lanes of a group, each a bit, or that one to come will have.
 
     What cannot move never is, nor what is crushed, which no impulse can help.
     """
     for lane in range(WIDTH):
         for i in (index_a[g, lane], index_b[g, lane]):
             if lanes >> lane & 1 and velocity[i, INVERSE_MASS] > 0.0 and not crushed[i]:
-                stirred[i] = sweep
+                stirred[i] = max(stirred[i], sweep)
 
 
 @woven

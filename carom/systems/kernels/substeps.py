@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
-from carom.systems.constants import MORE_SWEEPS, RELAX_SWEEPS
+from carom.systems.constants import MORE_SWEEPS
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
@@ -44,7 +44,7 @@ HARD = (0.0, 1.0)
     makes_arrays=True,
 )  # fmt: skip
 def take_substeps(
-    crew, alone, fewest, number, substeps, h, begun, scheme, resting_stage, soft, rigid,
+    crew, alone, fewest, number, substeps, h, begun, scheme, resting_stage, soft, rigid, relaxes,
     rows, watched, bound, contacts, count, groups, levels, solids, balls,
     start, beside, group_of, lane_of, index_a, index_b, first, size, points, row, fresh, stale, looks, asks, ends,
     run_ends, closes, leans, lanes, bodies, scratch, crushed, stirred,
@@ -64,8 +64,9 @@ def take_substeps(
     flight ended, when, events, how many manifolds rest in it, cut, impacts logged, pair of each, log); it is over where
     that is `DONE`.
 
-    Forces are those of the first substep, and there are no joints and no sensors. What is done for each of `SYSTEMS` is
-    what that does; ``spent`` is how long it took (ns).
+    Forces are those of the first substep, and there are no joints and no sensors. Manifolds are swept so often
+    (``relaxes``) after each drift. What is done for each of `SYSTEMS` is what that does; ``spent`` is how long it took
+    (ns).
     """
     for_rows = crew if len(rows) >= fewest else alone  # as `crew_for` does
     for_bound = crew if len(bound) >= fewest else alone
@@ -185,7 +186,7 @@ def take_substeps(
         now = note(SETTLE, now, spent)
         if rest:
             share(describe(press, for_groups, (
-                False, 0, RELAX_SWEEPS + MORE_SWEEPS, RELAX_SWEEPS, True, h, ends, levels, run_ends, HARD, HARD,
+                False, 0, relaxes + MORE_SWEEPS, relaxes, True, h, ends, levels, run_ends, HARD, HARD,
                 index_a, index_b, points, row, asks, bound, scratch, lanes, bodies, linear, angular,
                 crushed, stirred, stirs,
             )))  # fmt: skip
