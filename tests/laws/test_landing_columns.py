@@ -58,19 +58,21 @@ def test_a_column_that_lands_stays_down(count: int, size: float, speed: float) -
 
 @pytest.mark.parametrize("speed", [0.5, 6.0])
 @pytest.mark.parametrize(
-    ("count", "size"),
+    ("count", "size", "grown"),
     [
-        (1, (1.0, 1.0, 1.0)),
-        (1, (0.1, 0.3, 0.05)),
-        (2, (2.0, 0.5, 0.7)),
-        (2, (0.1, 0.3, 0.05)),
-        (3, (1.0, 1.0, 1.0)),
-        (3, (2.0, 0.5, 0.7)),
-        (5, (1.0, 1.0, 1.0)),
-        (5, (0.5, 0.2, 0.5)),
+        (1, (1.0, 1.0, 1.0), 1.0),
+        (1, (0.1, 0.3, 0.05), 1.0),
+        (2, (2.0, 0.5, 0.7), 1.0),
+        (2, (0.1, 0.3, 0.05), 1.0),
+        (3, (1.0, 1.0, 1.0), 1.0),
+        (3, (2.0, 0.5, 0.7), 1.0),
+        (5, (1.0, 1.0, 1.0), 10.0),  # five cubes are so slender that what they lean by grows
+        (5, (0.5, 0.2, 0.5), 1.0),
     ],
 )
-def test_what_lands_squarely_does_not_turn(count: int, speed: float, size: tuple[float, float, float]) -> None:
+def test_what_lands_squarely_does_not_turn(
+    count: int, speed: float, size: tuple[float, float, float], grown: float
+) -> None:
     """To rounding, however it is turned about the vertical; who turned a little when he landed does so hardly more.
 
     All corners bear alike what all lack: one after the other, they left 0.04 m/s and 0.07 rad/s. And how a contact
@@ -91,8 +93,8 @@ def test_what_lands_squarely_does_not_turn(count: int, speed: float, size: tuple
         rows, motion = simulation.world.row_numbers(RigidBody), simulation.world[Motion]
         for _ in range(60):
             simulation.step()
-            assert np.abs(motion.linear[rows][:, [0, 2]]).max() <= 1e-10 + 1000.0 * turning
-            assert np.abs(motion.angular[rows]).max() <= 1e-10 + 1000.0 * turning
+            assert np.abs(motion.linear[rows][:, [0, 2]]).max() <= grown * (1e-11 + 100.0 * turning)
+            assert np.abs(motion.angular[rows]).max() <= grown * (1e-11 + 100.0 * turning)
 
 
 @pytest.mark.parametrize("other", ["heard", "two threads"])

@@ -106,16 +106,18 @@ def test_a_cube_leans_on_any_corner_of_the_octagon_it_shares_with_another(below:
         assert np.abs(positions(simulation) - place["position"]).max() <= 1e-5
 
 
+@pytest.mark.parametrize("pitch", [1.05, 1.06])
 @pytest.mark.parametrize(
     ("substeps", "aside", "speed"), [(1, 0.02, 1e-3), (2, 2e-3, 1e-3), (4, 1e-3, 1e-4), (8, 2e-4, 1e-6)]
 )
-def test_a_pyramid_of_55_cubes_stands(substeps: int, aside: float, speed: float) -> None:
-    """Ten at the base, 5 cm apart: none moves sideways by more than 1 mm in 10 s; by more in coarse substeps.
+def test_a_pyramid_of_55_cubes_stands(substeps: int, aside: float, speed: float, pitch: float) -> None:
+    """Ten at the base, 5 or 6 cm apart: none moves sideways by more than 1 mm in 10 s; by more in coarse substeps.
 
-    Springs are softer then, and it rests: stiffer than substeps can follow, they made it flutter at 10 cm/s.
+    Springs are softer then, and it rests: stiffer than substeps can follow, they made it flutter at 10 cm/s, and with
+    two sweeps after the drift of a whole step one 6 cm apart swayed at 3 mm/s.
     """
     simulation = on_ground(substeps=substeps)
-    placed = [((j - i) * 1.05 + 0.525 * i - 4.725, 0.5 + i, 0.0) for i in range(10) for j in range(i, 10)]
+    placed = [(pitch * (j - 0.5 * i - 4.5), 0.5 + i, 0.0) for i in range(10) for j in range(i, 10)]
     for place in placed:
         add_cube(simulation, *place)
     simulation.step(600)
