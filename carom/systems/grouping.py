@@ -21,7 +21,7 @@ from carom.systems.threads import crew_for
 def group_contacts(world: World, *, same: bool) -> None:
     """Find the manifolds of the contact table, which detection has replaced, and put them into groups.
 
-    They stay in theirs where the table is the ``same`` but for where contacts are, and the same of them rest.
+    They stay in theirs where the table is the ``same`` but for where contacts are, and all but a few rest as they did.
     """
     resting, contact, body = world[Resting], world[Contact], world[RigidBody]
     points, nobody = contact.count, len(body.inverse_mass)
@@ -70,7 +70,7 @@ def _group_anew(world: World) -> None:
         contact.kind, contact.rolling, contact.spinning, contact.surface, contact.resting,
         body.inverse_mass, body.inverse_inertia, body.freedom, len(body.inverse_mass),
         resting.group_of, resting.lane_of, resting.index_a, resting.index_b, resting.first, resting.size,
-        resting.points, resting.row, resting.even, resting.ends, resting.run_ends,
+        resting.points, resting.row, resting.even, resting.ends, resting.run_ends, resting.rested,
     )  # fmt: skip
     if len(resting.lanes) < rows:
         resting.lanes = aligned(2 * rows, WIDTH)

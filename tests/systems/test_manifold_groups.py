@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from heaps import bin_of_balls, stack_of_boxes
 
-from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
 from carom.ecs.system import System
 from carom.systems.kernels import groups as of
@@ -46,7 +45,7 @@ def test_those_who_did_not_rest_come_last_in_their_level(make: Callable[[], Simu
     A group in which nobody rests is not solved.
     """
     simulation, apart, idle = make(), 0, 0
-    resting, contact = simulation.world[Resting], simulation.world[Contact]
+    resting = simulation.world[Resting]
 
     def look(system: System) -> None:
         nonlocal apart
@@ -55,7 +54,8 @@ def test_those_who_did_not_rest_come_last_in_their_level(make: Callable[[], Simu
         begin = 0
         for end in resting.level_ends():
             there = resting.first[begin:end] >= 0
-            rests = contact.resting[resting.first[begin:end][there]]
+            manifolds = np.searchsorted(resting.start[: resting.count], resting.first[begin:end][there])
+            rests = resting.rested[manifolds]
             size, points = resting.size[begin:end][there], np.repeat(resting.points[begin:end], there.sum(axis=1))
             assert (size <= points).all()
             kinds = (rests, ~rests) if (~rests).sum() >= WIDTH else (np.ones_like(rests),)

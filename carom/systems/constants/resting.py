@@ -68,3 +68,7 @@ STIRRED, CALM, MORE_SWEEPS = 0.5, 0.1, 20
 
 # Squared part of the most that friction and rolling may be, by which a sweep changes what is found: rounding.
 ROLLING_SOLVED = 1e-28
+
+# Part of all manifolds that may begin or end to rest while all stay in their groups. More: groups are solved in which
+# only one rests. Fewer: where balls come to rest, all are grouped anew in each step.
+REGROUPED = 1.0 / 64.0

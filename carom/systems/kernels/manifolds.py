@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
-from carom.systems.constants import IMMOVABLE, MANIFOLD_POINTS, SAME_NORMAL, SINGULAR
+from carom.systems.constants import IMMOVABLE, MANIFOLD_POINTS, REGROUPED, SAME_NORMAL, SINGULAR
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import BALL, BOX
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, couplings, pair
@@ -17,15 +17,15 @@ from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT
 from carom.systems.kernels.rubbing import ROLLING, TWISTING
 
 
-@kernel("start", "rested")
+@kernel("start")
 def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, resting, start, rested):
-    """Write where each manifold begins, and one past the last, and which of them rested.
+    """Write where each manifold begins, and one past the last.
 
     Return how many there are, whether some are not of balls on exact arcs, whether some are of two balls or of a ball
     and a box, whether bodies may have several side by side: of one pair, or since they have several colliders; and
-    whether all that is written was there already.
+    whether all that is written was there already, and all but a few (REGROUPED) rest that ``rested``, and no others.
     """
-    number, solids, balls, boxes, several, stay = 0, False, False, False, False, True
+    number, solids, balls, boxes, several, stay, turned = 0, False, False, False, False, True, 0
     for c in range(count):
         solids |= kind[c] < 0
         balls |= kind[c] == BALL
@@ -37,10 +37,11 @@ def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, resting, s
                 if c - first < MANIFOLD_POINTS:
                     continue
                 several = True
-        stay &= start[number] == c and rested[number] == resting[c]
-        start[number], rested[number] = c, resting[c]
+        stay &= start[number] == c
+        turned += rested[number] != resting[c]
+        start[number] = c
         number += 1
-    stay &= start[number] == count
+    stay &= start[number] == count and turned <= REGROUPED * number
     start[number] = count
     return number, solids, balls, boxes, several, stay
 
