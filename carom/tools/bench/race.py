@@ -53,6 +53,6 @@ def stepped(engines: list[Engine], steps: int) -> list[list[Timing]]:
 
 
 def settled(timings: list[Timing]) -> Timing:
-    """Return the median of the last third of the steps, when what falls has settled."""
+    """Return the median of the last third of the steps, when most of what falls has settled."""
     tail = timings[-(len(timings) // 3) :]
     return Timing(median(t.wall for t in tail), median(t.cpu for t in tail), len(tail))
