@@ -14,7 +14,7 @@ from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems import grouping
-from carom.systems.constants import MOST_WIDENED, REGROUPED
+from carom.systems.constants import MOST_WIDENED
 from carom.systems.detection.answered import Answered
 from carom.systems.grouping import group_contacts
 from carom.systems.kernels import groups as of
@@ -168,30 +168,6 @@ def test_groups_that_stay_hold_what_new_ones_would(heap: str, stays: list[int]) 
         spoil(resting)
         simulation.step()
     assert looked >= least
-
-
-def otherwise(world: World) -> int:
-    """Return how many manifolds rest that did not, or no longer do, when they were put into groups."""
-    resting, rests = world[Resting], world[Contact].resting
-    return int((rests[resting.start[: resting.count]] != resting.rested[: resting.count]).sum())
-
-
-def test_groups_stay_while_few_begin_or_end_to_rest(stays: list[int]) -> None:
-    """Of balls that come to rest some do so in most steps, up to one of 64."""
-    simulation = bin_of_balls(240, sleeping=False)
-    world, resting, counts = simulation.world, simulation.world[Resting], list[int]()
-
-    def look(system: System) -> None:
-        if system.name == "find_contacts":
-            counts.append(otherwise(world))
-            assert counts[-1] <= REGROUPED * resting.count
-            assert counts[-1] == 0 or len(stays) > before
-
-    simulation.hearers.append(look)
-    for _ in range(240):
-        before = len(stays)
-        simulation.step()
-    assert np.count_nonzero(counts) > 10
 
 
 def spoil(resting: Resting) -> None:

@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from heaps import bin_of_balls, stack_of_boxes
 
+from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
 from carom.ecs.system import System
+from carom.systems.constants import REGROUPED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.lanes import WIDTH
 from carom.systems.kernels.rubbing import IDLE
@@ -79,3 +81,19 @@ def test_those_who_did_not_rest_come_last_in_their_level(make: Callable[[], Simu
     simulation.step(90)
     assert (apart > 20) == separate
     assert idle > 0
+
+
+def test_groups_stay_while_few_begin_or_end_to_rest() -> None:
+    """Of balls that come to rest some do so in most steps: up to one of 64 since groups were made."""
+    simulation, counts = bin_of_balls(240, sleeping=False), list[int]()
+    resting, contact = simulation.world[Resting], simulation.world[Contact]
+
+    def look(system: System) -> None:
+        if system.name == "find_contacts":
+            rests = contact.resting[resting.start[: resting.count]]
+            counts.append(np.count_nonzero(rests != resting.rested[: resting.count]))
+            assert counts[-1] <= REGROUPED * resting.count
+
+    simulation.hearers.append(look)
+    simulation.step(240)
+    assert np.count_nonzero(counts) > 10
