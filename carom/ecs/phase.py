@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from time import perf_counter_ns
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from carom.ecs.commands import apply_commands
 from carom.ecs.errors import DeclarationError
-from carom.ecs.system import Condition, Question, System
+from carom.ecs.system import Condition, Function, Question, System
 from carom.ecs.timings import COMMANDS
 
 if TYPE_CHECKING:
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 Repeat = Callable[["World"], int]
 AfterSystem = Callable[[System], None]
+Step = tuple[Any, str, Question | None, Function | None]
 
 
 class Phase:
@@ -35,16 +36,22 @@ class Phase:
                     f"write @system(reads=..., writes=...) above the function"
                 )
         self.name: Final = name
-        self.parts: Final = tuple((part, part.name) for part in parts)
+        self.parts: Final = parts
         self.repeat: Final = repeat
         self.when: Final = when
         systems = tuple(system for _, system in self)
         self.question: Final = (
             None if when is None else Question(when, f"phase '{name}'", "one of its systems", systems)
         )
+        #: The parts as a frame goes through them, in which looking an attribute up takes as long as the rest: each with
+        #: its name, what is asked before, and what it does; a phase within has only itself.
+        self.steps: Final[tuple[Step, ...]] = tuple(
+            (part, part.name, part.question, part.function) if isinstance(part, System) else (part, "", None, None)
+            for part in parts
+        )
 
     def __iter__(self) -> Iterator[tuple[Phase, System]]:
-        for part, _ in self.parts:
+        for part in self.parts:
             if isinstance(part, Phase):
                 yield from part
             else:
@@ -53,7 +60,7 @@ class Phase:
     def exchanged(self, exchange: Callable[[System], tuple[System, ...]]) -> Phase:
         """Return this phase with each system exchanged for others."""
         parts: list[System | Phase] = []
-        for part, _ in self.parts:
+        for part in self.parts:
             parts += (part.exchanged(exchange),) if isinstance(part, Phase) else exchange(part)
         return Phase(self.name, *parts, repeat=self.repeat, when=self.when)
 
@@ -81,36 +88,36 @@ class Frame:
             if self.run(phase, dt):
                 world.running = None
                 apply_commands(world)
-                self._note(COMMANDS)
+                now = perf_counter_ns()
+                self.spent[COMMANDS] += now - self.began
+                self.calls[COMMANDS] += 1
+                self.began = now
 
     def run(self, phase: Phase, dt: float) -> bool:
         """Run a phase of ``dt`` seconds; tell whether it has run at all."""
-        world, checked = self.world, self.checked
+        world, checked, after, spent, calls = self.world, self.checked, self.after, self.spent, self.calls
         repeats = 1 if phase.repeat is None else phase.repeat(world)
         share = dt / max(repeats, 1)
         for done in range(repeats):
-            if phase.question and not phase.question.holds(world, checked=checked):
+            if phase.question is not None and not phase.question.holds(world, checked=checked):
                 return done > 0
-            for part, name in phase.parts:
-                if isinstance(part, Phase):
+            for part, name, question, function in phase.steps:
+                if function is None:
                     world.running = None
                     self.run(part, share)
                     continue
                 world.running = part
-                if part.question and not part.question.holds(world, checked=checked):
+                if question is not None and not question.holds(world, checked=checked):
                     continue
                 if checked:
                     part.guarded(world, share)
                 else:
-                    part.function(world, share)
-                self._note(name)
-                if self.after is not None:
-                    self.after(part)
+                    function(world, share)
+                now = perf_counter_ns()
+                spent[name] += now - self.began
+                calls[name] += 1
+                self.began = now
+                if after is not None:
+                    after(part)
                     self.began = perf_counter_ns()
         return True
-
-    def _note(self, name: str) -> None:
-        now = perf_counter_ns()
-        self.spent[name] += now - self.began
-        self.calls[name] += 1
-        self.began = now

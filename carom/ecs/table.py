@@ -42,6 +42,7 @@ class Table:
         self.present: Booleans = np.zeros(0, np.bool_)
         self.live = kind.blank()
         self.view = kind.blank()
+        self.counted = tuple(face for face in (self.live, self.view) if isinstance(face, Relation))
         self.grow(capacity, 0)
 
     def grow(self, capacity: int, used: int) -> None:
@@ -65,8 +66,7 @@ class Table:
         """Set a relation's row count, growing where needed; rows beyond the old count hold what they last held."""
         if count > self.capacity:
             self.grow(max(count, 2 * self.capacity), self.capacity)
-        for face in (self.live, self.view):
-            assert isinstance(face, Relation)
+        for face in self.counted:
             face.count = count
 
     def fill(self, rows: Rows, bundle: Record | None) -> None:

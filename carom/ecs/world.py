@@ -227,13 +227,13 @@ class World(Structure):
         return np.asarray(numbers[changed])
 
     def _query(self, kinds: tuple[type[Component], ...], without: Kinds, any_of: Kinds, optional: Kinds) -> Query:
-        key = (
-            kinds,
-            without if type(without) is tuple else as_kinds(without),
-            any_of if type(any_of) is tuple else as_kinds(any_of),
-            optional if type(optional) is tuple else as_kinds(optional),
-        )
-        if self._current is not self._views and self._current is not self._live:
+        guarded = self._current is not self._live and self._current is not self._views
+        if not guarded and type(without) is type(any_of) is type(optional) is tuple:
+            found = self._queries.get((kinds, without, any_of, optional))
+            if found is not None:
+                return found
+        key = kinds, as_kinds(without), as_kinds(any_of), as_kinds(optional)
+        if guarded:
             for kind in chain(*key):
                 self._current[kind]  # raises for what the running system does not declare
         found = self._queries.get(key)
@@ -255,12 +255,12 @@ class World(Structure):
 
     def resize(self, kind: type[Relation], count: int) -> None:
         """Set the row count of a relation; only systems that write it may."""
-        table = self.tables.get(kind)
-        if table is not None and isinstance(table.view, Relation) and table.view.count == count:
+        table = self.table(kind)
+        if table.counted[0].count == count:
             return
-        if self._current is not self._live and self._current.get(kind) is not self.table(kind).live:
+        if self._current is not self._live and self._current.get(kind) is not table.live:
             raise AccessError(f"only a system that writes {kind.__name__} may resize it")
-        self.table(kind).resize(count)
+        table.resize(count)
 
 
 class Faces:

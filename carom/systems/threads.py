@@ -105,8 +105,7 @@ def processors() -> int:
 
 def crew_for(world: World, count: int) -> Integers:
     """Return who shares work on ``count`` bodies, pairs or contacts; what they compute does not depend on it."""
-    threads = world[Threads]
-    if count < FEWEST or not threads.stepping or numba.config.DISABLE_JIT:
+    if count < FEWEST or (stated := world[Settings].threads) == 1 or numba.config.DISABLE_JIT:
         return ALONE
-    parts = min(world[Settings].threads, processors())
-    return threads.call(parts) if parts > 1 else ALONE
+    threads, parts = world[Threads], min(stated, processors())
+    return threads.call(parts) if parts > 1 and threads.stepping else ALONE
