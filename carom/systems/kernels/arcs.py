@@ -4,11 +4,12 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
+from carom.systems.kernels.crew import eights_of, part_of_run, shared, wait_for_all
 from carom.systems.kernels.groups import RUNS
 from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lane_columns import in_a_row, load_flat, load_three, store_flat, store_three
 from carom.systems.kernels.lane_vectors import dot, minus, three, times
-from carom.systems.kernels.lanes import address, choose, gather_four, load, planes, scatter_four, spread
+from carom.systems.kernels.lanes import WIDTH, address, choose, gather_four, load, planes, scatter_four, spread
 from carom.systems.kernels.packing import CHANGE, MASS_AND_FELT
 from carom.systems.kernels.resting_balls import are_even
 from carom.systems.kernels.rubbing import IDLE
@@ -25,11 +26,17 @@ def bend_arcs(
     changes of state, and speeds right at impacts in between. Along the contact normals the velocity stays the last one.
     """
     change, packed, of_a, of_b = bodies[CHANGE], planes(bodies), address(index_a), address(index_b)
-    begin, end = part_of(crew, len(rows))
+    begin, end = eights_of(crew, len(rows))
     mine, passed = rows[begin:end], 1
-    for i in mine:
-        for k in range(3):
-            change[i, k] = linear[i, k] - start_linear[i, k] if is_bent(leans, i) else 0.0
+    for n in range(0, len(mine), WIDTH):
+        if are_bent(leans, mine, n):
+            v, start = load_three(address(linear), mine[n]), load_three(address(start_linear), mine[n])
+            x, y, z = minus(v, start)
+            scatter_four(packed[CHANGE], address(mine), n // WIDTH, 0, (x, y, z, spread(0.0)))
+            continue
+        for i in mine[n : n + WIDTH]:
+            for k in range(3):
+                change[i, k] = linear[i, k] - start_linear[i, k] if is_bent(leans, i) else 0.0
     wait_for_all(crew, passed)
     for level in range(levels):
         for run in range(RUNS * level, RUNS * (level + 1)):
@@ -39,13 +46,33 @@ def bend_arcs(
                     keep_across(g, row[g], of_a, of_b, lanes, packed)
         passed += 1
         wait_for_all(crew, passed)
-    for i in mine:
-        if is_bent(leans, i):
-            for k in range(3):
-                acceleration[i, k] = change[i, k] / h
-                angular_acceleration[i, k] = (angular[i, k] - start_angular[i, k]) / h
-                linear[i, k] -= h * acceleration[i, k]
-                angular[i, k] -= h * angular_acceleration[i, k]
+    for n in range(0, len(mine), WIDTH):
+        if are_bent(leans, mine, n):
+            x, y, z, _ = gather_four(packed[CHANGE], address(mine), n // WIDTH, 0)
+            store_three(address(acceleration), mine[n], (x / h, y / h, z / h))
+            for at in range(3 * mine[n], 3 * (mine[n] + WIDTH), WIDTH):
+                w = load_flat(angular, at)
+                turning = (w - load_flat(start_angular, at)) / h
+                store_flat(angular_acceleration, at, turning)
+                store_flat(angular, at, w - h * turning)
+                store_flat(linear, at, load_flat(linear, at) - h * load_flat(acceleration, at))
+            continue
+        for i in mine[n : n + WIDTH]:
+            if is_bent(leans, i):
+                for k in range(3):
+                    acceleration[i, k] = change[i, k] / h
+                    angular_acceleration[i, k] = (angular[i, k] - start_angular[i, k]) / h
+                    linear[i, k] -= h * acceleration[i, k]
+                    angular[i, k] -= h * angular_acceleration[i, k]
+
+
+@woven
+def are_bent(leans, rows, n):
+    """Tell of eight rows from the n-th on whether they are next to each other, and all of them are bent."""
+    together = in_a_row(rows, n)
+    for i in range(rows[n] if together else 0, rows[n] + WIDTH if together else 0):
+        together &= is_bent(leans, i)
+    return together
 
 
 @woven
