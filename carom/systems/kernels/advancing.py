@@ -49,13 +49,18 @@ def advance_bodies(
                 took[lane] = now - time[i]
                 keep_arc(i, lane, kept, center, linear, angular, rotation)
         if together:
-            fly_together(rows[n], now - time[rows[n]], bend, center, linear, acceleration)
+            fly_together(
+                rows[n], now - time[rows[n]], bend, center, turned, linear, angular, acceleration, angular_acceleration
+            )  # fmt: skip
         elif alike:
-            fly_eight(n, now, bend, near, one, three, rows, center, linear, time, acceleration)
+            fly_eight(
+                n, now, bend, near, one, three, rows, center, turned, linear, angular, time, acceleration,
+                angular_acceleration,
+            )  # fmt: skip
         if alike:
             turn_eight(
-                n, now, bend, near, one, three, four, rows, rotation, turned, angular, time, angular_acceleration,
-                inertia, principal_axes,
+                n, now, bend, near, one, three, four, rows, rotation, angular, time, angular_acceleration, inertia,
+                principal_axes,
             )  # fmt: skip
         else:
             for i in rows[n : n + WIDTH]:
@@ -90,17 +95,21 @@ def are_alike(rows, n, now, time, inverse_mass, freedom):
 
 
 @woven
-def fly_together(i, t, bend, center, linear, acceleration):
-    """Bring body i and the seven in the rows behind it along their arcs, t seconds."""
+def fly_together(i, t, bend, center, turned, linear, angular, acceleration, angular_acceleration):
+    """Bring body i and the seven in the rows behind it along their arcs, t seconds, and sum what they turn by."""
     for at in range(3 * i, 3 * (i + WIDTH), WIDTH):
         v, a = load_flat(linear, at), load_flat(acceleration, at)
         store_flat(center, at, load_flat(center, at) + (v * t + a * bend * t * t))
         store_flat(linear, at, v + a * t)
+        w = load_flat(angular, at) + load_flat(angular_acceleration, at) * bend * t
+        store_flat(turned, at, load_flat(turned, at) + w * t)
 
 
 @woven
-def fly_eight(n, now, bend, near, one, three, rows, center, linear, time, acceleration):
-    """Bring the bodies of eight rows along their arcs, each from its own time on."""
+def fly_eight(
+    n, now, bend, near, one, three, rows, center, turned, linear, angular, time, acceleration, angular_acceleration
+):  # fmt: skip
+    """Bring the bodies of eight rows along their arcs, each from its own time on, and sum what they turn by."""
     t = now - take_one(time, rows, n, near, one)
     v, a = take_three(linear, rows, n, near, three), take_three(acceleration, rows, n, near, three)
     x, y, z = take_three(center, rows, n, near, three)
@@ -111,19 +120,20 @@ def fly_eight(n, now, bend, near, one, three, rows, center, linear, time, accele
     )
     give_three(center, rows, n, near, three, (x, y, z))
     give_three(linear, rows, n, near, three, (v[0] + a[0] * t, v[1] + a[1] * t, v[2] + a[2] * t))
+    w, b = take_three(angular, rows, n, near, three), take_three(angular_acceleration, rows, n, near, three)
+    x, y, z = take_three(turned, rows, n, near, three)
+    w = (w[0] + b[0] * bend * t, w[1] + b[1] * bend * t, w[2] + b[2] * bend * t)
+    give_three(turned, rows, n, near, three, (x + w[0] * t, y + w[1] * t, z + w[2] * t))
 
 
 @woven
 def turn_eight(
-    n, now, bend, near, one, three, four, rows, rotation, turned, angular, time, angular_acceleration,
-    inertia, principal_axes,
+    n, now, bend, near, one, three, four, rows, rotation, angular, time, angular_acceleration, inertia, principal_axes
 ):  # fmt: skip
     """Turn the bodies of eight rows as `advance_body` does: half the turning kick, free rotation, the other half."""
     t = now - take_one(time, rows, n, near, one)
     w, b = take_three(angular, rows, n, near, three), take_three(angular_acceleration, rows, n, near, three)
     wx, wy, wz = w[0] + b[0] * bend * t, w[1] + b[1] * bend * t, w[2] + b[2] * bend * t
-    x, y, z = take_three(turned, rows, n, near, three)
-    give_three(turned, rows, n, near, three, (x + wx * t, y + wy * t, z + wz * t))
     qx, qy, qz, qw = take_four(rotation, rows, n, near, four)
     ix, iy, iz = take_three(inertia, rows, n, near, three)
     uneven = (ix - iy) * (ix - iy) + (iy - iz) * (iy - iz)

@@ -8,7 +8,6 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import CROWD, REACH_FACTOR, REACH_SLACK, REACH_SMALL, REACH_STIRRED, STREAMS
-from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.flight import offset_of
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_columns import (
@@ -26,6 +25,7 @@ from carom.systems.kernels.lane_columns import (
     take_one,
     take_three,
 )
+from carom.systems.kernels.lane_vectors import keep
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, root, smaller, spread, which
 from carom.systems.kernels.spatial import product, turn
 
@@ -41,9 +41,9 @@ def foresee_reach(
     move in it they all are given more: the mean of the ways of all, each up to REACH_STIRRED of its least radius of
     gyration. But small ones are given no more than REACH_SMALL of theirs.
     """
-    one, three, four = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4))
+    one, three, four, sums = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((3, WIDTH))
     stirred = 0.0
-    find_stream(rows, dt, linear, inertia, inverse_mass, stream)
+    find_stream(rows, dt, linear, inertia, inverse_mass, stream, one, three, sums)
     sx, sy, sz = spread(stream[0, 0]), spread(stream[0, 1]), spread(stream[0, 2])
     for n in range(0, len(rows), WIDTH):
         near = in_a_row(rows, n)
@@ -75,7 +75,7 @@ def foresee_reach(
 
 
 @woven
-def find_stream(rows, dt, linear, inertia, inverse_mass, stream):
+def find_stream(rows, dt, linear, inertia, inverse_mass, stream, one, three, sums):
     """Write the mean velocity of bodies, or 0 where nothing is gained by it.
 
     That is where they are few, come no farther than they are large, by their least radii of gyration, or where they
@@ -83,16 +83,26 @@ def find_stream(rows, dt, linear, inertia, inverse_mass, stream):
     """
     for k in range(3):
         stream[0, k] = stream[1, k] = 0.0
-        for i in rows:
-            stream[0, k] += linear[i, k]
-        stream[0, k] /= max(1, len(rows))
-    seen_from_it, ways, sizes = 0.0, 0.0, REACH_SLACK * len(rows)
+    if len(rows) < CROWD:
+        return
     for i in rows:
-        x, y, z = linear[i, 0] - stream[0, 0], linear[i, 1] - stream[0, 1], linear[i, 2] - stream[0, 2]
-        seen_from_it += sqrt(x * x + y * y + z * z) * dt
-        ways += length_of(i, linear) * dt
-        sizes += sqrt(min(inertia[i, 0], inertia[i, 1], inertia[i, 2]) * inverse_mass[i])
-    if not (len(rows) >= CROWD and ways > sizes and seen_from_it < STREAMS * ways):
+        for k in range(3):
+            stream[0, k] += linear[i, k]
+    for k in range(3):
+        stream[0, k] /= len(rows)
+    sx, sy, sz = spread(stream[0, 0]), spread(stream[0, 1]), spread(stream[0, 2])
+    seen_from_it, ways, sizes = 0.0, 0.0, REACH_SLACK * len(rows)
+    for n in range(0, len(rows), WIDTH):
+        near = in_a_row(rows, n)
+        x, y, z = take_three(linear, rows, n, near, three)
+        gyration = least_gyration(take_three(inertia, rows, n, near, three), take_one(inverse_mass, rows, n, near, one))
+        dx, dy, dz = x - sx, y - sy, z - sz
+        keep(address(sums), 0, root(dx * dx + dy * dy + dz * dz) * dt, root(x * x + y * y + z * z) * dt, gyration)
+        for lane in range(min(WIDTH, len(rows) - n)):
+            seen_from_it += sums[0, lane]
+            ways += sums[1, lane]
+            sizes += sums[2, lane]
+    if not (ways > sizes and seen_from_it < STREAMS * ways):
         for k in range(3):
             stream[0, k] = 0.0
 

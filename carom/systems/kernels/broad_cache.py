@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import AHEAD, FAT, MOST_AHEAD
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.frames import turned
 from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lane_columns import ALL, SMALLEST, in_a_row, load_three
+from carom.systems.kernels.lanes import WIDTH, address, which
 from carom.systems.shapes.plane import Plane
 
 HALF_SPACE = Plane.number
@@ -57,51 +59,89 @@ def find_leavers(
     Two of which nothing can push either are no pair: `known` has one flag for them.
     """
     count = 0
-    for i in rows:
-        b = body_row[i]
-        flat = shape[i] == HALF_SPACE
-        flags = IS_SENSOR if sensor[i] else STANDS if b < 0 or inverse_mass[b] == 0.0 else 0
-        flags |= IS_FLAT if flat else 0
-        same = (known[i, 0] == b) & (known[i, 1] == layer[i]) & (known[i, 2] == mask[i]) & (known[i, 3] == flags)
-        ends = not flat and known[i, 3] & IS_FLAT == 0
-        least = np.inf
-        for k in range(3):
-            if flat:
-                same &= pose_position[i, k] == seat[i, k]
-            else:
-                low, high = lower[i, k] - frame[1, k], upper[i, k] - frame[1, k]
-                same &= (fat_lower[i, k] <= low) & (high <= fat_upper[i, k])
-                ends &= (fat_lower[i, k] > -ENDLESS) & (fat_upper[i, k] < ENDLESS)
-                ends &= (low > -ENDLESS) & (high < ENDLESS)
-                least = min(least, upper[i, k] - lower[i, k])
-        if flat:
-            for k in range(4):
-                same &= (pose_rotation[i, k] == seat[i, 3 + k]) & (size[i, k] == seat[i, 7 + k])
-        if same and not anew:
+    for n in range(0, len(rows), WIDTH):
+        if not anew and stay(
+            rows, n, shape, body_row, inverse_mass, layer, mask, sensor, lower, upper, frame,
+            fat_lower, fat_upper, known,
+        ):  # fmt: skip
             continue
-        if not (ends or anew):
-            return REBUILD
-        diagonal = length_of(i, bound_half)
-        turning = dt * length_of(b, angular) * diagonal
-        widest = bound_radius[i] + diagonal + turning + (reach[b] if b >= 0 else 0.0)  # as `place_bounds` has it
-        for k in range(3):
-            margin, way = 0.0, 0.0
-            if ends:
-                turns = min(AHEAD * turning, MOST_AHEAD * least, widest - 0.5 * (upper[i, k] - lower[i, k]))
-                margin = 0.5 * FAT * least + max(0.0, turns)
-                way = AHEAD * dt * ((linear[b, k] if b >= 0 else 0.0) - frame[0, k])
-                way = max(-MOST_AHEAD * least, min(way, MOST_AHEAD * least)) if way != 0.0 else 0.0
-            fat_lower[i, k] = lower[i, k] - frame[1, k] - margin + min(way, 0.0)
-            fat_upper[i, k] = upper[i, k] - frame[1, k] + margin + max(way, 0.0)
+        for i in rows[n : n + WIDTH]:
+            b, flat = body_row[i], shape[i] == HALF_SPACE
+            flags = flags_of(i, b, flat, inverse_mass, sensor)
+            same = is_known(i, b, flags, layer, mask, known)
+            ends = not flat and known[i, 3] & IS_FLAT == 0
+            least = np.inf
+            for k in range(3):
+                if flat:
+                    same &= pose_position[i, k] == seat[i, k]
+                else:
+                    low, high = lower[i, k] - frame[1, k], upper[i, k] - frame[1, k]
+                    same &= (fat_lower[i, k] <= low) & (high <= fat_upper[i, k])
+                    ends &= (fat_lower[i, k] > -ENDLESS) & (fat_upper[i, k] < ENDLESS)
+                    ends &= (low > -ENDLESS) & (high < ENDLESS)
+                    least = min(least, upper[i, k] - lower[i, k])
             if flat:
-                seat[i, k] = pose_position[i, k]
-        if flat:
-            for k in range(4):
-                seat[i, 3 + k], seat[i, 7 + k] = pose_rotation[i, k], size[i, k]
-        known[i, 0], known[i, 1], known[i, 2], known[i, 3] = b, layer[i], mask[i], flags
-        leavers[count] = i
-        count += 1
+                for k in range(4):
+                    same &= (pose_rotation[i, k] == seat[i, 3 + k]) & (size[i, k] == seat[i, 7 + k])
+            if same and not anew:
+                continue
+            if not (ends or anew):
+                return REBUILD
+            diagonal = length_of(i, bound_half)
+            turning = dt * length_of(b, angular) * diagonal
+            widest = bound_radius[i] + diagonal + turning + (reach[b] if b >= 0 else 0.0)  # as `place_bounds` has it
+            for k in range(3):
+                margin, way = 0.0, 0.0
+                if ends:
+                    turns = min(AHEAD * turning, MOST_AHEAD * least, widest - 0.5 * (upper[i, k] - lower[i, k]))
+                    margin = 0.5 * FAT * least + max(0.0, turns)
+                    way = AHEAD * dt * ((linear[b, k] if b >= 0 else 0.0) - frame[0, k])
+                    way = max(-MOST_AHEAD * least, min(way, MOST_AHEAD * least)) if way != 0.0 else 0.0
+                fat_lower[i, k] = lower[i, k] - frame[1, k] - margin + min(way, 0.0)
+                fat_upper[i, k] = upper[i, k] - frame[1, k] + margin + max(way, 0.0)
+                if flat:
+                    seat[i, k] = pose_position[i, k]
+            if flat:
+                for k in range(4):
+                    seat[i, 3 + k], seat[i, 7 + k] = pose_rotation[i, k], size[i, k]
+            known[i, 0], known[i, 1], known[i, 2], known[i, 3] = b, layer[i], mask[i], flags
+            leavers[count] = i
+            count += 1
     return count
+
+
+@woven
+def stay(
+    rows, n, shape, body_row, inverse_mass, layer, mask, sensor, lower, upper, frame, fat_lower, fat_upper, known
+):  # fmt: skip
+    """Tell of eight rows from the n-th on, if they are in a row and none a half space, that all are as `known`."""
+    if not in_a_row(rows, n):
+        return False
+    same, i = True, rows[n]
+    for k in range(i, i + WIDTH):
+        b = body_row[k]
+        same &= shape[k] != HALF_SPACE
+        same &= is_known(k, b, flags_of(k, b, False, inverse_mass, sensor), layer, mask, known)
+    within = ALL
+    low, high = load_three(address(lower), i), load_three(address(upper), i)
+    least, most = load_three(address(fat_lower), i), load_three(address(fat_upper), i)
+    for k in range(3):
+        by = frame[1, k]
+        within &= which((low[k] - by) - least[k] + SMALLEST) & which(most[k] - (high[k] - by) + SMALLEST)
+    return same and within == ALL
+
+
+@woven
+def flags_of(i, b, flat, inverse_mass, sensor):
+    """Return the flags of a row, which has body b."""
+    flags = IS_SENSOR if sensor[i] else STANDS if b < 0 or inverse_mass[b] == 0.0 else 0
+    return flags | (IS_FLAT if flat else 0)
+
+
+@woven
+def is_known(i, b, flags, layer, mask, known):
+    """Tell whether a row has the body, layer, mask and flags that it had."""
+    return (known[i, 0] == b) & (known[i, 1] == layer[i]) & (known[i, 2] == mask[i]) & (known[i, 3] == flags)
 
 
 @shared("meeting", "counts", "found")
