@@ -124,6 +124,9 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     crew = crew_for(world, count)
     match, changed = np.empty(count, np.int64), np.zeros(threads_of(crew), np.bool_)
+    resting, known = world[Resting], world[Resting].knows(world)
+    if not known:
+        resting.belts = bool(collider.surface_velocity.any())
     renew_contacts(
         crew, match, np.zeros(old_count, np.bool_), changed, old_count,
         world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
@@ -139,7 +142,7 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
     complete_contacts(
-        crew, count, match, world[Resting].knows(world), changed,
+        crew, count, match, known, resting.belts, changed,
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
         collider.shape, collider.size, collider.bound_half, collider.bound_radius, pose.position, pose.rotation,
         world[Flight].detected_center, world[Transform].rotation, world[RigidBody].inverse_mass,
@@ -153,6 +156,6 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
     crushed = let_go_of_crushed(
         world[Awake].now(world), count, contact.body_a, contact.body_b, contact.depth, world[RigidBody].inverse_mass,
         world[Motion].linear, world[Motion].angular,
-        contact.warm_normal, contact.warm_friction, contact.warm_rolling, world[Resting].crushed_among(world),
+        contact.warm_normal, contact.warm_friction, contact.warm_rolling, resting.crushed_among(world),
     )  # fmt: skip
     return count == old_count and not any(changed.tolist()) and not crushed

@@ -41,7 +41,7 @@ def combined(x, y, rule_x, rule_y, default):
     "other_position", "other_rotation",
 )  # fmt: skip
 def complete_contacts(
-    crew, count, match, known, changed, normal, depth, point, row_a, row_b,
+    crew, count, match, known, belts, changed, normal, depth, point, row_a, row_b,
     body_row, shape, size, bound_half, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
     material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
     surface_velocity, friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b,
@@ -51,7 +51,8 @@ def complete_contacts(
 
     Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces. Where all
     are ``known``, what follows from shapes and materials, and where others stand, is there of pairs that are where they
-    were (``match``). Each thread tells in ``changed`` whether it was not, or a surface runs.
+    were (``match``). Each thread tells in ``changed`` whether it was not, or a surface runs; without ``belts`` none
+    does.
     """
     end, until = runs_of(crew, row_a[:count], row_b[:count])
     while end < until:
@@ -62,13 +63,12 @@ def complete_contacts(
         on_a, on_b = body_row[a], body_row[b]
         ax, ay, az = seat_of(a, on_a, center, pose_position)
         bx, by, bz = seat_of(b, on_b, center, pose_position)
-        belt = runs(a, surface_velocity) or runs(b, surface_velocity)
-        what, i, o, sense, ex, ey, ez = exact_pair(
-            a, b, shape, size, body_row, pose_position, pose_rotation, center, rotation, inverse_mass
-        )
-        anew = not there or what != kind[first]
-        changed[crew[1]] |= anew or belt
-        if anew:
+        belt = belts and (runs(a, surface_velocity) or runs(b, surface_velocity))
+        changed[crew[1]] |= belt or not there
+        if not there:
+            what, i, o, sense, ex, ey, ez = exact_pair(
+                a, b, shape, size, body_row, pose_position, pose_rotation, center, rotation, inverse_mass
+            )
             rubs = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)
             bounces = combined(
                 material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
