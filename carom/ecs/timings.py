@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from carom.ecs.component import Resource
@@ -47,12 +47,13 @@ class Timings(Resource, Mapping[str, Timing]):
         self._earlier = self.spent.copy(), self.calls.copy()
         return self.spent, self.calls
 
-    def share_out(self, name: str, parts: dict[str, int]) -> None:
-        """Count nanoseconds of a system that is running for others, whose work it has done."""
-        for other, spent in parts.items():
-            self.spent[other] += spent
-            self.calls[other] += spent > 0
-        self.spent[name] -= sum(parts.values())
+    def share_out(self, name: str, others: Iterable[str], nanoseconds: Iterable[int]) -> None:
+        """Count what a system that is running has spent on the work of others for each of those."""
+        for other, spent in zip(others, nanoseconds, strict=True):
+            if spent:
+                self.spent[other] += spent
+                self.calls[other] += 1
+                self.spent[name] -= spent
 
     def __getitem__(self, name: str) -> Timing:
         """Return the timing of the system of that name."""

@@ -97,7 +97,7 @@ def go_on(world: World, dt: float) -> None:
     progress.come_to(number, dt, world)
     progress.gone_on, progress.resting = True, rests
     progress.stopped = None if reason == DONE else (at, reason, events)
-    world[Timings].share_out("go_on", dict(zip(DONE_AT_ONCE, spent.tolist(), strict=True)))
+    world[Timings].share_out("go_on", DONE_AT_ONCE, spent.tolist())
 
 
 def is_to_begin(world: World) -> bool:

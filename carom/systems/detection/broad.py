@@ -40,7 +40,8 @@ def still_overlapping(world: World, pairs: Integers) -> Integers:
         return pairs
     collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
     found, meeting = np.empty_like(pairs), np.empty(len(pairs), np.bool_)
-    lively: Booleans = np.ones(len(collider.shape), np.bool_)
+    lively: Booleans = np.empty(len(collider.shape), np.bool_)
+    lively.fill(True)
     if len(world[Awake].sleepers):
         find_lively(
             world.row_numbers(Collider), pose.body_row, collider.sensor, pose.moved, motion.asleep,

@@ -107,7 +107,7 @@ def find(world: World, pairs: Integers) -> Found:
 
 def store(world: World, found: Found) -> None:
     """Write the contact table, matched with the one before."""
-    old_count, count = world.count(Contact), len(found.row_a)
+    old_count, count = world[Contact].count, len(found.row_a)
     world.resize(Contact, count)
     same = bool(count or old_count) and fill(world, found, old_count, count)
     group_contacts(world, same=same)

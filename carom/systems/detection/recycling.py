@@ -33,7 +33,8 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     )  # fmt: skip
     count, moving = map(max, zip(*ends.tolist(), strict=True))  # not all may have come
     world[Answered].recycled += len(pairs) - moving
-    recycled = recycled.take(slice(count))
+    if count < contact.count:
+        recycled = recycled.take(slice(count))
     if not moving:
         return recycled
     fresh = measure_pairs(world, moved[:moving], moved_reaches[:moving], apart=world[Apart])
