@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import ColliderPose, Material, Motion, World, system
-from carom.ecs.column import Floats, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.hit import Hit
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
 from carom.systems.awake import Awake, stirs
-from carom.systems.kernels.touching import find_hits, find_struck, renew_touching
+from carom.systems.kernels.touching import find_hits, find_struck, renew_touching, write_events
 from carom.systems.settings import Settings, time_of
 
 NOBODY, NEVER = np.empty(0, np.int64), np.empty(0)
@@ -39,12 +39,10 @@ def tell_contacts(world: World, dt: float) -> None:
         a, b, since, begins, ends,
     )  # fmt: skip
     if found - new < count:
-        which = np.nonzero(ends)[0]
-        started = np.full(len(which), (world.frame - 1) * world[Settings].dt)
-        tell(world, ContactEnd, started, touching.a[which], touching.b[which])
+        began = np.full(count, (world.frame - 1) * world[Settings].dt)
+        tell(world, ContactEnd, count - (found - new), ends, began, touching.a, touching.b)
     if new:
-        which = np.nonzero(begins[:found])[0]
-        tell(world, ContactBegin, since[which], a[which], b[which])
+        tell(world, ContactBegin, new, begins[:found], since, a, b)
     world.resize(Touching, found)
     touching = world[Touching]
     touching.a[:found], touching.b[:found], touching.since[:found] = a[:found], b[:found], since[:found]
@@ -60,13 +58,19 @@ def struck(world: World) -> tuple[Integers, Integers, Floats]:
     return a[:count], b[:count], at[:count]
 
 
-def tell(world: World, kind: type[ContactBegin] | type[ContactEnd], time: Floats, a: Integers, b: Integers) -> None:
-    """Write a table of events in order of time, then handles."""
-    order = np.lexsort((b, a, time))
-    world.resize(kind, len(order))
+def tell(
+    world: World,
+    kind: type[ContactBegin] | type[ContactEnd],
+    count: int,
+    which: Booleans,
+    time: Floats,
+    a: Integers,
+    b: Integers,
+) -> None:
+    """Write a table of events, so many of ``which``, in order of time, then handles."""
+    world.resize(kind, count)
     table = world[kind]
-    for column, values in ((table.time, time), (table.a, a), (table.b, b)):
-        column[: len(order)] = values[order]
+    write_events(which, time, a, b, table.time, table.a, table.b)
 
 
 @system(reads=(Impact, Material, Settings, Awake), writes=(Hit,), when=stirs)
@@ -76,14 +80,15 @@ def tell_hits(world: World, dt: float) -> None:
     if not impact.count:
         return
     world.resize(Hit, impact.count)
-    hit, order = world[Hit], np.empty(impact.count, np.int64)
+    hit = world[Hit]
     count = find_hits(
-        impact.count, world[Settings].hit_speed, impact.a, impact.b, impact.time, impact.speed,
-        world.handles(), world.slots.row_shift, world[Material].number, order, hit.material_a, hit.material_b,
+        impact.count, world[Settings].hit_speed, world.handles(), world.slots.row_shift, world[Material].number,
+        impact.time, impact.a, impact.b, impact.point, impact.normal, impact.speed, impact.impulse, impact.work,
+        impact.friction_impulse,
+        hit.time, hit.a, hit.b, hit.point, hit.normal, hit.speed, hit.impulse, hit.work, hit.friction_impulse,
+        hit.material_a, hit.material_b,
     )  # fmt: skip
     world.resize(Hit, count)
-    for name in Impact.columns if count else ():
-        getattr(hit, name)[:count] = getattr(impact, name)[order[:count]]
 
 
 def touching_rows(contact: Contact) -> Integers:

@@ -30,11 +30,10 @@ def reach_within(world: World, dt: float) -> None:
     transform, motion, body, flight = world[Transform], world[Motion], world[RigidBody], world[Flight]
     stream = world[Stream]
     pull = hypot(*world[Settings].gravity)
-    stream.gone += stream.motion[1]
     foresee_reach(
         world[Awake].now(world), dt, pull, transform.position, transform.rotation, motion.linear,
         body.center_of_mass, body.inertia, body.inverse_mass, motion.linear_acceleration,
-        flight.reach, flight.detected_center, stream.motion,
+        flight.reach, flight.detected_center, stream.motion, stream.gone,
     )  # fmt: skip
     stream.passes = dt * hypot(*stream.motion[0].tolist())
     bound(world, world.row_numbers(Collider), bodies_of(world), dt, flight.reach, flight.detected_center)

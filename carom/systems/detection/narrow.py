@@ -79,11 +79,11 @@ class Found(NamedTuple):
 
     @classmethod
     def room(cls, count: int) -> Found:
-        """Return room for so many, to be written, none of them recycled."""
+        """Return room for so many, to be written."""
         return cls(
             np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count, np.int64),
             np.empty((count, 3)), np.empty(count), np.empty((count, 3)),
-            np.empty(count, np.bool_), np.full(count, -1),
+            np.empty(count, np.bool_), np.empty(count, np.int64),
         )  # fmt: skip
 
     def take(self, which: Any) -> Found:
@@ -166,7 +166,6 @@ def measure_pairs(
     kept = keep_sound(world, pairs, reaches, points)
     found = Found.room(kept)
     collect_points(
-        crew, pairs, side, points.start, points.count, points.feature, points.normal, points.depth, points.point,
-        *found[:-1],
+        crew, pairs, side, points.start, points.count, points.feature, points.normal, points.depth, points.point, *found
     )  # fmt: skip
     return found

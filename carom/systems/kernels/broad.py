@@ -30,19 +30,21 @@ from carom.systems.kernels.lanes import WIDTH, address, choose, larger, root, sm
 from carom.systems.kernels.spatial import product, turn
 
 
-@kernel("reach", "detected_center", "stream", makes_arrays=True)
+@kernel("reach", "detected_center", "stream", "gone", makes_arrays=True)
 def foresee_reach(
     rows, dt, pull, position, rotation, linear, center_of_mass, inertia, inverse_mass, last_acceleration,
-    reach, detected_center, stream,
+    reach, detected_center, stream, gone,
 ):  # fmt: skip
     """Say how far each body may travel within ``dt``: its speed and acceleration, or gravity's ``pull`` if greater.
 
-    That is from where the ``stream`` takes it, which begins here. Those that are struck travel farther. Where many
-    move in it they all are given more: the mean of the ways of all, each up to REACH_STIRRED of its least radius of
-    gyration. But small ones are given no more than REACH_SMALL of theirs.
+    That is from where the ``stream`` takes it, which begins here, where the one before has ``gone``. Those that are
+    struck travel farther. Where many move in it they all are given more: the mean of the ways of all, each up to
+    REACH_STIRRED of its least radius of gyration. But small ones are given no more than REACH_SMALL of theirs.
     """
     one, three, four, sums = np.empty(WIDTH), np.empty((WIDTH, 3)), np.empty((WIDTH, 4)), np.empty((3, WIDTH))
     stirred = 0.0
+    for k in range(3):
+        gone[k] += stream[1, k]
     find_stream(rows, dt, linear, inertia, inverse_mass, stream, one, three, sums)
     sx, sy, sz = spread(stream[0, 0]), spread(stream[0, 1]), spread(stream[0, 2])
     for n in range(0, len(rows), WIDTH):

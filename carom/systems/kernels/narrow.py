@@ -93,13 +93,16 @@ def find_measured(begin, end, count, found):
 
 
 @shared(
-    "row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl", makes_arrays=True
+    "row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl", "old", makes_arrays=True
 )  # fmt: skip
 def collect_points(
     crew, pairs, side, start, count, feature, normal, depth, point,
-    row_a, row_b, found_feature, found_normal, found_depth, found_point, by_fcl,
+    row_a, row_b, found_feature, found_normal, found_depth, found_point, by_fcl, old,
 ):  # fmt: skip
-    """Put the points of all pairs in order of pair and feature, with normals from the lower row to the other."""
+    """Put the points of all pairs in order of pair and feature, with normals from the lower row to the other.
+
+    None of them is an ``old`` one.
+    """
     first_pair, end_pair = part_of(crew, len(pairs))
     at = 0
     for p in range(first_pair):
@@ -117,7 +120,7 @@ def collect_points(
             found_feature[c], found_depth[c] = feature[source], depth[source]
             for d in range(3):
                 found_normal[c, d], found_point[c, d] = sense * normal[source, d], point[source, d]
-            row_a[at], row_b[at], by_fcl[at] = pairs[p, 0], pairs[p, 1], fcl
+            row_a[at], row_b[at], by_fcl[at], old[at] = pairs[p, 0], pairs[p, 1], fcl, -1
             at += 1
 
 

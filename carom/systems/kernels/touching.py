@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import inf
 
+import numpy as np
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import TOUCH
 from carom.systems.kernels.kernel import kernel, woven
@@ -14,7 +16,7 @@ from carom.systems.kernels.recycling import first_of_pair, is_at, is_pair, row_o
 def find_struck(count, a, b, time, handles, row_shift, struck_a, struck_b, struck_at):
     """Write the pairs (rows) of those alive that ``count`` impacts were of, in order, each with its first time.
 
-    Return how many they are. Sorted as by Shell, CACM 2 (7), 1959.
+    Return how many they are.
     """
     n = 0
     for k in range(count):
@@ -22,16 +24,7 @@ def find_struck(count, a, b, time, handles, row_shift, struck_a, struck_b, struc
         if is_at(x, a[k], handles) and is_at(y, b[k], handles):
             struck_a[n], struck_b[n], struck_at[n] = min(x, y), max(x, y), time[k]
             n += 1
-    gap = n // 2
-    while gap > 0:
-        for k in range(gap, n):
-            x, y, at, o = struck_a[k], struck_b[k], struck_at[k], k
-            while o >= gap and comes_before(x, y, at, o - gap, struck_a, struck_b, struck_at):
-                p = o - gap
-                struck_a[o], struck_b[o], struck_at[o] = struck_a[p], struck_b[p], struck_at[p]
-                o = p
-            struck_a[o], struck_b[o], struck_at[o] = x, y, at
-        gap //= 2
+    sort_rows(n, struck_a, struck_b, struck_at)
     pairs = 0
     for k in range(n):
         if pairs == 0 or struck_a[k] != struck_a[pairs - 1] or struck_b[k] != struck_b[pairs - 1]:
@@ -40,27 +33,59 @@ def find_struck(count, a, b, time, handles, row_shift, struck_a, struck_b, struc
     return pairs
 
 
+@kernel("time", "a", "b")
+def write_events(which, since, of_a, of_b, time, a, b):
+    """Write the events that take place (``which``) in order of time, then handles."""
+    n = 0
+    for k in range(len(which)):
+        if which[k]:
+            time[n], a[n], b[n] = since[k], of_a[k], of_b[k]
+            n += 1
+    sort_rows(n, time, a, b)
+
+
 @woven
-def comes_before(x, y, at, o, struck_a, struck_b, struck_at):
-    """Tell whether a pair, then its time, comes before that in place o."""
-    if x != struck_a[o]:
-        return x < struck_a[o]
-    if y != struck_b[o]:
-        return y < struck_b[o]
-    return at < struck_at[o]
+def sort_rows(count, first, second, third):
+    """Sort rows of three columns by the first, then the second, then the third (Shell, CACM 2 (7), 1959)."""
+    gap = count // 2
+    while gap > 0:
+        for k in range(gap, count):
+            x, y, z, o = first[k], second[k], third[k], k
+            while o >= gap and comes_before(x, y, z, o - gap, first, second, third):
+                p = o - gap
+                first[o], second[o], third[o] = first[p], second[p], third[p]
+                o = p
+            first[o], second[o], third[o] = x, y, z
+        gap //= 2
 
 
-@kernel("order", "material_a", "material_b")
+@woven
+def comes_before(x, y, z, o, first, second, third):
+    """Tell whether three numbers come before those of row o."""
+    if x != first[o]:
+        return x < first[o]
+    if y != second[o]:
+        return y < second[o]
+    return z < third[o]
+
+
+@kernel(
+    "hit_time", "hit_a", "hit_b", "hit_point", "hit_normal", "hit_speed", "hit_impulse", "hit_work",
+    "hit_friction_impulse", "material_a", "material_b",
+    makes_arrays=True,
+)  # fmt: skip
 def find_hits(
-    count, hit_speed, a, b, time, speed, handles, row_shift, number, order, material_a, material_b
+    count, least, handles, row_shift, number, time, a, b, point, normal, speed, impulse, work, friction_impulse,
+    hit_time, hit_a, hit_b, hit_point, hit_normal, hit_speed, hit_impulse, hit_work, hit_friction_impulse,
+    material_a, material_b,
 ):  # fmt: skip
-    """Write which of ``count`` impacts are as fast as a hit, in order of time, then handles, and their materials.
+    """Write those of ``count`` impacts that are as fast as the ``least`` hit, in order of time, then handles.
 
-    A material is -1 of who lives no more. Return how many they are.
+    Their materials are -1 of who lives no more. Return how many they are.
     """
-    hits = 0
+    hits, order = 0, np.empty(count, np.int64)
     for k in range(count):
-        if not speed[k] >= hit_speed:
+        if not speed[k] >= least:
             continue
         o = hits
         while o > 0 and is_earlier(k, order[o - 1], a, b, time):  # seldom: they are in order of time
@@ -69,7 +94,13 @@ def find_hits(
         order[o] = k
         hits += 1
     for o in range(hits):
-        x, y = a[order[o]], b[order[o]]
+        k = order[o]
+        hit_time[o], hit_a[o], hit_b[o], hit_speed[o] = time[k], a[k], b[k], speed[k]
+        hit_impulse[o], hit_work[o] = impulse[k], work[k]
+        for d in range(3):
+            hit_point[o, d], hit_normal[o, d] = point[k, d], normal[k, d]
+            hit_friction_impulse[o, d] = friction_impulse[k, d]
+        x, y = a[k], b[k]
         i, j = row_of(x, row_shift), row_of(y, row_shift)
         material_a[o] = number[i] if is_at(i, x, handles) else -1
         material_b[o] = number[j] if is_at(j, y, handles) else -1
