@@ -10,6 +10,8 @@ from carom.systems.kernels.crew import runs_of, shared, wait_for_all
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.recycling import first_of_pair, is_pair, smaller_reach
 
+HELD = 28  # numbers that a contact holds
+
 
 @woven
 def are_the_same(c, end, o, until, found_feature, feature):
@@ -87,54 +89,85 @@ def renew_contacts(
                 feature, point, found_feature, found_point, match, taken,
             )  # fmt: skip
         o, c = until, end
-    # Rows that stay where they are keep what they hold; what others held is put aside before it is written over.
+    # Rows that stay where they are keep what they hold. Of the others most come from a few rows away, in place: those
+    # from behind in their order, and those from before the last first, so that none is written over before it has gone.
+    # What is another thread's, or changes places within a pair, is put aside before.
+    columns = (
+        resting, strikes, plastic, warm_normal, impulse, warm_friction, warm_rolling, friction_impulse,
+        seat_depth, form, seat_a, seat_b, lean_a, lean_b,
+    )  # fmt: skip
     moves = np.empty(max(0, count - begin), np.int64)
-    moving, seats = 0, 0
+    moving, aside, last = 0, len(moves), -1
     for c in range(begin, count):
-        if match[c] != c:
+        if begin <= match[c] < count and match[c] > last:
+            last = match[c]
             moves[moving] = c
-            moving, seats = moving + 1, seats + (recycled_from[c] >= 0)
-    changed[crew[1]] = moving > 0
-    kept, counted, seated = np.empty((moving, 11)), np.empty((moving, 3), np.int64), np.empty((seats, 14))
-    n = 0
-    for m in range(moving):
-        o = match[moves[m]]
-        if o < 0:
-            continue
-        counted[m, 0], counted[m, 1], counted[m, 2] = resting[o], strikes[o], plastic[o]
-        kept[m, 0], kept[m, 1] = warm_normal[o], impulse[o]
-        for k in range(3):
-            kept[m, 2 + k], kept[m, 5 + k] = warm_friction[o, k], warm_rolling[o, k]
-            kept[m, 8 + k] = friction_impulse[o, k]
-        if recycled_from[moves[m]] >= 0:
-            seated[n, 0], seated[n, 1] = seat_depth[o], form[o]
-            for k in range(3):
-                seated[n, 2 + k], seated[n, 5 + k] = seat_a[o, k], seat_b[o, k]
-                seated[n, 8 + k], seated[n, 11 + k] = lean_a[o, k], lean_b[o, k]
-            n += 1
+            moving += match[c] != c
+        elif match[c] != c:
+            aside -= 1
+            moves[aside] = c
+    changed[crew[1]] = moving > 0 or aside < len(moves)
+    kept = np.zeros((1 + len(moves) - aside, HELD))
+    hand = len(kept) - 1
+    for m in range(aside, len(moves)):
+        c = moves[m]
+        if match[c] >= 0:
+            take(match[c], recycled_from[c] >= 0, kept, m - aside, *columns)
     wait_for_all(crew, 1)
-    n = 0
     for m in range(moving):
         c = moves[m]
-        a[c], b[c] = handles[found_a[c]], handles[found_b[c]]
-        if match[c] < 0:
-            resting[c], strikes[c], plastic[c], warm_normal[c], impulse[c] = False, 0, 0, 0.0, 0.0
-            for k in range(3):
-                warm_friction[c, k] = warm_rolling[c, k] = friction_impulse[c, k] = 0.0
-            continue
-        resting[c], strikes[c], plastic[c] = counted[m, 0] != 0, counted[m, 1], counted[m, 2]
-        warm_normal[c], impulse[c] = kept[m, 0], kept[m, 1]
-        for k in range(3):
-            warm_friction[c, k], warm_rolling[c, k] = kept[m, 2 + k], kept[m, 5 + k]
-            friction_impulse[c, k] = kept[m, 8 + k]
-        if recycled_from[c] >= 0:
-            seat_depth[c], form[c] = seated[n, 0], seated[n, 1]
-            for k in range(3):
-                seat_a[c, k], seat_b[c, k] = seated[n, 2 + k], seated[n, 5 + k]
-                lean_a[c, k], lean_b[c, k] = seated[n, 8 + k], seated[n, 11 + k]
-            n += 1
+        if match[c] > c:
+            take(match[c], recycled_from[c] >= 0, kept, hand, *columns)
+            give(c, recycled_from[c] >= 0, kept, hand, *columns)
+    for m in range(moving - 1, -1, -1):
+        c = moves[m]
+        if match[c] < c:
+            take(match[c], recycled_from[c] >= 0, kept, hand, *columns)
+            give(c, recycled_from[c] >= 0, kept, hand, *columns)
+    for m in range(aside, len(moves)):
+        give(moves[m], recycled_from[moves[m]] >= 0, kept, m - aside, *columns)
     for c in range(begin, count):
+        if match[c] != c:
+            a[c], b[c] = handles[found_a[c]], handles[found_b[c]]
         row_a[c], row_b[c], feature[c], by_fcl[c] = found_a[c], found_b[c], found_feature[c], found_by_fcl[c]
         depth[c] = found_depth[c]
         for k in range(3):
             normal[c, k], point[c, k] = found_normal[c, k], found_point[c, k]
+
+
+@woven
+def take(
+    o, seated, kept, m, resting, strikes, plastic, warm_normal, impulse, warm_friction, warm_rolling, friction_impulse,
+    seat_depth, form, seat_a, seat_b, lean_a, lean_b,
+):  # fmt: skip
+    """Write what contact o holds into a row of numbers, and where it is ``seated``."""
+    kept[m, 0], kept[m, 1], kept[m, 2], kept[m, 3], kept[m, 4] = (
+        resting[o], strikes[o], plastic[o], warm_normal[o], impulse[o]
+    )  # fmt: skip
+    for k in range(3):
+        kept[m, 5 + k], kept[m, 8 + k] = warm_friction[o, k], warm_rolling[o, k]
+        kept[m, 11 + k] = friction_impulse[o, k]
+    if seated:
+        kept[m, 14], kept[m, 15] = seat_depth[o], form[o]
+        for k in range(3):
+            kept[m, 16 + k], kept[m, 19 + k] = seat_a[o, k], seat_b[o, k]
+            kept[m, 22 + k], kept[m, 25 + k] = lean_a[o, k], lean_b[o, k]
+
+
+@woven
+def give(
+    c, seated, kept, m, resting, strikes, plastic, warm_normal, impulse, warm_friction, warm_rolling, friction_impulse,
+    seat_depth, form, seat_a, seat_b, lean_a, lean_b,
+):  # fmt: skip
+    """Let contact c hold what `take` has written."""
+    resting[c], strikes[c], plastic[c], warm_normal[c], impulse[c] = (
+        kept[m, 0] != 0.0, kept[m, 1], kept[m, 2], kept[m, 3], kept[m, 4]
+    )  # fmt: skip
+    for k in range(3):
+        warm_friction[c, k], warm_rolling[c, k] = kept[m, 5 + k], kept[m, 8 + k]
+        friction_impulse[c, k] = kept[m, 11 + k]
+    if seated:
+        seat_depth[c], form[c] = kept[m, 14], kept[m, 15]
+        for k in range(3):
+            seat_a[c, k], seat_b[c, k] = kept[m, 16 + k], kept[m, 19 + k]
+            lean_a[c, k], lean_b[c, k] = kept[m, 22 + k], kept[m, 25 + k]
