@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -76,7 +76,8 @@ def test_contacts_keep_what_they_held(threads: int, renewal: Renewal) -> None:
     """Each number that a contact holds goes where that goes; of new ones all are 0; nobody's place hangs on threads."""
     old, now, match = listed(renewal.before), listed(renewal.now), np.array(expected(renewal), np.int64)
     room, count = len(old) + len(now), len(now)
-    handles, collider, contact = SIMULATION.world.handles(), SIMULATION.world[Collider], Table(Contact, room + 1).live
+    handles, collider = SIMULATION.world.handles(), SIMULATION.world[Collider]
+    contact: Any = Table(Contact, room + 1).live
     for k, ((x, y), (feature, place)) in enumerate(old):
         contact.a[k], contact.b[k], contact.feature[k], contact.point[k, 0] = (
             handles[x],
