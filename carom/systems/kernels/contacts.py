@@ -64,11 +64,12 @@ def complete_contacts(
         ax, ay, az = seat_of(a, on_a, center, pose_position)
         bx, by, bz = seat_of(b, on_b, center, pose_position)
         belt = belts and (runs(a, surface_velocity) or runs(b, surface_velocity))
-        changed[crew[1]] |= belt or not there
-        if not there:
-            what, i, o, sense, ex, ey, ez = exact_pair(
-                a, b, shape, size, body_row, pose_position, pose_rotation, center, rotation, inverse_mass
-            )
+        what, i, o, sense, ex, ey, ez = exact_pair(
+            a, b, shape, size, body_row, pose_position, pose_rotation, center, rotation, inverse_mass
+        )
+        anew = not there or what != kind[first]
+        changed[crew[1]] |= anew or belt
+        if anew:
             rubs = combined(material_friction[a], material_friction[b], friction_rule[a], friction_rule[b], SQRT)
             bounces = combined(
                 material_restitution[a], material_restitution[b], restitution_rule[a], restitution_rule[b], 0
@@ -222,9 +223,9 @@ def is_aligned(collider, body, pose_rotation, rotation):
 @woven
 def is_free_ball(collider, shape, body_row, pose_position, center, inverse_mass):
     """Tell whether a collider is a ball or point about the centre of mass of a body that impulses can move."""
+    if shape[collider] != SPHERE_SHAPE and shape[collider] != POINT_SHAPE:
+        return False
     body = body_row[collider]
     if body < 0 or inverse_mass[body] == 0.0:
-        return False
-    if shape[collider] != SPHERE_SHAPE and shape[collider] != POINT_SHAPE:
         return False
     return is_centred(collider, body, pose_position, center)
