@@ -107,11 +107,12 @@ def find(world: World, pairs: Integers) -> Found:
 
 def store(world: World, found: Found) -> None:
     """Write the contact table, matched with the one before."""
-    old_count, count = world[Contact].count, len(found.row_a)
+    old_count, count, resting = world[Contact].count, len(found.row_a), world[Resting]
+    if not resting.knows(world):
+        resting.belts = bool(world[Collider].surface_velocity.any())
     world.resize(Contact, count)
     same = bool(count or old_count) and fill(world, found, old_count, count)
     group_contacts(world, same=same)
-    resting = world[Resting]
     resting.structure, resting.awake = world.structure, world[Awake].now(world)
 
 
@@ -124,9 +125,7 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     crew = crew_for(world, count)
     match, changed = np.empty(count, np.int64), np.zeros(threads_of(crew), np.bool_)
-    resting, known = world[Resting], world[Resting].knows(world)
-    if not known:
-        resting.belts = bool(collider.surface_velocity.any())
+    resting = world[Resting]
     renew_contacts(
         crew, match, np.zeros(old_count, np.bool_), changed, old_count,
         world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
@@ -142,7 +141,7 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
     complete_contacts(
-        crew, count, match, known, resting.belts, changed,
+        crew, count, match, resting.knows(world), resting.belts, changed,
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
         collider.shape, collider.size, collider.bound_half, collider.bound_radius, pose.position, pose.rotation,
         world[Flight].detected_center, world[Transform].rotation, world[RigidBody].inverse_mass,

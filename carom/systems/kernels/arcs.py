@@ -32,7 +32,8 @@ def bend_arcs(
         if are_bent(leans, mine, n):
             v, start = load_three(address(linear), mine[n]), load_three(address(start_linear), mine[n])
             x, y, z = minus(v, start)
-            scatter_four(packed[CHANGE], address(mine), n // WIDTH, 0, (x, y, z, spread(0.0)))
+            eight = mine[n : n + WIDTH].reshape(1, WIDTH)
+            scatter_four(packed[CHANGE], address(eight), 0, 0, (x, y, z, spread(0.0)))
             continue
         for i in mine[n : n + WIDTH]:
             for k in range(3):
@@ -48,7 +49,8 @@ def bend_arcs(
         wait_for_all(crew, passed)
     for n in range(0, len(mine), WIDTH):
         if are_bent(leans, mine, n):
-            x, y, z, _ = gather_four(packed[CHANGE], address(mine), n // WIDTH, 0)
+            eight = mine[n : n + WIDTH].reshape(1, WIDTH)
+            x, y, z, _ = gather_four(packed[CHANGE], address(eight), 0, 0)
             store_three(address(acceleration), mine[n], (x / h, y / h, z / h))
             for at in range(3 * mine[n], 3 * (mine[n] + WIDTH), WIDTH):
                 w = load_flat(angular, at)

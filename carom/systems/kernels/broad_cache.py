@@ -122,13 +122,15 @@ def stay(
         b = body_row[k]
         same &= shape[k] != HALF_SPACE
         same &= is_known(k, b, flags_of(k, b, False, inverse_mass, sensor), layer, mask, known)
+    if not same:
+        return False
     within = ALL
     low, high = load_three(address(lower), i), load_three(address(upper), i)
     least, most = load_three(address(fat_lower), i), load_three(address(fat_upper), i)
     for k in range(3):
         by = frame[1, k]
         within &= which((low[k] - by) - least[k] + SMALLEST) & which(most[k] - (high[k] - by) + SMALLEST)
-    return same and within == ALL
+    return within == ALL
 
 
 @woven
