@@ -69,12 +69,13 @@ def advance_bodies(
                         i, now, bend, center, rotation, turned, linear, angular, time, acceleration,
                         angular_acceleration, inverse_mass, inertia, principal_axes, freedom,
                     )  # fmt: skip
-        for lane, i in enumerate(rows[n : n + WIDTH] if len(arc) else rows[:0]):
-            if took[lane] > 0.0:
-                note_arc(
-                    i, lane, took[lane], bend, kept, center, rotation, linear, angular, acceleration,
-                    angular_acceleration, inverse_mass, inertia, principal_axes, pull, arc,
-                )  # fmt: skip
+        if len(arc):
+            for lane, i in enumerate(rows[n : n + WIDTH]):
+                if took[lane] > 0.0:
+                    note_arc(
+                        i, lane, took[lane], bend, kept, center, rotation, linear, angular, acceleration,
+                        angular_acceleration, inverse_mass, inertia, principal_axes, pull, arc,
+                    )  # fmt: skip
 
 
 @woven
@@ -143,11 +144,14 @@ def turn_eight(
         px, py, pz, pw = spun_in_lanes(qx, qy, qz, qw, wx, wy, wz, t)
     if some(uneven):
         ax, ay, az, aw = take_four(principal_axes, rows, n, near, four)
-        qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
+        aside = some(ax * ax + ay * ay + az * az)  # seldom: most bodies turn about axes of their own frame
+        if aside:
+            qx, qy, qz, qw = product(qx, qy, qz, qw, ax, ay, az, aw)
         unit = spread(1.0)
         ix, iy, iz = choose(uneven, ix, unit), choose(uneven, iy, unit), choose(uneven, iz, unit)
         qx, qy, qz, qw, vx, vy, vz = turned_in_lanes(qx, qy, qz, qw, wx, wy, wz, ix, iy, iz, t)
-        qx, qy, qz, qw = product(qx, qy, qz, qw, -ax, -ay, -az, aw)
+        if aside:
+            qx, qy, qz, qw = product(qx, qy, qz, qw, -ax, -ay, -az, aw)
         px, py, pz, pw = choose(uneven, qx, px), choose(uneven, qy, py), choose(uneven, qz, pz), choose(uneven, qw, pw)
         wx, wy, wz = choose(uneven, vx, wx), choose(uneven, vy, wy), choose(uneven, vz, wz)
     give_four(rotation, rows, n, near, four, (px, py, pz, pw))

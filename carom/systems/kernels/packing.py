@@ -47,7 +47,7 @@ def pack_bodies(
 ):  # fmt: skip
     """Write where bodies are, their velocities, inverse masses and inertias; the world is at its origin.
 
-    Without ``weigh`` masses are what they were, and nobody asks for what forces do.
+    Without ``weigh`` masses are what they were, as is inertia that is even, and nobody asks for what forces do.
     Tell in ``apart``, of which each thread has one, whether a centre of mass is not at the origin.
     """
     nobody = bodies.shape[1] - 1
@@ -77,12 +77,13 @@ def pack_bodies(
             scatter(packed[MASS_AND_FELT], address(index), 0, masses)
         ix, iy, iz = take_three(inverse_inertia, rows, n, near, three)
         uneven = larger(larger(ix - iy, iy - ix), larger(iy - iz, iz - iy))
-        inverse = (ix * free[3], zero, zero, ix * free[4], zero, ix * free[5])
-        if some(uneven):
-            a = take_four(principal, rows, n, near, four)
-            inverse = inverse_of(q, a, ix, iy, iz, uneven, inverse)
-        xx, xy, xz, yy, yz, zz = inverse
-        scatter(packed[INVERSE], address(index), 0, (xx, xy, xz, yy, yz, zz, larger(larger(ix, iy), iz), zero))
+        if weigh or some(uneven):
+            inverse = (ix * free[3], zero, zero, ix * free[4], zero, ix * free[5])
+            if some(uneven):
+                a = take_four(principal, rows, n, near, four)
+                inverse = inverse_of(q, a, ix, iy, iz, uneven, inverse)
+            xx, xy, xz, yy, yz, zz = inverse
+            scatter(packed[INVERSE], address(index), 0, (xx, xy, xz, yy, yz, zz, larger(larger(ix, iy), iz), zero))
         locked = 3.0 - (free[3] + free[4] + free[5])
         scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], m, w[0], w[1], w[2], ix))
         if some(choose(uneven, locked, zero)):
