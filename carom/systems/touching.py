@@ -14,8 +14,6 @@ from carom.systems.awake import Awake, stirs
 from carom.systems.kernels.touching import find_hits, find_struck, renew_touching, write_events
 from carom.systems.settings import Settings, time_of
 
-NOBODY, NEVER = np.empty(0, np.int64), np.empty(0)
-
 
 @system(
     reads=(Contact, Impact, ColliderPose, Motion, Settings, Awake),
@@ -52,7 +50,7 @@ def struck(world: World) -> tuple[Integers, Integers, Floats]:
     """Return the pairs (rows) of living entities that were struck in the step, in order of rows, and when first (s)."""
     impact = world[Impact]
     if not impact.count:
-        return NOBODY, NOBODY, NEVER
+        return impact.a[:0], impact.b[:0], impact.time[:0]
     a, b, at = np.empty(impact.count, np.int64), np.empty(impact.count, np.int64), np.empty(impact.count)
     count = find_struck(impact.count, impact.a, impact.b, impact.time, world.handles(), world.slots.row_shift, a, b, at)
     return a[:count], b[:count], at[:count]

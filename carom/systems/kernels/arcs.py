@@ -71,10 +71,12 @@ def bend_arcs(
 @woven
 def are_bent(leans, rows, n):
     """Tell of eight rows from the n-th on whether they are next to each other, and all of them are bent."""
-    together = in_a_row(rows, n)
-    for i in range(rows[n] if together else 0, rows[n] + WIDTH if together else 0):
-        together &= is_bent(leans, i)
-    return together
+    if not in_a_row(rows, n):
+        return False
+    bent = True
+    for i in range(rows[n], rows[n] + WIDTH):
+        bent &= is_bent(leans, i)
+    return bent
 
 
 @woven

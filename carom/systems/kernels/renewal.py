@@ -10,7 +10,7 @@ from carom.systems.kernels.crew import runs_of, shared, wait_for_all
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.recycling import first_of_pair, is_pair, smaller_reach
 
-HELD = 28  # numbers that a contact holds
+CONTACT_NUMBERS = 28  # that a contact holds
 
 
 @woven
@@ -107,7 +107,7 @@ def renew_contacts(
             aside -= 1
             moves[aside] = c
     changed[crew[1]] = moving > 0 or aside < len(moves)
-    kept = np.zeros((1 + len(moves) - aside, HELD))
+    kept = np.zeros((1 + len(moves) - aside, CONTACT_NUMBERS))
     hand = len(kept) - 1
     for m in range(aside, len(moves)):
         c = moves[m]
