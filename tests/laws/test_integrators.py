@@ -161,3 +161,38 @@ def test_a_body_of_two_equal_moments_turns_exactly(own: float, middle: int) -> N
         seen = quaternion.rotate(quaternion.conjugate(turned), simulation[body].motion.angular)
         assert (inertia * seen * seen).sum() == pytest.approx((inertia * local * local).sum(), rel=1e-10)
         assert quaternion.rotate(turned, inertia * seen) == pytest.approx(momentum, rel=1e-10, abs=1e-10 * size)
+
+
+@pytest.mark.parametrize("beside", ["dynamic", "kinematic"])
+def test_it_does_not_matter_which_axes_a_body_calls_its_own(beside: str) -> None:
+    """A crowd whose principal axes are askew in their bodies turns, also by torques, as bodies that are turned so.
+
+    Eight free bodies turn side by side; one that is kinematic among them lets each turn by itself.
+    """
+    generator = np.random.default_rng(3)
+    turns, axes = (quaternion.normalise(generator.normal(size=(19, 4))) for _ in range(2))
+    spins, torques = generator.normal(size=(2, 19, 3))
+
+    def flown(rotations: np.ndarray, principal_axes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        simulation = Simulation(dt=1 / 60, gravity=(0.0, 0.0, 0.0))
+        for n, (rotation, own, spin) in enumerate(zip(rotations, principal_axes, spins, strict=True)):
+            simulation.add(
+                body={
+                    "mass": 1.0, "inertia": (1.0, 2.0, 2.8), "principal_axes": own,
+                    "type": beside if n % 8 == 3 else "dynamic",
+                },
+                transform={"position": (3.0 * n, 0.0, 0.0), "rotation": rotation},
+                motion={"angular": 5.0 * spin},
+            )  # fmt: skip
+        world = simulation.world
+        rows = world.rows(RigidBody)
+        for _ in range(60):
+            with world.edit(ExternalForce) as external:
+                external.torque[rows] = torques
+            simulation.step()
+        return world[Transform].rotation[rows], world[Motion].angular[rows]
+
+    turned, spinning = flown(turns, axes)
+    plain, as_plain = flown(quaternion.multiply(turns, axes), np.tile((0.0, 0.0, 0.0, 1.0), (19, 1)))
+    assert spinning == pytest.approx(as_plain, abs=1e-11)
+    assert np.abs((quaternion.multiply(turned, axes) * plain).sum(axis=1)) == pytest.approx(1.0, abs=1e-12)
