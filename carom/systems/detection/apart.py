@@ -7,7 +7,7 @@ import numpy as np
 from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
-from carom.systems.kernels.apart import add_ways, count_apart, keep_apart, leave_apart, note_apart
+from carom.systems.kernels.apart import add_ways, keep_apart, leave_apart, note_apart
 from carom.systems.resting import Resting
 
 NOBODY: Integers = np.empty((0, 2), np.int64)
@@ -51,12 +51,11 @@ class Apart(Resource):
         self._left = len(pairs) - count
         return near[:count], near_reaches[:count]
 
-    def note(self, measured: Integers, points: Integers, gaps: Floats) -> None:
-        """Remember how far those of the ``pairs`` are apart that were ``measured`` and have no points.
+    def note(self, measured: Integers, gaps: Floats, apart: int) -> None:
+        """Remember how far those of the ``pairs`` are ``apart`` that were ``measured`` and have no points.
 
         Gaps (m) that are 0 or less say nothing.
         """
-        apart = count_apart(points, gaps)
         self.many = bool(self._left + apart > self._rows)
         if apart and len(self.pairs):
             note_apart(measured, gaps, self.pairs, self.way, self.until)

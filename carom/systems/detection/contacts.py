@@ -28,7 +28,6 @@ from carom.systems.grouping import group_contacts
 from carom.systems.kernels.contacts import complete_contacts
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.crushing import let_go_of_crushed
-from carom.systems.kernels.recycling import seat_contacts
 from carom.systems.kernels.renewal import renew_contacts
 from carom.systems.kernels.rows import count_in_pairs
 from carom.systems.passing import without_passing
@@ -135,22 +134,19 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
         contact.warm_rolling, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic,
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
-    seat_contacts(
-        count, found.old, found.row_a, found.row_b, found.normal, found.depth, found.point,
-        collider.shape, collider.size, collider.geometry, pose.position, pose.rotation,
-        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
-    )  # fmt: skip
     complete_contacts(
-        crew, count, match, resting.knows(world), resting.belts, changed,
+        crew, count, match, found.old, resting.knows(world), resting.belts, changed,
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
-        collider.shape, collider.size, collider.bound_half, collider.bound_radius, pose.position, pose.rotation,
-        world[Flight].detected_center, world[Transform].rotation, world[RigidBody].inverse_mass,
+        collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
+        pose.position, pose.rotation, world[Flight].detected_center, world[Transform].rotation,
+        world[RigidBody].inverse_mass,
         material.friction, material.restitution, material.rolling_friction, material.spinning_friction,
         material.friction_combine, material.restitution_combine, collider.surface_velocity,
         contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
         contact.body_a, contact.body_b, contact.offset_a, contact.offset_b, contact.share,
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
         contact.other_position, contact.other_rotation,
+        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
     crushed = let_go_of_crushed(
         world[Awake].now(world), count, contact.body_a, contact.body_b, contact.depth, world[RigidBody].inverse_mass,

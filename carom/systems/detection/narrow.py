@@ -13,17 +13,18 @@ from carom.systems.detection.apart import Apart
 from carom.systems.detection.fcl_pairs import measure_by_fcl
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
-from carom.systems.detection.validity import keep_sound
+from carom.systems.detection.validity import without_faulty
 from carom.systems.kernels.balls_narrow import measure_balls
 from carom.systems.kernels.balls_on_meshes import measure_balls_on_meshes
 from carom.systems.kernels.boxes_narrow import measure_boxes
 from carom.systems.kernels.capsules_narrow import measure_balls_on_capsules, measure_capsules
 from carom.systems.kernels.capsules_on_boxes import measure_capsules_on_boxes
+from carom.systems.kernels.collecting import collect_points, count_points
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.hulls_narrow import measure_hulls, measure_hulls_on_planes
 from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.mesh_points import MOST_MESH_POINTS
-from carom.systems.kernels.narrow import collect_points, leave_out, sort_by_function
+from carom.systems.kernels.narrow import leave_out, sort_by_function
 from carom.systems.kernels.planes_narrow import measure_boxes_on_planes, measure_capsules_on_planes
 from carom.systems.kernels.reduction import MOST_POINTS
 from carom.systems.kernels.rounds_on_meshes import measure_rounds_on_meshes
@@ -161,11 +162,15 @@ def measure_pairs(
             points.apart, points.start, points.count, points.feature, points.normal, points.depth, points.point,
         )  # fmt: skip
         taken += ROOMS[number] * count
+    total, known_apart = count_points(points.count, points.apart)
     if apart:
-        apart.note(pairs, points.count, points.apart)
-    kept = keep_sound(world, pairs, reaches, points)
-    found = Found.room(kept)
+        apart.note(pairs, points.apart, known_apart)
+    found, threads = Found.room(total), threads_of(crew)
+    told, received = np.zeros((threads, 4), np.int64), np.empty((threads, 2))
     collect_points(
-        crew, pairs, side, points.start, points.count, points.feature, points.normal, points.depth, points.point, *found
+        crew, pairs, reaches, side, collider.shape, collider.size, collider.position, collider.bound_center,
+        collider.bound_half, collider.bound_radius, pose.position, pose.rotation,
+        points.start, points.count, points.feature, points.normal, points.depth, points.point, *found,
+        told, received,
     )  # fmt: skip
-    return found
+    return without_faulty(world, pairs, found, told, received)

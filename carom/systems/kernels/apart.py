@@ -48,15 +48,6 @@ def leave_apart(pairs, reaches, until, way, near, near_reaches):
     return count
 
 
-@kernel()
-def count_apart(points, gaps):
-    """Return how many pairs have no points and are known to be some way apart (m)."""
-    count = 0
-    for p in range(len(points)):
-        count += points[p] == 0 and gaps[p] > 0.0
-    return count
-
-
 @kernel("until")
 def note_apart(measured, gaps, pairs, way, until):
     """Write ``until`` when measured pairs stay apart of which a gap above 0 (m) is known.

@@ -13,7 +13,7 @@ from carom.systems.kernels.crew import runs_of, shared
 from carom.systems.kernels.frames import turned_back
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
-from carom.systems.kernels.recycling import is_alike, turned
+from carom.systems.kernels.recycling import is_alike, seat_pair, turned
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
 
@@ -38,17 +38,20 @@ def combined(x, y, rule_x, rule_y, default):
 @shared(
     "changed", "friction", "restitution", "rolling", "spinning", "surface", "row_a", "row_b", "body_a", "body_b",
     "offset_a", "offset_b", "share", "kind", "ball", "other", "sign", "radius", "extent",
-    "other_position", "other_rotation",
+    "other_position", "other_rotation", "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form",
 )  # fmt: skip
 def complete_contacts(
-    crew, count, match, known, belts, changed, normal, depth, point, row_a, row_b,
-    body_row, shape, size, bound_half, bound_radius, pose_position, pose_rotation, center, rotation, inverse_mass,
-    material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
-    surface_velocity, friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b,
-    share, kind, ball, other, sign, radius, extent, other_position, other_rotation,
+    crew, count, match, recycled_from, known, belts, changed, normal, depth, point, row_a, row_b,
+    body_row, shape, size, geometry, bound_half, bound_radius, pose_position, pose_rotation, center, rotation,
+    inverse_mass, material_friction, material_restitution, material_rolling, material_spinning,
+    friction_rule, restitution_rule, surface_velocity,
+    friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b, share,
+    kind, ball, other, sign, radius, extent, other_position, other_rotation,
+    seat_a, seat_b, lean_a, lean_b, seat_depth, form,
 ):  # fmt: skip
     """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
+    Of those that were not recycled (``recycled_from`` is below 0), also where they are on the two shapes.
     Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces. Where all
     are ``known``, what follows from shapes and materials, and where others stand, is there of pairs that are where they
     were (``match``). Each thread tells in ``changed`` whether it was not, or a surface runs; without ``belts`` none
@@ -60,6 +63,11 @@ def complete_contacts(
         while end < until and row_a[end] == a and row_b[end] == b:
             there &= match[end] == end
             end += 1
+        if recycled_from[first] < 0:
+            seat_pair(
+                first, end, a, b, normal, depth, point, shape, size, geometry, pose_position, pose_rotation,
+                seat_a, seat_b, lean_a, lean_b, seat_depth, form,
+            )  # fmt: skip
         on_a, on_b = body_row[a], body_row[b]
         ax, ay, az = seat_of(a, on_a, center, pose_position)
         bx, by, bz = seat_of(b, on_b, center, pose_position)

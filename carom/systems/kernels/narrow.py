@@ -1,8 +1,6 @@
-"""Narrow phase: pairs sorted by what measures them, and their points put in order."""
+"""Narrow phase: pairs sorted by what measures them."""
 
 from __future__ import annotations
-
-import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.balls import BALL, BOX, HALF_SPACE
@@ -77,51 +75,6 @@ def function_for(one, other, function_of):
     """Return the number of the function that measures two shapes; 0 beyond the table."""
     size = len(function_of)
     return function_of[one, other] if one < size and other < size else 0
-
-
-@woven
-def find_measured(begin, end, count, found):
-    """Write which pairs, from ``begin`` to ``end``, have points; return how many they are.
-
-    Which they are is past foreseeing, so that no branch hangs on it, here or where the pairs are gone through.
-    """
-    number = 0
-    for p in range(begin, end):
-        found[number] = p
-        number += 1 if count[p] else 0
-    return number
-
-
-@shared(
-    "row_a", "row_b", "found_feature", "found_normal", "found_depth", "found_point", "by_fcl", "old", makes_arrays=True
-)  # fmt: skip
-def collect_points(
-    crew, pairs, side, start, count, feature, normal, depth, point,
-    row_a, row_b, found_feature, found_normal, found_depth, found_point, by_fcl, old,
-):  # fmt: skip
-    """Put the points of all pairs in order of pair and feature, with normals from the lower row to the other.
-
-    None of them is an ``old`` one.
-    """
-    first_pair, end_pair = part_of(crew, len(pairs))
-    at = 0
-    for p in range(first_pair):
-        at += count[p]
-    measured = np.empty(end_pair - first_pair, np.int64)
-    for p in measured[: find_measured(first_pair, end_pair, count, measured)]:
-        begin, sense, fcl = at, -1.0 if side[p] == SWAPPED else 1.0, side[p] == FCLS
-        for source in range(start[p], start[p] + count[p]):
-            c = at
-            while c > begin and found_feature[c - 1] > feature[source]:  # few: sorted as they come
-                found_feature[c], found_depth[c] = found_feature[c - 1], found_depth[c - 1]
-                for d in range(3):
-                    found_normal[c, d], found_point[c, d] = found_normal[c - 1, d], found_point[c - 1, d]
-                c -= 1
-            found_feature[c], found_depth[c] = feature[source], depth[source]
-            for d in range(3):
-                found_normal[c, d], found_point[c, d] = sense * normal[source, d], point[source, d]
-            row_a[at], row_b[at], by_fcl[at], old[at] = pairs[p, 0], pairs[p, 1], fcl, -1
-            at += 1
 
 
 @kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")

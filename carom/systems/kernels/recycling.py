@@ -183,26 +183,25 @@ def turned(i, c, column, rotation):
     return turned_by(rotation_of(i, rotation), c, column)
 
 
-@kernel("seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form")
-def seat_contacts(
-    count, old, row_a, row_b, normal, depth, point, shape, size, geometry, position, rotation,
+@woven
+def seat_pair(
+    first, end, a, b, normal, depth, point, shape, size, geometry, position, rotation,
     seat_a, seat_b, lean_a, lean_b, seat_depth, form,
 ):  # fmt: skip
-    """Write where the points and the normals of contacts that were found anew are on the two shapes.
+    """Write where the points and the normals of a pair, contacts ``first`` to ``end``, are on the two shapes.
 
     Those of balls are never recycled, and nowhere.
     """
-    for c in range(count):
-        if old[c] >= 0:
-            continue
-        a, b = row_a[c], row_b[c]
-        if is_ball(a, shape) or is_ball(b, shape):
+    if is_ball(a, shape) or is_ball(b, shape):
+        for c in range(first, end):
             if form[c] == 0.0:  # as it most often was before
                 continue
             seat_depth[c], form[c] = 0.0, 0.0
             for k in range(3):
                 seat_a[c, k], seat_b[c, k], lean_a[c, k], lean_b[c, k] = 0.0, 0.0, 0.0, 0.0
-            continue
+        return
+    number = form_of_pair(a, b, shape, size, geometry)
+    for c in range(first, end):
         half = 0.5 * depth[c]
         nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
         for i, sense, seat, lean in ((a, half, seat_a, lean_a), (b, -half, seat_b, lean_b)):
@@ -212,8 +211,7 @@ def seat_contacts(
             z = point[c, 2] + sense * nz - position[i, 2]
             seat[c, 0], seat[c, 1], seat[c, 2] = turn(qx, qy, qz, qw, x, y, z)
             lean[c, 0], lean[c, 1], lean[c, 2] = turn(qx, qy, qz, qw, nx, ny, nz)
-        seat_depth[c] = depth[c]
-        form[c] = form_of_pair(a, b, shape, size, geometry)
+        seat_depth[c], form[c] = depth[c], number
 
 
 @kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")

@@ -59,8 +59,8 @@ def renew_contacts(
     Both lists are sorted by rows and feature, so that one pass matches them: ``match`` (-1: none) is which one of the
     old each was, as those recycled know (``recycled_from``); ``taken`` are those that somebody was. Where corners and
     edges change places under bodies that hardly move, a point of another feature within SAME_POINT takes over what the
-    old one held. Where on the two shapes they were found goes with those recycled only: others are `seat_contacts` to
-    say. Each thread tells in ``changed`` whether one of its contacts has come to a place in which it was not.
+    old one held. Where on the two shapes they were found goes with those recycled only: of others `complete_contacts`
+    says it. Each thread tells in ``changed`` whether one of its contacts has come to a place in which it was not.
     """
     begin, count = runs_of(crew, found_a, found_b)
     o, c = 0, begin

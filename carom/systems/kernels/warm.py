@@ -96,7 +96,7 @@ def compile_measuring() -> None:
         apart = world[Apart]
         apart.many = True
         apart.without(world, pairs, np.ones(len(pairs)))
-        apart.note(pairs, np.zeros(len(pairs), np.int64), np.ones(len(pairs)))
+        apart.note(pairs, np.ones(len(pairs)), len(pairs))
     count = len(found.row_a)
     merge_contacts(count, *found, *found, *found.room(2 * count))
     far = np.zeros(count, np.bool_)  # of somebody fast
