@@ -80,7 +80,7 @@ class Fast(Resource):
             return found
         far, numbers = np.empty(len(found.row_a), np.bool_), self.all.looked.numbers[self.all.asked]
         number = find_far(pairs, numbers, found.row_a, found.row_b, found.depth, far)
-        return found.without(far) if number else found
+        return found.without(far, number)
 
     def let_go(self, contact: Contact) -> None:
         """Let contacts of pairs that are looked after strike again, whose bodies may turn onto another point."""

@@ -71,4 +71,4 @@ def without_seeming(
     reaches[:, 3] *= MEET  # they are looked at until they are as near as that
     far: Booleans = np.empty(len(found.row_a), np.bool_)
     number = find_far(free[passes], reaches[passes], found.row_a, found.row_b, found.depth, far)
-    return found.without(far) if number else found, free[~(agrees | passes)]
+    return found.without(far, number), free[~(agrees | passes)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
-from carom.ecs.column import Integers
+from carom.ecs.column import Booleans, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
@@ -20,8 +20,8 @@ from carom.systems.detection.broad import BroadPhase, overlapping
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
-from carom.systems.detection.narrow import Found
-from carom.systems.detection.recycling import measure_what_moved
+from carom.systems.detection.narrow import NOTHING, Found
+from carom.systems.detection.recycling import Kept, measure_what_moved
 from carom.systems.detection.seams import without_seams
 from carom.systems.detection.sensors import Sensing, without_sensors
 from carom.systems.grouping import group_contacts
@@ -39,8 +39,6 @@ from carom.systems.sleeping import rouse
 from carom.systems.stream import Stream
 from carom.systems.threads import Threads, crew_for
 from carom.systems.ties import Ties
-
-NOTHING = Found.room(0)
 
 
 @system(
@@ -123,17 +121,8 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
     """
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     crew = crew_for(world, count)
-    match, changed = np.empty(count, np.int64), np.zeros(threads_of(crew), np.bool_)
-    resting = world[Resting]
-    renew_contacts(
-        crew, match, np.zeros(old_count, np.bool_), changed, old_count,
-        world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
-        found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point, found.by_fcl,
-        found.old, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
-        contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
-        contact.warm_rolling, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic,
-        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
-    )  # fmt: skip
+    changed, resting = np.zeros(threads_of(crew), np.bool_), world[Resting]
+    match = found.old if isinstance(found, Kept) else renew(world, crew, found, old_count, changed)
     complete_contacts(
         crew, count, match, found.old, resting.knows(world), resting.belts, changed,
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
@@ -154,3 +143,21 @@ def fill(world: World, found: Found, old_count: int, count: int) -> bool:
         contact.warm_normal, contact.warm_friction, contact.warm_rolling, resting.crushed_among(world),
     )  # fmt: skip
     return count == old_count and not any(changed.tolist()) and not crushed
+
+
+def renew(world: World, crew: Integers, found: Found, old_count: int, changed: Booleans) -> Integers:
+    """Replace the contacts by those found; return which of the old each was, -1 for none.
+
+    Threads tell in ``changed`` whether one has come to a place in which it was not.
+    """
+    contact, collider, match = world[Contact], world[Collider], np.empty(len(found.row_a), np.int64)
+    renew_contacts(
+        crew, match, np.zeros(old_count, np.bool_), changed, old_count,
+        world.handles(), world.slots.row_shift, collider.bound_half, collider.bound_radius,
+        found.row_a, found.row_b, found.feature, found.normal, found.depth, found.point, found.by_fcl,
+        found.old, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
+        contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
+        contact.warm_rolling, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic,
+        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
+    )  # fmt: skip
+    return match

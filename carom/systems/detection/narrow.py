@@ -91,9 +91,16 @@ class Found(NamedTuple):
         """Return some of the contacts."""
         return Found(*(column[which] for column in self))
 
-    def without(self, some: Booleans) -> Found:
-        """Return the other contacts, which take the places of those."""
-        return self.take(slice(leave_out(some, *self)))
+    def without(self, some: Booleans, number: int) -> Found:
+        """Return the other contacts; ``some`` (n,) are so many."""
+        if not number:
+            return self
+        others = Found.room(len(some) - number)
+        leave_out(some, *self, *others)
+        return others
+
+
+NOTHING = Found.room(0)
 
 
 class Points:

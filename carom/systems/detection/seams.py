@@ -20,4 +20,4 @@ def without_seams(world: World, found: Found) -> Found:
         collider.shape, collider.size, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, pose.body_row, hidden,
     )  # fmt: skip
-    return found.without(hidden) if number else found
+    return found.without(hidden, number)

@@ -52,7 +52,7 @@ def without_faulty(world: World, pairs: Integers, found: Found, told: Integers, 
     gaps = np.ones(total, np.bool_)
     for begin, end, _, _ in parts:
         gaps[begin:end] = False
-    return found.without(gaps)
+    return found.without(gaps, refused)
 
 
 def described(world: World, row: int) -> str:

@@ -78,19 +78,20 @@ def function_for(one, other, function_of):
 
 
 @kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")
-def leave_out(some, row_a, row_b, feature, normal, depth, point, by_fcl, old):
-    """Let the other contacts take the places of ``some``; return how many they are."""
-    count = 0
-    for c in range(len(row_a)):
-        if some[c]:
+def leave_out(
+    some, old_a, old_b, old_feature, old_normal, old_depth, old_point, old_by_fcl, old_old,
+    row_a, row_b, feature, normal, depth, point, by_fcl, old,
+):  # fmt: skip
+    """Write all contacts but ``some``."""
+    c = 0
+    for o in range(len(some)):
+        if some[o]:
             continue
-        if count < c:
-            row_a[count], row_b[count], feature[count] = row_a[c], row_b[c], feature[c]
-            depth[count], by_fcl[count], old[count] = depth[c], by_fcl[c], old[c]
-            for k in range(3):
-                normal[count, k], point[count, k] = normal[c, k], point[c, k]
-        count += 1
-    return count
+        row_a[c], row_b[c], feature[c] = old_a[o], old_b[o], old_feature[o]
+        depth[c], by_fcl[c], old[c] = old_depth[o], old_by_fcl[o], old_old[o]
+        for k in range(3):
+            normal[c, k], point[c, k] = old_normal[o, k], old_point[o, k]
+        c += 1
 
 
 @woven

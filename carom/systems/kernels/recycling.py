@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from math import pi
 
+import numpy as np
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import RECYCLED_SLIP, RECYCLED_TURN
@@ -28,21 +30,25 @@ def form_of_pair(a, b, shape, size, geometry):
     return form
 
 
-@shared("moved", "moved_reaches", "row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old", "ends")
+@shared(
+    "moved", "moved_reaches", "row_a", "row_b", "normal", "depth", "point", "kept", "ends", makes_arrays=True
+)  # fmt: skip
 def recycle_contacts(
     crew, pairs, reaches, known, old_count, handles, row_shift,
     shape, size, geometry, bound_half, bound_radius, position, rotation,
-    a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, form, old_feature, old_by_fcl,
-    moved, moved_reaches, row_a, row_b, feature, normal, depth, point, by_fcl, old, ends,
+    a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, form,
+    moved, moved_reaches, row_a, row_b, normal, depth, point, kept, ends,
 ):  # fmt: skip
-    """Write the contacts, where their shapes are now, of all pairs that have hardly moved, and which pairs have moved.
+    """Place the contacts of all pairs that have hardly moved where their shapes are now; write which pairs have moved.
 
     Moved has a pair of which one is a ball, which rolls, one of whose points has slipped or sunk by RECYCLED_SLIP of
     the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known`` to be
-    what they were. ``seat``, ``lean`` and ``seat_depth`` say where the points and the normal were found on the two
-    shapes. Each thread has a row of ``ends``, where its contacts and its pairs end: behind them are those of the next.
+    what they were: its contacts stay as they are. ``seat``, ``lean`` and ``seat_depth`` say where the points and the
+    normal were found on the two shapes. Those placed are ``kept``. Each thread has a row of ``ends``, where those and
+    its pairs end: behind them are those of the next.
     """
     begin_pair, end_pair = part_of(crew, len(pairs))
+    placed = np.empty((old_count, 7))  # of one pair: how deep, normal, point
     o = 0
     if 0 < begin_pair < end_pair:
         o = first_of_pair(0, old_count, pairs[begin_pair, 0], pairs[begin_pair, 1], a, b, handles, row_shift)
@@ -59,7 +65,7 @@ def recycle_contacts(
         if not known and form[o] != form_of_pair(x, y, shape, size, geometry):
             continue
         slip = RECYCLED_SLIP * smaller_reach(x, y, bound_half, bound_radius)
-        begin, stayed = count, True
+        stayed = True
         px, py, pz = position[x, 0], position[x, 1], position[x, 2]
         qx, qy, qz = position[y, 0], position[y, 1], position[y, 2]
         of_x, of_y = rotation_of(x, rotation), rotation_of(y, rotation)
@@ -84,38 +90,32 @@ def recycle_contacts(
             ):
                 stayed = False
                 break
-            row_a[count], row_b[count], feature[count], by_fcl[count] = x, y, old_feature[o], old_by_fcl[o]
-            depth[count], old[count] = deep, o
-            normal[count, 0], normal[count, 1], normal[count, 2] = nx, ny, nz
-            point[count, 0], point[count, 1], point[count, 2] = 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz)
-            count += 1
+            k = o - first
+            placed[k, 0], placed[k, 1], placed[k, 2], placed[k, 3] = deep, nx, ny, nz
+            placed[k, 4], placed[k, 5], placed[k, 6] = 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz)
             o += 1
-        if stayed:
-            moving -= 1
-        else:
-            count = begin
+        if not stayed:
+            continue
+        moving -= 1
+        for c in range(first, o):
+            k = c - first
+            depth[c], kept[count] = placed[k, 0], c
+            normal[c, 0], normal[c, 1], normal[c, 2] = placed[k, 1], placed[k, 2], placed[k, 3]
+            point[c, 0], point[c, 1], point[c, 2] = placed[k, 4], placed[k, 5], placed[k, 6]
+            if not known:
+                row_a[c], row_b[c] = x, y
+            count += 1
     _, part, parts = crew
     for turn_of in range(parts):
         if turn_of == part:
             to, to_pair = (ends[part - 1, 0], ends[part - 1, 1]) if part else (0, 0)
-            if to < begin_contact:
-                move_up(begin_contact, count, to, row_a, row_b, feature, normal, depth, point, by_fcl, old)
+            for c in range(begin_contact, count if to < begin_contact else begin_contact):
+                kept[to + c - begin_contact] = kept[c]
             for p in range(begin_pair, moving if to_pair < begin_pair else begin_pair):
                 q = to_pair + p - begin_pair
                 moved[q, 0], moved[q, 1], moved_reaches[q] = moved[p, 0], moved[p, 1], moved_reaches[p]
             ends[part, 0], ends[part, 1] = to + count - begin_contact, to_pair + moving - begin_pair
         wait_for_all(crew, 1 + turn_of)
-
-
-@woven
-def move_up(begin, end, to, row_a, row_b, feature, normal, depth, point, by_fcl, old):
-    """Write contacts ``begin`` to ``end`` to an earlier place."""
-    for c in range(begin, end):
-        o = to + c - begin
-        row_a[o], row_b[o], feature[o], by_fcl[o] = row_a[c], row_b[c], feature[c], by_fcl[c]
-        depth[o], old[o] = depth[c], old[c]
-        for k in range(3):
-            normal[o, k], point[o, k] = normal[c, k], point[c, k]
 
 
 @woven
@@ -216,21 +216,22 @@ def seat_pair(
 
 @kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")
 def merge_contacts(
-    count, old_a, old_b, old_feature, old_normal, old_depth, old_point, old_by_fcl, old_old,
+    kept, old_a, old_b, old_feature, old_normal, old_depth, old_point, old_by_fcl,
     fresh_a, fresh_b, fresh_feature, fresh_normal, fresh_depth, fresh_point, fresh_by_fcl, fresh_old,
     row_a, row_b, feature, normal, depth, point, by_fcl, old,
 ):  # fmt: skip
-    """Merge ``count`` recycled and the fresh contacts, both sorted by pair."""
+    """Merge those of the old contacts that are ``kept`` and the fresh ones, both sorted by pair."""
     i, j = 0, 0
-    for c in range(count + len(fresh_a)):
+    for c in range(len(kept) + len(fresh_a)):
+        o = kept[i] if i < len(kept) else 0
         first = j == len(fresh_a)
-        if not first and i < count:
-            first = old_a[i] < fresh_a[j] or (old_a[i] == fresh_a[j] and old_b[i] < fresh_b[j])
+        if not first and i < len(kept):
+            first = old_a[o] < fresh_a[j] or (old_a[o] == fresh_a[j] and old_b[o] < fresh_b[j])
         if first:
-            row_a[c], row_b[c], feature[c], by_fcl[c] = old_a[i], old_b[i], old_feature[i], old_by_fcl[i]
-            depth[c], old[c] = old_depth[i], old_old[i]
+            row_a[c], row_b[c], feature[c], by_fcl[c] = old_a[o], old_b[o], old_feature[o], old_by_fcl[o]
+            depth[c], old[c] = old_depth[o], o
             for k in range(3):
-                normal[c, k], point[c, k] = old_normal[i, k], old_point[i, k]
+                normal[c, k], point[c, k] = old_normal[o, k], old_point[o, k]
             i += 1
         else:
             row_a[c], row_b[c], feature[c], by_fcl[c] = fresh_a[j], fresh_b[j], fresh_feature[j], fresh_by_fcl[j]

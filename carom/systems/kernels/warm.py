@@ -98,10 +98,11 @@ def compile_measuring() -> None:
         apart.without(world, pairs, np.ones(len(pairs)))
         apart.note(pairs, np.ones(len(pairs)), len(pairs))
     count = len(found.row_a)
-    merge_contacts(count, *found, *found, *found.room(2 * count))
+    merge_contacts(np.arange(count), *found[:-1], *found, *found.room(2 * count))
     far = np.zeros(count, np.bool_)  # of somebody fast
     let_go(pairs, count, found.row_a, found.row_b, far)
-    found.without(far)
+    far[0] = True
+    found.without(far, 1)
     none, place = np.zeros(1, np.int64), np.zeros((1, 3))  # manifolds that bodies have side by side
     part_masses(0, none, none, none, none, none, place, place[0, :1], none, none, none, aligned(1, WIDTH))
     reduce_points([(np.zeros(3), np.ones(3), 0.0)])  # of shapes that only FCL measures
