@@ -49,11 +49,12 @@ class Timings(Resource, Mapping[str, Timing]):
 
     def share_out(self, name: str, others: Iterable[str], nanoseconds: Iterable[int]) -> None:
         """Count what a system that is running has spent on the work of others for each of those."""
-        for other, spent in zip(others, nanoseconds, strict=True):
-            if spent:
-                self.spent[other] += spent
-                self.calls[other] += 1
-                self.spent[name] -= spent
+        spent, calls = self.spent, self.calls
+        for other, taken in zip(others, nanoseconds, strict=True):
+            if taken:
+                spent[other] += taken
+                calls[other] += 1
+                spent[name] -= taken
 
     def __getitem__(self, name: str) -> Timing:
         """Return the timing of the system of that name."""

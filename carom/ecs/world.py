@@ -40,6 +40,7 @@ class World(Structure):
         self.resources: dict[type[Resource], Resource] = {}
         self.guards: dict[Any, dict[Any, Any]] = {}
         self._queries: dict[Key, Query] = {}
+        self._rows_of: dict[Kinds, tuple[int, Integers]] = {}  # as they were found, and in which structure
         self._mark = 0
         self._live: dict[Any, Any] = {}
         self._views: dict[Any, Any] = {}
@@ -191,8 +192,14 @@ class World(Structure):
         self, *kinds: type[Component], without: Kinds = (), any_of: Kinds = (), changed_since: int | None = None
     ) -> Integers:
         """Return the same rows always as an int64 array, as kernels take them."""
-        query = self._query(kinds, without, any_of, ())
-        return query.numbers if changed_since is None else self._changed(query, changed_since)
+        guarded = self._current is not self._live and self._current is not self._views
+        if guarded or without or any_of or changed_since is not None:
+            query = self._query(kinds, without, any_of, ())
+            return query.numbers if changed_since is None else self._changed(query, changed_since)
+        known = self._rows_of.get(kinds)  # many times in each step
+        if known is None or known[0] != self.structure:
+            known = self._rows_of[kinds] = self.structure, self._query(kinds, (), (), ()).numbers
+        return known[1]
 
     def query(self, *kinds: type[Component], without: Kinds = (), any_of: Kinds = (), optional: Kinds = ()) -> Query:
         """Return the entities of such rows as an object that stays right: rows, handles, a loop, a dataframe."""
@@ -227,13 +234,8 @@ class World(Structure):
         return np.asarray(numbers[changed])
 
     def _query(self, kinds: tuple[type[Component], ...], without: Kinds, any_of: Kinds, optional: Kinds) -> Query:
-        guarded = self._current is not self._live and self._current is not self._views
-        if not guarded and type(without) is type(any_of) is type(optional) is tuple:
-            found = self._queries.get((kinds, without, any_of, optional))
-            if found is not None:
-                return found
         key = kinds, as_kinds(without), as_kinds(any_of), as_kinds(optional)
-        if guarded:
+        if self._current is not self._live and self._current is not self._views:
             for kind in chain(*key):
                 self._current[kind]  # raises for what the running system does not declare
         found = self._queries.get(key)
