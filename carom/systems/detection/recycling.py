@@ -27,13 +27,16 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
 
     Those recycled are placed in the table; where all of it is, that is returned.
     """
-    contact, collider, pose = world[Contact], world[Collider], world[ColliderPose]
+    contact, collider, pose, resting = world[Contact], world[Collider], world[ColliderPose], world[Resting]
+    known = resting.knows(world)
+    if known and not resting.solids:  # balls roll, and are never recycled
+        return measure_pairs(world, pairs, reaches, apart=world[Apart])
     moved, moved_reaches = np.empty_like(pairs), np.empty_like(reaches)
     kept: Integers = np.empty(contact.count, np.int64)
     crew = crew_for(world, len(pairs))
     ends = np.zeros((threads_of(crew), 2), np.int64)
     recycle_contacts(
-        crew, pairs, reaches, world[Resting].knows(world), contact.count, world.handles(), world.slots.row_shift,
+        crew, pairs, reaches, known, contact.count, world.handles(), world.slots.row_shift,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation,
         contact.a, contact.b, contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b,
@@ -43,15 +46,9 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     count, moving = map(max, zip(*ends.tolist(), strict=True))  # not all may have come
     world[Answered].recycled += len(pairs) - moving
     table = Found(
-        contact.row_a,
-        contact.row_b,
-        contact.feature,
-        contact.normal,
-        contact.depth,
-        contact.point,
-        contact.by_fcl,
+        contact.row_a, contact.row_b, contact.feature, contact.normal, contact.depth, contact.point, contact.by_fcl,
         kept,
-    )
+    )  # fmt: skip
     if not moving and count == contact.count:
         return Kept(*table.take(slice(count)))
     fresh = NOTHING
