@@ -36,6 +36,8 @@ def tell_contacts(world: World, dt: float) -> None:
         world[ColliderPose].body_row, world[Motion].asleep,
         a, b, since, begins, ends,
     )  # fmt: skip
+    if found == count and not new:  # as most often; then it is what it was
+        return
     if found - new < count:
         began = np.full(count, (world.frame - 1) * world[Settings].dt)
         tell(world, ContactEnd, count - (found - new), ends, began, touching.a, touching.b)
