@@ -7,7 +7,10 @@ import pytest
 
 from carom.ecs import Collider, Transform
 from carom.ecs.relations.contact import Contact
+from carom.ecs.spatial import quaternion
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.bounds import reach_within
+from carom.systems.detection.recycling import measure_what_moved
 from carom.systems.simulation import Simulation
 
 BOX = {"box": {"size": (1.0, 1.0, 1.0)}}
@@ -97,3 +100,24 @@ def test_a_rolling_ball_is_measured_in_every_step() -> None:
     assert contact.point[0, 0] == pytest.approx(
         simulation.world[Transform].position[simulation.world.row(ball), 0], abs=1e-6
     )
+
+
+def test_what_is_to_be_measured_again_leaves_its_contacts_as_they_are(pair: tuple[Simulation, int]) -> None:
+    """Turned about the first of its points, which hardly moves, while the others slip: that is not placed alone."""
+    simulation, box = pair
+    world = simulation.world
+    contact, count = world[Contact], world[Contact].count
+    before = [column[:count].copy() for column in (contact.normal, contact.depth, contact.point)]
+    turn = quaternion.from_axis_angle((0.0, 1.0, 0.0), 0.002)
+    transform = simulation[box].transform
+    pivot = np.array([contact.point[0, 0], transform.position[1], contact.point[0, 2]])
+    transform.position = pivot + quaternion.rotate(turn, transform.position - pivot) + (2e-4, 0.0, 0.0)
+    transform.rotation = quaternion.multiply(turn, transform.rotation)
+    with world.faces(None):
+        reach_within(world, 1 / 60)
+        found = measure_what_moved(world, world.row_numbers(Collider)[None], np.array([0.01]))
+    assert found.old.tolist() == [-1] * 4
+    slips = np.abs(found.point - before[2]).max(axis=1)
+    assert 1e-4 < slips[0] < 4e-4 < slips[1:].min()
+    for column, was in zip((contact.normal, contact.depth, contact.point), before, strict=True):
+        assert np.array_equal(column[:count], was)
