@@ -8,9 +8,13 @@ import pytest
 from carom.ecs import Collider, Transform
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
+from carom.ecs.table import Table
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.recycling import measure_what_moved
+from carom.systems.kernels.crew import ALONE
+from carom.systems.kernels.recycling import recycle_contacts
+from carom.systems.shapes.box import Box
 from carom.systems.simulation import Simulation
 
 BOX = {"box": {"size": (1.0, 1.0, 1.0)}}
@@ -121,3 +125,51 @@ def test_what_is_to_be_measured_again_leaves_its_contacts_as_they_are(pair: tupl
     assert 1e-4 < slips[0] < 4e-4 < slips[1:].min()
     for column, was in zip((contact.normal, contact.depth, contact.point), before, strict=True):
         assert np.array_equal(column[:count], was)
+
+
+@pytest.mark.parametrize("astray", [None, 0, 3, 7, 8, 16])
+def test_contacts_of_any_number_are_placed(astray: int | None) -> None:
+    """As many of a pair as there may be, of one normal or several, to the end of the table; one astray leaves all."""
+    generator = np.random.default_rng(5)
+    numbers = np.array([1, 4, 8, 9, 3, 17])
+    pairs, of = np.arange(12).reshape(6, 2), np.repeat(np.arange(6), numbers)
+    count = len(of)
+    collider, contact = Table(Collider, 12).live, Table(Contact, count).live
+    assert isinstance(collider, Collider) and isinstance(contact, Contact)
+    collider.shape[:], collider.bound_half[:] = Box.number, 1.0
+    position, rotation = generator.normal(size=(12, 3)), quaternion.normalise(generator.normal(size=(12, 4)))
+    normal = quaternion.normalise(generator.normal(size=(count, 3)))
+    normal[of % 2 == 0] = normal[np.searchsorted(of, of)][of % 2 == 0]
+    point, depth = generator.normal(size=(count, 3)), 0.01 * generator.normal(size=count)
+    contact.seat_depth[:], (contact.a[:], contact.b[:]) = depth, pairs[of].T
+    for side, sense, seat, lean in (
+        (0, 0.5, contact.seat_a, contact.lean_a),
+        (1, -0.5, contact.seat_b, contact.lean_b),
+    ):
+        back = quaternion.conjugate(rotation[pairs[of, side]])
+        seat[:] = quaternion.rotate(back, point + sense * depth[:, None] * normal - position[pairs[of, side]])
+        lean[:] = quaternion.rotate(back, normal)
+    same = np.ones(count, np.bool_)
+    if astray is not None:
+        contact.seat_b[np.flatnonzero(numbers[of] > astray)[0] + astray] += 0.01
+        same = of != np.argmax(numbers > astray)
+    table = contact.normal, contact.depth, contact.point
+    for column in table:
+        column[:] = np.nan
+    moved, reaches, kept, ends = (
+        np.empty_like(pairs),
+        np.empty(6),
+        np.empty(count, np.int64),
+        np.zeros((1, 2), np.int64),
+    )
+    recycle_contacts(
+        ALONE, pairs, np.ones(6), True, count, np.arange(12), np.zeros(12, np.int32),
+        collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
+        position, rotation, contact.a, contact.b, contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b,
+        contact.seat_depth, contact.form, moved, reaches, contact.row_a, contact.row_b, *table, kept, ends,
+    )  # fmt: skip
+    assert ends.tolist() == [[same.sum(), 0 if astray is None else 1]]
+    assert kept[: ends[0, 0]].tolist() == np.flatnonzero(same).tolist()
+    for found, wanted in zip(table, (normal, depth, point), strict=True):
+        assert found[same] == pytest.approx(wanted[same], abs=1e-14)
+        assert np.isnan(found[~same]).all()

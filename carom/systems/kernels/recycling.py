@@ -15,8 +15,12 @@ from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import RECYCLED_SLIP, RECYCLED_TURN
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.lane_columns import ALL, load_flat, load_three, store_flat
+from carom.systems.kernels.lanes import WIDTH, address, larger, spread, which
 from carom.systems.kernels.narrow import is_ball
 from carom.systems.kernels.spatial import turn
+
+PLACED = 7  # numbers of a contact that is placed
 
 
 @woven
@@ -48,7 +52,7 @@ def recycle_contacts(
     its pairs end: behind them are those of the next.
     """
     begin_pair, end_pair = part_of(crew, len(pairs))
-    placed = np.empty((old_count, 7))  # of one pair: how deep, normal, point
+    placed = np.empty(PLACED * (old_count + WIDTH))  # of one pair, for eight at a time: how deep, normal, point
     o = 0
     if 0 < begin_pair < end_pair:
         o = first_of_pair(0, old_count, pairs[begin_pair, 0], pairs[begin_pair, 1], a, b, handles, row_shift)
@@ -65,43 +69,27 @@ def recycle_contacts(
         if not known and form[o] != form_of_pair(x, y, shape, size, geometry):
             continue
         slip = RECYCLED_SLIP * smaller_reach(x, y, bound_half, bound_radius)
-        stayed = True
-        px, py, pz = position[x, 0], position[x, 1], position[x, 2]
-        qx, qy, qz = position[y, 0], position[y, 1], position[y, 2]
-        of_x, of_y = rotation_of(x, rotation), rotation_of(y, rotation)
-        nx, ny, nz, leant = 0.0, 0.0, 0.0, 0.0
-        first, one, other = o, a[o], b[o]
+        first, one, other, alike, stayed = o, a[o], b[o], True, True
         while o < old_count and a[o] == one and b[o] == other:
-            if o == first or not (is_alike(o, o - 1, lean_a) and is_alike(o, o - 1, lean_b)):
-                nx, ny, nz = turned_by(of_x, o, lean_a)
-                mx, my, mz = turned_by(of_y, o, lean_b)
-                leant = (nx - mx) ** 2 + (ny - my) ** 2 + (nz - mz) ** 2
-            ax, ay, az = turned_by(of_x, o, seat_a)
-            bx, by, bz = turned_by(of_y, o, seat_b)
-            ax, ay, az, bx, by, bz = ax + px, ay + py, az + pz, bx + qx, by + qy, bz + qz
-            dx, dy, dz = ax - bx, ay - by, az - bz
-            deep = nx * dx + ny * dy + nz * dz
-            aside = dx * dx + dy * dy + dz * dz - deep * deep
-            if (
-                leant > RECYCLED_TURN * RECYCLED_TURN
-                or aside > slip * slip
-                or abs(deep - seat_depth[o]) > slip
-                or -deep > reaches[p]
-            ):
-                stayed = False
-                break
-            k = o - first
-            placed[k, 0], placed[k, 1], placed[k, 2], placed[k, 3] = deep, nx, ny, nz
-            placed[k, 4], placed[k, 5], placed[k, 6] = 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz)
+            alike &= o == first or is_alike(o, o - 1, lean_a)
             o += 1
+        for begin in range(first, o, WIDTH):
+            at = min(begin, len(seat_depth) - WIDTH)
+            theirs = ALL << begin - at & ALL >> max(0, at + WIDTH - o)
+            stayed &= theirs & place_eight(
+                at, x, y, first if alike else -1, slip, reaches[p], position, rotation, seat_a, seat_b, lean_a, lean_b, seat_depth,
+                begin - first, placed,
+            ) == 0  # fmt: skip
         if not stayed:
             continue
         moving -= 1
         for c in range(first, o):
-            k = c - first
-            depth[c], kept[count] = placed[k, 0], c
-            normal[c, 0], normal[c, 1], normal[c, 2] = placed[k, 1], placed[k, 2], placed[k, 3]
-            point[c, 0], point[c, 1], point[c, 2] = placed[k, 4], placed[k, 5], placed[k, 6]
+            begin = (c - first) // WIDTH * WIDTH
+            k = PLACED * begin + c - min(first + begin, len(seat_depth) - WIDTH)
+            depth[c], kept[count] = placed[k], c
+            for axis in range(3):
+                normal[c, axis] = placed[k + WIDTH * (1 + axis)]
+                point[c, axis] = placed[k + WIDTH * (4 + axis)]
             if not known:
                 row_a[c], row_b[c] = x, y
             count += 1
@@ -116,6 +104,52 @@ def recycle_contacts(
                 moved[q, 0], moved[q, 1], moved_reaches[q] = moved[p, 0], moved[p, 1], moved_reaches[p]
             ends[part, 0], ends[part, 1] = to + count - begin_contact, to_pair + moving - begin_pair
         wait_for_all(crew, 1 + turn_of)
+
+
+@woven
+def place_eight(
+    at, x, y, like, slip, reach, position, rotation, seat_a, seat_b, lean_a, lean_b, seat_depth, to, placed
+):  # fmt: skip
+    """Write where eight contacts of two colliders are now; return as bits which have slipped, sunk or turned too far.
+
+    Their normals are all ``like`` that of one contact, where that is not below 0.
+    """
+    of_x, of_y = rotation_of(x, rotation), rotation_of(y, rotation)
+    turn_x = spread(of_x[0]), spread(of_x[1]), spread(of_x[2]), spread(of_x[3])
+    turn_y = spread(of_y[0]), spread(of_y[1]), spread(of_y[2]), spread(of_y[3])
+    if like >= 0:
+        nx, ny, nz = spread_three(turned_by(of_x, like, lean_a))
+        mx, my, mz = spread_three(turned_by(of_y, like, lean_b))
+    else:
+        nx, ny, nz = turn_lanes(turn_x, load_three(address(lean_a), at))
+        mx, my, mz = turn_lanes(turn_y, load_three(address(lean_b), at))
+    leant = (nx - mx) * (nx - mx) + (ny - my) * (ny - my) + (nz - mz) * (nz - mz)
+    ax, ay, az = turn_lanes(turn_x, load_three(address(seat_a), at))
+    bx, by, bz = turn_lanes(turn_y, load_three(address(seat_b), at))
+    ax, ay, az = ax + position[x, 0], ay + position[x, 1], az + position[x, 2]
+    bx, by, bz = bx + position[y, 0], by + position[y, 1], bz + position[y, 2]
+    dx, dy, dz = ax - bx, ay - by, az - bz
+    deep = nx * dx + ny * dy + nz * dz
+    aside = dx * dx + dy * dy + dz * dz - deep * deep
+    sunk = deep - load_flat(seat_depth, at)
+    far = larger(leant - RECYCLED_TURN * RECYCLED_TURN, aside - slip * slip)
+    far = larger(far, larger(larger(sunk, -sunk) - slip, -deep - reach))
+    to *= PLACED
+    for k, lane in enumerate((deep, nx, ny, nz, 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz))):
+        store_flat(placed, to + WIDTH * k, lane)
+    return which(far)
+
+
+@woven
+def spread_three(v):
+    """Return a vector in all lanes."""
+    return spread(v[0]), spread(v[1]), spread(v[2])
+
+
+@woven
+def turn_lanes(q, v):
+    """Return vectors turned by quaternions."""
+    return turn(q[0], q[1], q[2], q[3], v[0], v[1], v[2])
 
 
 @woven
