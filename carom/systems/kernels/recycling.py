@@ -76,10 +76,11 @@ def recycle_contacts(
         for begin in range(first, o, WIDTH):
             at = min(begin, len(seat_depth) - WIDTH)
             theirs = ALL << begin - at & ALL >> max(0, at + WIDTH - o)
-            stayed &= theirs & place_eight(
-                at, x, y, first if alike else -1, slip, reaches[p], position, rotation, seat_a, seat_b, lean_a, lean_b, seat_depth,
-                begin - first, placed,
-            ) == 0  # fmt: skip
+            strays = place_eight(
+                at, x, y, first if alike else -1, slip, reaches[p], position, rotation,
+                seat_a, seat_b, lean_a, lean_b, seat_depth, begin - first, placed,
+            )  # fmt: skip
+            stayed &= strays & theirs == 0
         if not stayed:
             continue
         moving -= 1
