@@ -10,7 +10,7 @@ from math import pi
 
 import numpy as np
 
-# mypy: disable-error-code="no-untyped-def"
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import RECYCLED_SLIP, RECYCLED_TURN
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
