@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from functools import partial
 from typing import Any
 
+import numba
 import numpy as np
 import pytest
+from crews import gathered
 from faults import error
 
+from carom.ecs import Collider
 from carom.ecs.relations.contact import Contact
 from carom.systems.detection import fcl_pairs, narrow
 from carom.systems.detection.answered import Answered
+from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.validity import ContactError
 from carom.systems.kernels.crew import ALONE
 from carom.systems.simulation import Simulation
@@ -99,3 +104,41 @@ def test_no_depth_that_two_shapes_can_have_is_refused() -> None:
     simulation.step()
     assert simulation.world.count(Contact) > 100
     assert simulation.world[Answered].refused == 0
+
+
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="kernels are not shared without the JIT")
+@pytest.mark.parametrize("parts", [1, 2, 3])
+def test_threads_leave_out_the_same_without_gaps(parts: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of boxes in a half space all points are found but those that somebody spoils, whoever collects them."""
+    simulation = Simulation(gravity=(0.0, 0.0, 0.0), checked=False)
+    simulation.add(collider={"plane": {}})
+    for x in range(40):
+        simulation.add(
+            collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={}, transform={"position": (2.0 * x, 0.4, 0.0)}
+        )
+    world = simulation.world
+    rows = world.row_numbers(Collider)
+    pairs = np.stack([np.full(40, rows[0]), rows[1:]], axis=1)
+
+    def spoilt(row: Any, feature: Any) -> Any:
+        return (7 * row + feature) % 3 == 0
+
+    def spoiling(measure: Any, crew: Any, which: Any, *arrays: Any) -> None:
+        measure(crew, which, *arrays)
+        start, count, feature, _, depths, _ = arrays[-6:]
+        for p in which:
+            those = slice(start[p], start[p] + count[p])
+            depths[those][spoilt(pairs[p, 1], feature[those])] = np.nan
+
+    with world.faces(None), gathered(parts) if parts > 1 else nullcontext(ALONE) as crew:
+        reach_within(world, 0.0)
+        monkeypatch.setattr(narrow, "crew_for", lambda world, count: crew)
+        whole = narrow.measure_pairs(world, pairs, np.ones(40))
+        assert len(whole.row_b) == 160
+        monkeypatch.setattr(narrow, "FUNCTIONS", [partial(spoiling, measure) for measure in narrow.FUNCTIONS])
+        found = narrow.measure_pairs(world, pairs, np.ones(40))
+    sound = ~spoilt(whole.row_b, whole.feature)
+    assert 40 < sound.sum() < 120
+    assert world[Answered].refused == 160 - sound.sum()
+    for column, wanted in zip(found, whole.take(sound), strict=True):
+        assert np.array_equal(column, wanted)
