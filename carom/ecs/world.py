@@ -19,7 +19,7 @@ from carom.ecs.display import world_html
 from carom.ecs.entity import INDEX_MASK, Entity, EntityView
 from carom.ecs.errors import AccessError, DeclarationError, EntityError
 from carom.ecs.names import pattern
-from carom.ecs.query import Key, Kinds, Query, as_kinds
+from carom.ecs.query import Key, Kinds, Query, Several, as_kinds
 from carom.ecs.slots import Rows, as_rows
 from carom.ecs.structure import Structure
 from carom.ecs.table import Table
@@ -40,7 +40,7 @@ class World(Structure):
         self.resources: dict[type[Resource], Resource] = {}
         self.guards: dict[Any, dict[Any, Any]] = {}
         self._queries: dict[Key, Query] = {}
-        self._rows_of: dict[Kinds, tuple[int, Integers]] = {}  # as they were found, and in which structure
+        self._rows_of: dict[Several, tuple[int, Integers]] = {}  # as they were found, and in which structure
         self._mark = 0
         self._live: dict[Any, Any] = {}
         self._views: dict[Any, Any] = {}

@@ -53,7 +53,7 @@ def collect_points(
     that. It was ``received``, as is the end of what is accepted.
     """
     first_pair, end_pair = part_of(crew, len(pairs))
-    at, whole = 0, True
+    at = 0
     for p in range(first_pair):
         at += count[p]
     told[crew[1], 0] = at
@@ -74,10 +74,9 @@ def collect_points(
         for source in range(start[p], start[p] + count[p]):
             wrong, what, accepted = fault_of(source, normal, depth, point, deepest, farthest)
             if wrong != SOUND:
-                if whole:
+                if told[crew[1], 3] == SOUND:
                     told[crew[1], 2], told[crew[1], 3] = p, wrong
                     received[crew[1], 0], received[crew[1], 1] = what, accepted
-                whole = False
                 continue
             c = at
             while c > begin and found_feature[c - 1] > feature[source]:  # few: sorted as they come

@@ -76,7 +76,7 @@ def recycle_contacts(
         for begin in range(first, o, WIDTH):
             at = min(begin, len(seat_depth) - WIDTH)
             theirs = ALL << begin - at & ALL >> max(0, at + WIDTH - o)
-            strays = place_eight(
+            strays = place_contacts(
                 at, x, y, first if alike else -1, slip, reaches[p], position, rotation,
                 seat_a, seat_b, lean_a, lean_b, seat_depth, begin - first, placed,
             )  # fmt: skip
@@ -108,7 +108,7 @@ def recycle_contacts(
 
 
 @woven
-def place_eight(
+def place_contacts(
     at, x, y, like, slip, reach, position, rotation, seat_a, seat_b, lean_a, lean_b, seat_depth, to, placed
 ):  # fmt: skip
     """Write where eight contacts of two colliders are now; return as bits which have slipped, sunk or turned too far.
@@ -116,17 +116,15 @@ def place_eight(
     Their normals are all ``like`` that of one contact, where that is not below 0.
     """
     of_x, of_y = rotation_of(x, rotation), rotation_of(y, rotation)
-    turn_x = spread(of_x[0]), spread(of_x[1]), spread(of_x[2]), spread(of_x[3])
-    turn_y = spread(of_y[0]), spread(of_y[1]), spread(of_y[2]), spread(of_y[3])
     if like >= 0:
         nx, ny, nz = spread_three(turned_by(of_x, like, lean_a))
         mx, my, mz = spread_three(turned_by(of_y, like, lean_b))
     else:
-        nx, ny, nz = turn_lanes(turn_x, load_three(address(lean_a), at))
-        mx, my, mz = turn_lanes(turn_y, load_three(address(lean_b), at))
+        nx, ny, nz = eight_turned_by(of_x, at, lean_a)
+        mx, my, mz = eight_turned_by(of_y, at, lean_b)
     leant = (nx - mx) * (nx - mx) + (ny - my) * (ny - my) + (nz - mz) * (nz - mz)
-    ax, ay, az = turn_lanes(turn_x, load_three(address(seat_a), at))
-    bx, by, bz = turn_lanes(turn_y, load_three(address(seat_b), at))
+    ax, ay, az = eight_turned_by(of_x, at, seat_a)
+    bx, by, bz = eight_turned_by(of_y, at, seat_b)
     ax, ay, az = ax + position[x, 0], ay + position[x, 1], az + position[x, 2]
     bx, by, bz = bx + position[y, 0], by + position[y, 1], bz + position[y, 2]
     dx, dy, dz = ax - bx, ay - by, az - bz
@@ -148,9 +146,10 @@ def spread_three(v):
 
 
 @woven
-def turn_lanes(q, v):
-    """Return vectors turned by quaternions."""
-    return turn(q[0], q[1], q[2], q[3], v[0], v[1], v[2])
+def eight_turned_by(q, at, column):
+    """Return the vectors of eight contacts turned by a quaternion."""
+    x, y, z = load_three(address(column), at)
+    return turn(q[0], q[1], q[2], q[3], x, y, z)
 
 
 @woven
