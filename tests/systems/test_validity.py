@@ -142,3 +142,25 @@ def test_threads_leave_out_the_same_without_gaps(parts: int, monkeypatch: pytest
     assert world[Answered].refused == 160 - sound.sum()
     for column, wanted in zip(found, whole.take(sound), strict=True):
         assert np.array_equal(column, wanted)
+
+
+def test_the_first_of_several_faults_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of two points of one pair that cannot be, each for a reason of its own; unchecked, both are counted."""
+
+    def by_kernel(crew: Any, which: Any, *arrays: Any) -> None:
+        start, count, feature, normals, depths, points = arrays[-6:]
+        start[which[0]], count[which[0]], feature[:2], normals[:2], points[:2] = 0, 2, (0, 1), (0.0, 1.0, 0.0), 0.0
+        depths[:2] = 1.1, np.nan
+
+    monkeypatch.setattr(narrow, "FUNCTIONS", [by_kernel] * len(narrow.FUNCTIONS))
+    simulation = ball_on_plane()
+    simulation.step()
+    assert simulation.world[Answered].refused == 2
+    message = (
+        f"a contact of plane '[0]' and sphere 'ball' cannot be: {WRONG[5][1]}; "
+        "please report it with the world file, unchecked runs leave it out"
+    )
+    simulation = ball_on_plane()
+    simulation.checked = True
+    with error(ContactError, message):
+        simulation.step()
