@@ -14,6 +14,7 @@ from carom.systems.constants import SLEEP_TIME
 from carom.systems.detection.apart import Apart
 from carom.systems.detection.leaving import detection_holds
 from carom.systems.detection.narrow import Found
+from carom.systems.detection.recycling import find_balls
 from carom.systems.grouping import group_contacts
 from carom.systems.kernels.fast_pairs import NUMBERS
 from carom.systems.kernels.stored import NotStoredError, only_stored
@@ -62,6 +63,7 @@ class Rehearsal:
                 detection_holds(simulation.world, 1.0)  # for somebody it does not
                 apart, pair = simulation.world[Apart], simulation.world.row_numbers(Collider)[None, :2]
                 none, center = Found.room(0), simulation.world[Flight].center
+                find_balls(simulation.world, pair, np.ones(1))
                 seeming(simulation.world, none, 1.0, center)
                 without_seeming(simulation.world, none, 1.0, center, pair, np.ones((1, NUMBERS)))
                 apart.many = True

@@ -13,6 +13,7 @@ from carom.systems.detection.broad import BroadPhase
 from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
+from carom.systems.detection.seams import Seams
 from carom.systems.detection.sensors import Sensing
 from carom.systems.events import Events
 from carom.systems.forces.law import Forces
@@ -39,7 +40,7 @@ def resources(settings: Settings) -> tuple[Resource, ...]:
     """Return them for a new world: what is made and stated, what a step counts, and caches, which may be dropped."""
     made = (Random(settings.seed), Layers(), Materials(), Geometries(), StatedBodies())
     stated = (Forces(), Events(), Commands())
-    packed = (BroadPhase(), Apart(), FclObjects(), PackedHulls(), PackedMeshes())
+    packed = (BroadPhase(), Apart(), FclObjects(), PackedHulls(), PackedMeshes(), Seams())
     solving = (Standing(), Resting(), Ties(), Linkage(), Landings(), Sensing(), Awake(), Fast(), Ledger(), Stream())
     caches = (*packed, *solving, Threads(), Scene(), Asked(), Newborn(), Fields())
     return (settings, *made, *stated, Progress(), Answered(), *caches)

@@ -25,6 +25,7 @@ from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.leaving import detection_holds
 from carom.systems.detection.meshes import PackedMeshes
+from carom.systems.detection.seams import Seams
 from carom.systems.detection.sensors import Sensing
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.impact_log import write_impacts
@@ -47,7 +48,7 @@ from carom.systems.ties import Ties
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, ColliderPose, Answered, Apart, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Stream, Ties,
+        PackedHulls, PackedMeshes, Progress, Resting, Seams, Sensing, Awake, Fast, Stream, Ties,
     ),
 )  # fmt: skip
 def look_ahead(world: World, dt: float) -> None:
@@ -115,7 +116,7 @@ def hand_impulses_over(world: World, dt: float) -> None:
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint, Linkage),
     writes=(
         Transform, Motion, Flight, Contact, SleepingContact, Impact, ColliderPose, Answered, Apart, BroadPhase,
-        FclObjects, PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Ledger, Stream, Ties,
+        FclObjects, PackedHulls, PackedMeshes, Progress, Resting, Seams, Sensing, Awake, Fast, Ledger, Stream, Ties,
         Landings,
     ),
 )  # fmt: skip

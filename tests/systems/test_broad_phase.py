@@ -154,7 +154,7 @@ def test_gravel_that_falls_meets_only_what_it_may_within_a_substep(monkeypatch: 
     simulation.step(4)
     assert simulation.world[Progress].crowded
     with monkeypatch.context() as patched:
-        patched.setattr(contacts, "CROWDED", 1e9)
+        patched.setattr(contacts, "CROWDED", 10**9)
         other = falling_gravel()
         other.step(4)
     assert not other.world[Progress].crowded

@@ -22,14 +22,14 @@ from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.narrow import NOTHING, Found
 from carom.systems.detection.recycling import Kept, measure_what_moved
-from carom.systems.detection.seams import without_seams
+from carom.systems.detection.seams import Seams, without_seams
 from carom.systems.detection.sensors import Sensing, without_sensors
 from carom.systems.grouping import group_contacts
 from carom.systems.kernels.contacts import complete_contacts
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.crushing import let_go_of_crushed
 from carom.systems.kernels.renewal import renew_contacts
-from carom.systems.kernels.rows import count_in_pairs
+from carom.systems.kernels.rows import are_crowded
 from carom.systems.passing import without_passing
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
@@ -45,7 +45,7 @@ from carom.systems.ties import Ties
     reads=(RigidBody, Collider, Material, Parent, Settings, Geometries, Threads, Joint),
     writes=(
         Transform, Motion, ColliderPose, Contact, SleepingContact, Answered, Apart, Flight, BroadPhase, FclObjects,
-        PackedHulls, PackedMeshes, Progress, Resting, Sensing, Awake, Fast, Stream, Ties,
+        PackedHulls, PackedMeshes, Progress, Resting, Seams, Sensing, Awake, Fast, Stream, Ties,
     ),
 )  # fmt: skip
 def find_contacts(world: World, dt: float) -> None:
@@ -78,7 +78,7 @@ def detect(world: World, left: float, soon: float) -> None:
     progress.detections += 1
     while True:
         pairs = world[Ties].without_joined(world, without_sensors(world, overlapping(world)))
-        if len(pairs) and soon < left and len(pairs) > CROWDED * count_in_pairs(world.used(), pairs):
+        if soon < left and are_crowded(world.used(), pairs, CROWDED):
             progress.crowded, left, moved = True, soon, np.array(pose.moved)
             reach_within(world, left)
             pose.moved[:] |= moved  # nothing has since it was placed just now, but since the step before

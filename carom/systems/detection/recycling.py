@@ -5,21 +5,37 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, World
-from carom.ecs.column import Floats, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.relations.contact import Contact
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.apart import Apart
 from carom.systems.detection.narrow import NOTHING, Found, measure_pairs
+from carom.systems.kernels.balls_narrow import find_ball_contacts
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
 from carom.systems.resting import Resting
+from carom.systems.settings import Settings
 from carom.systems.threads import crew_for
+
+NO_GAPS: Floats = np.empty(0)
 
 
 class Kept(Found):
     """All contacts of the table, in their places there."""
 
     __slots__ = ()
+
+
+def in_table(contact: Contact) -> tuple[Integers, Integers, Integers, Floats, Floats, Floats, Booleans]:
+    """Return the columns of the contact table of what is found."""
+    return (
+        contact.row_a, contact.row_b, contact.feature, contact.normal, contact.depth, contact.point, contact.by_fcl
+    )  # fmt: skip
+
+
+def all_of(contact: Contact, places: Integers) -> Kept:
+    """Return all contacts of the table; ``places`` (n,) are those that they have there."""
+    return Kept(*Found(*in_table(contact), places).take(slice(contact.count)))
 
 
 def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
@@ -30,7 +46,8 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     contact, collider, pose, resting = world[Contact], world[Collider], world[ColliderPose], world[Resting]
     known = resting.knows(world)
     if known and not resting.solids:  # balls roll, and are never recycled
-        return measure_pairs(world, pairs, reaches, apart=world[Apart])
+        found = find_balls(world, pairs, reaches) if world[Settings].collision == "auto" else None
+        return found if found is not None else measure_pairs(world, pairs, reaches, apart=world[Apart])
     moved, moved_reaches = np.empty_like(pairs), np.empty_like(reaches)
     kept: Integers = np.empty(contact.count, np.int64)
     crew = crew_for(world, len(pairs))
@@ -45,17 +62,35 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     )  # fmt: skip
     count, moving = map(max, zip(*ends.tolist(), strict=True))  # not all may have come
     world[Answered].recycled += len(pairs) - moving
-    table = Found(
-        contact.row_a, contact.row_b, contact.feature, contact.normal, contact.depth, contact.point, contact.by_fcl,
-        kept,
-    )  # fmt: skip
     if not moving and count == contact.count:
-        return Kept(*table.take(slice(count)))
+        return all_of(contact, kept)
     fresh = NOTHING
     if moving:
         fresh = measure_pairs(world, moved[:moving], moved_reaches[:moving], apart=world[Apart])
         if not count:
             return fresh
     found = Found.room(count + len(fresh.row_a))
-    merge_contacts(kept[:count], *table[:-1], *fresh, *found)
+    merge_contacts(kept[:count], *in_table(contact), *fresh, *found)
     return found
+
+
+def find_balls(world: World, pairs: Integers, reaches: Floats) -> Found | None:
+    """Return the contact points of sorted ``pairs`` (n, 2), if all are such as `measure_balls` is for, else None.
+
+    Where the table holds the same, they are placed in it. None also where a point is unsound, for others to say so.
+    """
+    contact, collider, pose = world[Contact], world[Collider], world[ColliderPose]
+    crew, n = crew_for(world, len(pairs)), len(pairs)
+    told, found = np.zeros((threads_of(crew), 3), np.int64), Found.room(n)
+    find_ball_contacts(
+        crew, pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation, world.handles(),
+        contact.count, contact.a, contact.b, contact.feature, contact.by_fcl,
+        contact.normal, contact.depth, contact.point,
+        np.empty(n, np.int64), np.empty((n, 7)), told, *found,
+    )  # fmt: skip
+    count, others, new = map(sum, zip(*told.tolist(), strict=True))
+    if others:
+        return None
+    world[Answered].kernels += n
+    world[Apart].note(pairs, NO_GAPS, 0)
+    return found.take(slice(count)) if new else all_of(contact, found.old)

@@ -72,7 +72,9 @@ def collect_points(
             deepest = (1.0 + MEASURED) * deepest + MEASURED
         begin, sense, fcl = at, -1.0 if side[p] == SWAPPED else 1.0, side[p] == FCLS
         for source in range(start[p], start[p] + count[p]):
-            wrong, what, accepted = fault_of(source, normal, depth, point, deepest, farthest)
+            nx, ny, nz = normal[source, 0], normal[source, 1], normal[source, 2]
+            x, y, z = point[source, 0], point[source, 1], point[source, 2]
+            wrong, what, accepted = fault_of(nx, ny, nz, depth[source], x, y, z, deepest, farthest)
             if wrong != SOUND:
                 if told[crew[1], 3] == SOUND:
                     told[crew[1], 2], told[crew[1], 3] = p, wrong
@@ -85,8 +87,8 @@ def collect_points(
                     found_normal[c, d], found_point[c, d] = found_normal[c - 1, d], found_point[c - 1, d]
                 c -= 1
             found_feature[c], found_depth[c] = feature[source], depth[source]
-            for d in range(3):
-                found_normal[c, d], found_point[c, d] = sense * normal[source, d], point[source, d]
+            found_normal[c, 0], found_normal[c, 1], found_normal[c, 2] = sense * nx, sense * ny, sense * nz
+            found_point[c, 0], found_point[c, 1], found_point[c, 2] = x, y, z
             row_a[at], row_b[at], by_fcl[at], old[at] = a, b, fcl, -1
             at += 1
     told[crew[1], 1] = at

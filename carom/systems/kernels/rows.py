@@ -25,11 +25,13 @@ def are_same_rows(one, other):
 
 
 @kernel(makes_arrays=True)
-def count_in_pairs(used, pairs):
-    """Return how many rows, of those ``used``, are in pairs (n, 2)."""
+def are_crowded(used, pairs, most):
+    """Tell whether pairs (n, 2) are more than so many for each row, of those ``used``, that is in any."""
     there, count = np.zeros(used, np.bool_), 0
     for p in range(len(pairs)):
+        if most * count >= len(pairs):  # most often soon
+            return False
         for side in range(2):
             count += not there[pairs[p, side]]
             there[pairs[p, side]] = True
-    return count
+    return len(pairs) > most * count

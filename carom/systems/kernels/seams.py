@@ -11,10 +11,32 @@ from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, POINT_SHAPE, SPHERE_SHAPE
 
 
+@kernel("rolls", "glides", "lies", makes_arrays=True)
+def may_hide(rows, shape, body_row, rolls, glides, lies):
+    """Say which colliders (rows) are balls that are bodies of their own, which glide, and on which boxes those may.
+
+    Return whether boxes may hide contacts from others.
+    """
+    compound = np.zeros(len(shape), np.bool_)
+    for i in rows:
+        if body_row[i] >= 0 and body_row[i] != i:
+            compound[body_row[i]] = True
+    gliding = lying = 0
+    for i in rows:
+        ball = shape[i] == SPHERE_SHAPE or shape[i] == POINT_SHAPE
+        rolls[i] = body_row[i] >= 0 and ball and not compound[body_row[i]]
+        glides[i] = body_row[i] >= 0 and not rolls[i]
+        lies[i] = shape[i] == BOX_SHAPE and (body_row[i] < 0 or compound[body_row[i]])
+        lying += lies[i]
+        gliding += glides[i] or (lies[i] and body_row[i] >= 0)
+    return gliding > 0 and lying > 1
+
+
 @kernel("hidden", makes_arrays=True)
 def hide_at_seams(
-    row_a, row_b, normal, depth, point, shape, size, bound_half, bound_radius, position, rotation, body_row, hidden
-):
+    row_a, row_b, normal, depth, point, rolls, glides, lies,
+    size, bound_half, bound_radius, position, rotation, body_row, hidden,
+):  # fmt: skip
     """Say which contacts are ``hidden`` by another box, and return how many they are.
 
     A box hides those of another that is a part of the same body, or stands still as it does, where what meets both has
@@ -23,24 +45,7 @@ def hide_at_seams(
     have sunk in. A ball that is a body of its own has exact contacts with boxes that stand or are bodies of their own,
     which know the edges it passes (`is_borne_beside`).
     """
-    count, rows = len(row_a), len(shape)
-    compound = np.zeros(rows, np.bool_)
-    for i in range(rows):
-        if body_row[i] >= 0 and body_row[i] != i:
-            compound[body_row[i]] = True
-    rolls, glides, gliding = np.empty(rows, np.bool_), np.empty(rows, np.bool_), 0
-    for i in range(rows):
-        ball = shape[i] == SPHERE_SHAPE or shape[i] == POINT_SHAPE
-        rolls[i] = body_row[i] >= 0 and ball and not compound[body_row[i]]
-        glides[i] = body_row[i] >= 0 and not rolls[i]
-        gliding += glides[i]
-    lies, lying = np.empty(rows, np.bool_), 0
-    for i in range(rows):
-        lies[i] = shape[i] == BOX_SHAPE and (body_row[i] < 0 or compound[body_row[i]])
-        lying += lies[i]
-        gliding += lies[i] and body_row[i] >= 0
-    if gliding == 0 or lying < 2:
-        return 0
+    count, rows = len(row_a), len(lies)
 
     # The manifolds that what glides has with boxes that may hide each other, as slices of one array.
     beginning, pairs = np.empty(count, np.int64), 0

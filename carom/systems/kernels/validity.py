@@ -16,19 +16,21 @@ SOUND, NOT_FINITE, NOT_UNIT, TOO_DEEP, TOO_FAR = range(5)
 
 
 @woven
-def fault_of(c, normal, depth, point, deepest, farthest):
-    """Return what is wrong with point c, `SOUND` if nothing is, what was received, and the end of what is accepted."""
-    x, y, z = normal[c, 0], normal[c, 1], normal[c, 2]
-    sum_of_all = point[c, 0] + point[c, 1] + point[c, 2] + x + y + z + depth[c]
-    length = sqrt(x * x + y * y + z * z)
+def fault_of(nx, ny, nz, depth, x, y, z, deepest, farthest):
+    """Return what is wrong with a point, `SOUND` if nothing is, what was received, and the end of what is accepted.
+
+    It is at x, with normal n.
+    """
+    sum_of_all = x + y + z + nx + ny + nz + depth
+    length = sqrt(nx * nx + ny * ny + nz * nz)
     if not np.isfinite(sum_of_all):
         return NOT_FINITE, sum_of_all, inf
     if not abs(length - 1.0) <= UNIT_NORMAL:
         return NOT_UNIT, length, 1.0
-    if depth[c] > deepest:
-        return TOO_DEEP, depth[c], deepest
-    if -depth[c] > farthest:
-        return TOO_FAR, -depth[c], farthest
+    if depth > deepest:
+        return TOO_DEEP, depth, deepest
+    if -depth > farthest:
+        return TOO_FAR, -depth, farthest
     return SOUND, 0.0, 0.0
 
 

@@ -57,9 +57,11 @@ def compile_measuring() -> None:
     from carom.ecs import Collider, Motion
     from carom.ecs.components.flight import Flight
     from carom.systems.detection.apart import Apart
+    from carom.systems.detection.bounds import reach_within
     from carom.systems.detection.leaving import detection_holds
     from carom.systems.detection.manifolds import reduce_points
     from carom.systems.detection.narrow import measure_pairs
+    from carom.systems.detection.recycling import find_balls
     from carom.systems.detection.seams import without_seams
     from carom.systems.kernels.broad_pairs import renew_pairs
     from carom.systems.kernels.fast_pairs import NUMBERS, let_go
@@ -79,15 +81,18 @@ def compile_measuring() -> None:
     )
     simulation = Simulation(checked=False)
     simulation.add(collider={"plane": {}})
-    simulation.add(collider={"shape": Mesh(solid)})
+    for standing in ({"shape": Mesh(solid)}, *shapes[:1] * 2):
+        simulation.add(collider=standing)
     round_one = {"cylinder": {"radius": 0.5, "length": 1.0}}
     for collider in ({"sphere": {"radius": 0.5}}, *shapes, *shapes, round_one):
         simulation.add(collider=collider, body={"mass": 1.0})
     world = simulation.world
     rows = world.row_numbers(Collider)
-    pairs = np.array([(a, b) for a in rows for b in rows if a < b and b > 1])
+    pairs = np.array([(a, b) for a in rows for b in rows if a < b and b > 3])
     with world.faces(None):
+        reach_within(world, 1.0)
         found = without_seams(world, measure_pairs(world, pairs, np.ones(len(pairs))))
+        find_balls(world, pairs, np.ones(len(pairs)))
         world[Motion].linear[:] = 1.0
         detection_holds(world, 1.0)  # with everybody leaving
         without_passing(world, found, 1.0, world[Flight].center)
