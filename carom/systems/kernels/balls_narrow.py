@@ -39,12 +39,14 @@ def measure_balls(
         taken += count[p]
 
 
-@shared("near", "measured", "told", "normal", "depth", "point", "row_a", "row_b", "found_feature", "found_normal",
-        "found_depth", "found_point", "found_by_fcl", "old")  # fmt: skip
+@shared(
+    "row_a", "row_b", "normal", "depth", "point", "near", "measured", "told",
+    "found_a", "found_b", "found_feature", "found_normal", "found_depth", "found_point", "found_by_fcl", "old",
+)  # fmt: skip
 def find_ball_contacts(
-    crew, pairs, reaches, shape, size, position, rotation, handles, count, a, b, feature, by_fcl, normal, depth, point,
-    near, measured, told,
-    row_a, row_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, old,
+    crew, pairs, reaches, shape, size, position, rotation, handles, count,
+    a, b, row_a, row_b, feature, normal, depth, point, by_fcl, near, measured, told,
+    found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, old,
 ):  # fmt: skip
     """Find the contacts of pairs that `measure_balls` is for, sorted, as all that measure and collect would.
 
@@ -90,18 +92,18 @@ def find_ball_contacts(
             return
     for m in range(begin, taken):
         c = to + m - begin
-        old[c] = c if same else -1
         if same:
-            write_measured(c, m, measured, normal, depth, point)
-            continue
-        row_a[c], row_b[c], found_feature[c], found_by_fcl[c] = pairs[near[m], 0], pairs[near[m], 1], 0, False
-        write_measured(c, m, measured, found_normal, found_depth, found_point)
+            old[c] = c
+            write_measured(c, m, near, pairs, measured, row_a, row_b, normal, depth, point)
+        else:
+            old[c], found_feature[c], found_by_fcl[c] = -1, 0, False
+            write_measured(c, m, near, pairs, measured, found_a, found_b, found_normal, found_depth, found_point)
 
 
 @woven
-def write_measured(c, m, measured, normal, depth, point):
+def write_measured(c, m, near, pairs, measured, row_a, row_b, normal, depth, point):
     """Write what was measured as contact c."""
-    depth[c] = measured[m, 0]
+    row_a[c], row_b[c], depth[c] = pairs[near[m], 0], pairs[near[m], 1], measured[m, 0]
     normal[c, 0], normal[c, 1], normal[c, 2] = measured[m, 1], measured[m, 2], measured[m, 3]
     point[c, 0], point[c, 1], point[c, 2] = measured[m, 4], measured[m, 5], measured[m, 6]
 
