@@ -13,6 +13,7 @@ from crews import gathered
 from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Floats, Integers
 from carom.ecs.relations.contact import Contact
+from carom.systems.constants import REACH_KEPT
 from carom.systems.detection import narrow, recycling
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
@@ -67,6 +68,11 @@ def are_the_same(found: Found | None, wanted: Found) -> bool:
     )
 
 
+def place_of(found: Found, k: int, pairs: Integers) -> int:
+    """Return which pair a contact is of."""
+    return int(np.argmax((pairs == (found.row_a[k], found.row_b[k])).all(axis=1)))
+
+
 def test_they_are_found_as_they_are_measured(crowd: tuple[World, Integers, Floats]) -> None:
     """To the last bit, and in the same order; nothing is written into the table."""
     world, pairs, reaches = crowd
@@ -108,6 +114,24 @@ def test_what_the_table_holds_is_placed_in_it(crowd: tuple[World, Integers, Floa
     assert are_the_same(more, measure_pairs(world, pairs, reaches))
     assert not isinstance(more, Kept)
     assert are_the_same(table(world), held)
+
+
+def test_what_the_table_holds_stays_until_it_is_farther(crowd: tuple[World, Integers, Floats]) -> None:
+    """By a quarter of what both reach, else contacts of what lies would come and go; others do not come."""
+    world, pairs, reaches = crowd
+    wanted = measure_pairs(world, pairs, reaches)
+    store(world, wanted)
+    less = reaches / 1.2
+    assert len(measure_pairs(world, pairs, less).row_a) < len(wanted.row_a)
+    assert are_the_same(find_balls(world, pairs, less), wanted)
+    less = reaches / 1.5
+    farther = measure_pairs(world, pairs, REACH_KEPT * less)
+    assert len(measure_pairs(world, pairs, less).row_a) < len(farther.row_a) < len(wanted.row_a)
+    assert are_the_same(find_balls(world, pairs, less), farther)
+    gone = next(k for k, depth in enumerate(farther.depth) if -depth > less[place_of(farther, k, pairs)])
+    others = np.arange(len(farther.row_a)) != gone
+    store(world, farther.take(others))
+    assert are_the_same(find_balls(world, pairs, less), farther.take(others))
 
 
 @pytest.mark.parametrize("fault", ["feature", "by_fcl", "a", "b"])

@@ -27,6 +27,10 @@ CROWDED = 16
 # Smaller: contacts might be overlooked. Larger: pairs are measured in vain.
 APART_MARGIN = 1e-6
 
+# Factor on what a ball and another body reach up to which their contact stays in the table, though none comes. Larger:
+# more are looked at in vain. Smaller: they come and go, and all manifolds are put into groups anew each time.
+REACH_KEPT = 1.25
+
 # Factor on the motion foreseen within a step, or in what is left of it. Below 1 a falling body leaves its bounds in
 # every step. Larger: more of those who leave theirs meet somebody new, far off.
 REACH_FACTOR = 1.25

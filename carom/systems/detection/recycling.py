@@ -83,8 +83,8 @@ def find_balls(world: World, pairs: Integers, reaches: Floats) -> Found | None:
     crew, n = crew_for(world, len(pairs)), len(pairs)
     told, found = np.zeros((threads_of(crew), 3), np.int64), Found.room(n)
     find_ball_contacts(
-        crew, pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation, world.handles(),
-        contact.count, contact.a, contact.b, *in_table(contact),
+        crew, pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation,
+        world.handles(), world.slots.row_shift, contact.count, contact.a, contact.b, *in_table(contact),
         np.empty(n, np.int64), np.empty((n, 7)), told, *found,
     )  # fmt: skip
     count, others, new = map(sum, zip(*told.tolist(), strict=True))

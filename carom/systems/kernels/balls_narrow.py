@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from math import inf
 
+from carom.systems.constants import REACH_KEPT
 from carom.systems.kernels.balls import HALF_SPACE, gap_of_ball, gap_of_balls
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, is_ball, kind_and_extent
-from carom.systems.kernels.recycling import is_pair
+from carom.systems.kernels.recycling import is_pair, row_of
 from carom.systems.kernels.validity import SOUND, fault_of
 from carom.systems.kernels.writing import write_point
 
@@ -44,15 +45,16 @@ def measure_balls(
     "found_a", "found_b", "found_feature", "found_normal", "found_depth", "found_point", "found_by_fcl", "old",
 )  # fmt: skip
 def find_ball_contacts(
-    crew, pairs, reaches, shape, size, position, rotation, handles, count,
+    crew, pairs, reaches, shape, size, position, rotation, handles, row_shift, count,
     a, b, row_a, row_b, feature, normal, depth, point, by_fcl, near, measured, told,
     found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, old,
 ):  # fmt: skip
     """Find the contacts of pairs that `measure_balls` is for, sorted, as all that measure and collect would.
 
-    Where they are those that the table holds, ``count`` of them, only where they are now is written, and into it. Each
-    thread has a row of ``told``: how many of its pairs are contacts, how many are of other shapes or unsound, and how
-    many of its contacts the table does not hold in their places. ``near`` and ``measured`` are room for each pair.
+    Those that the table holds, ``count`` of them, stay until they are farther, by REACH_KEPT. Where they are all that
+    is found, only where they are now is written, and into it. Each thread has a row of ``told``: how many of its pairs
+    are contacts, how many are of other shapes or unsound, and how many of its contacts the table does not hold in their
+    places. ``near`` and ``measured`` are room for each pair.
     """
     _, part, parts = crew
     begin, end = part_of(crew, len(pairs))
@@ -68,7 +70,10 @@ def find_ball_contacts(
         near[taken], measured[taken, 0] = p, -gap
         measured[taken, 1], measured[taken, 2], measured[taken, 3] = sense * nx, sense * ny, sense * nz
         measured[taken, 4], measured[taken, 5], measured[taken, 6] = px, py, pz
-        taken += 0 if gap > reaches[p] else 1
+        near_enough = not gap > reaches[p]
+        if reaches[p] < gap <= REACH_KEPT * reaches[p]:  # seldom
+            near_enough = is_held(count, x, y, a, b, row_shift)
+        taken += 1 if near_enough else 0
     told[part, 0] = taken - begin
     wait_for_all(crew, 1)
     to, total = 0, 0
@@ -98,6 +103,20 @@ def find_ball_contacts(
         else:
             old[c], found_feature[c], found_by_fcl[c] = -1, 0, False
             write_measured(c, m, near, pairs, measured, found_a, found_b, found_normal, found_depth, found_point)
+
+
+@woven
+def is_held(count, x, y, a, b, row_shift):
+    """Tell whether the first ``count`` contacts of entities, sorted by their rows, are also of rows x and y."""
+    begin, end = 0, count
+    while begin < end:
+        middle = (begin + end) // 2
+        q, r = row_of(a[middle], row_shift), row_of(b[middle], row_shift)
+        if q < x or (q == x and r < y):
+            begin = middle + 1
+        else:
+            end = middle
+    return begin < count and row_of(a[begin], row_shift) == x and row_of(b[begin], row_shift) == y
 
 
 @woven
