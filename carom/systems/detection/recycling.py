@@ -85,7 +85,7 @@ def find_balls(world: World, pairs: Integers, reaches: Floats) -> Found | None:
     find_ball_contacts(
         crew, pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation,
         world.handles(), world.slots.row_shift, contact.count, contact.a, contact.b, *in_table(contact),
-        np.empty(n, np.int64), np.empty((n, 7)), told, *found,
+        np.empty(n, np.int64), np.empty(n, np.int64), np.empty((n, 7)), told, *found,
     )  # fmt: skip
     count, others, new = map(sum, zip(*told.tolist(), strict=True))
     if others:

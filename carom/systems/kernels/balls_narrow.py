@@ -11,7 +11,7 @@ from carom.systems.kernels.balls import HALF_SPACE, gap_of_ball, gap_of_balls
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, is_ball, kind_and_extent
-from carom.systems.kernels.recycling import is_pair, row_of
+from carom.systems.kernels.recycling import first_of_pair, is_pair
 from carom.systems.kernels.validity import SOUND, fault_of
 from carom.systems.kernels.writing import write_point
 
@@ -41,12 +41,12 @@ def measure_balls(
 
 
 @shared(
-    "row_a", "row_b", "normal", "depth", "point", "near", "measured", "told",
+    "row_a", "row_b", "normal", "depth", "point", "near", "chosen", "measured", "told",
     "found_a", "found_b", "found_feature", "found_normal", "found_depth", "found_point", "found_by_fcl", "old",
 )  # fmt: skip
 def find_ball_contacts(
     crew, pairs, reaches, shape, size, position, rotation, handles, row_shift, count,
-    a, b, row_a, row_b, feature, normal, depth, point, by_fcl, near, measured, told,
+    a, b, row_a, row_b, feature, normal, depth, point, by_fcl, near, chosen, measured, told,
     found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, old,
 ):  # fmt: skip
     """Find the contacts of pairs that `measure_balls` is for, sorted, as all that measure and collect would.
@@ -54,7 +54,7 @@ def find_ball_contacts(
     Those that the table holds, ``count`` of them, stay until they are farther, by REACH_KEPT. Where they are all that
     is found, only where they are now is written, and into it. Each thread has a row of ``told``: how many of its pairs
     are contacts, how many are of other shapes or unsound, and how many of its contacts the table does not hold in their
-    places. ``near`` and ``measured`` are room for each pair.
+    places. ``near``, ``chosen`` and ``measured`` are room for each pair.
     """
     _, part, parts = crew
     begin, end = part_of(crew, len(pairs))
@@ -70,59 +70,57 @@ def find_ball_contacts(
         near[taken], measured[taken, 0] = p, -gap
         measured[taken, 1], measured[taken, 2], measured[taken, 3] = sense * nx, sense * ny, sense * nz
         measured[taken, 4], measured[taken, 5], measured[taken, 6] = px, py, pz
-        near_enough = not gap > reaches[p]
-        if reaches[p] < gap <= REACH_KEPT * reaches[p]:  # seldom
-            near_enough = is_held(count, x, y, a, b, row_shift)
-        taken += 1 if near_enough else 0
-    told[part, 0] = taken - begin
-    wait_for_all(crew, 1)
-    to, total = 0, 0
-    for one in range(parts):
-        to, total = to + (told[one, 0] if one < part else 0), total + told[one, 0]
-    faulty, new = 0, 0 if total == count else 1
+        taken += 0 if gap > REACH_KEPT * reaches[p] else 1
+    o, kept, shift, new, faulty = 0, begin, 0, 0, 0
+    if begin > 0 and taken > begin:
+        x, y = pairs[near[begin], 0], pairs[near[begin], 1]
+        o = first_of_pair(0, count, x, y, a, b, handles, row_shift)
     for m in range(begin, taken):
-        c, p = to + m - begin, near[m]
+        p = near[m]
+        x, y = pairs[p, 0], pairs[p, 1]
+        held = is_pair(o, count, x, y, a, b, handles)
+        if not held:  # seldom
+            o = first_of_pair(o, count, x, y, a, b, handles, row_shift)
+            held = is_pair(o, count, x, y, a, b, handles)
+            if not held and -measured[m, 0] > reaches[p]:
+                continue
+        if kept == begin:
+            shift = o - kept
+        new += not (held and o - kept == shift and feature[o] == 0 and not by_fcl[o])
         fault, _, _ = fault_of(
             measured[m, 1], measured[m, 2], measured[m, 3], measured[m, 0],
             measured[m, 4], measured[m, 5], measured[m, 6], inf, inf,
         )  # fmt: skip
         faulty += fault != SOUND
-        new += not (is_pair(c, count, pairs[p, 0], pairs[p, 1], a, b, handles) and feature[c] == 0 and not by_fcl[c])
-    told[part, 1], told[part, 2] = told[part, 1] + faulty, new
+        near[kept], chosen[kept] = p, m
+        kept += 1
+        o += 1 if held else 0
+    told[part, 0], told[part, 1] = kept - begin, told[part, 1] + faulty
+    wait_for_all(crew, 1)
+    to, total = 0, 0
+    for one in range(parts):
+        to, total = to + (told[one, 0] if one < part else 0), total + told[one, 0]
+    told[part, 2] = new + (total != count) + (kept > begin and shift != to - begin)
     wait_for_all(crew, 2)
     same = True
     for one in range(parts):
         same &= told[one, 2] == 0
         if told[one, 1]:
             return
-    for m in range(begin, taken):
-        c = to + m - begin
+    for k in range(kept - begin):
+        p, m, c = near[begin + k], chosen[begin + k], to + k
         if same:
             old[c] = c
-            write_measured(c, m, near, pairs, measured, row_a, row_b, normal, depth, point)
+            write_measured(c, p, m, pairs, measured, row_a, row_b, normal, depth, point)
         else:
             old[c], found_feature[c], found_by_fcl[c] = -1, 0, False
-            write_measured(c, m, near, pairs, measured, found_a, found_b, found_normal, found_depth, found_point)
+            write_measured(c, p, m, pairs, measured, found_a, found_b, found_normal, found_depth, found_point)
 
 
 @woven
-def is_held(count, x, y, a, b, row_shift):
-    """Tell whether the first ``count`` contacts of entities, sorted by their rows, are also of rows x and y."""
-    begin, end = 0, count
-    while begin < end:
-        middle = (begin + end) // 2
-        q, r = row_of(a[middle], row_shift), row_of(b[middle], row_shift)
-        if q < x or (q == x and r < y):
-            begin = middle + 1
-        else:
-            end = middle
-    return begin < count and row_of(a[begin], row_shift) == x and row_of(b[begin], row_shift) == y
-
-
-@woven
-def write_measured(c, m, near, pairs, measured, row_a, row_b, normal, depth, point):
-    """Write what was measured as contact c."""
-    row_a[c], row_b[c], depth[c] = pairs[near[m], 0], pairs[near[m], 1], measured[m, 0]
+def write_measured(c, p, m, pairs, measured, row_a, row_b, normal, depth, point):
+    """Write what was measured of pair p as contact c."""
+    row_a[c], row_b[c], depth[c] = pairs[p, 0], pairs[p, 1], measured[m, 0]
     normal[c, 0], normal[c, 1], normal[c, 2] = measured[m, 1], measured[m, 2], measured[m, 3]
     point[c, 0], point[c, 1], point[c, 2] = measured[m, 4], measured[m, 5], measured[m, 6]
 
