@@ -31,8 +31,9 @@ def closing(world: World, span: float, *, began: bool) -> tuple[Integers, float,
         world[Stream].motion, flight.center, flight.detected_center, flight.reach,
         motion.linear, motion.angular, flight.acceleration,
         resting.index_a, resting.index_b, resting.points, resting.row, resting.group_of, resting.lane_of, resting.start,
-        contact.kind, contact.ball, contact.other, contact.other_position, contact.radius, contact.extent,
-        contact.restitution, contact.resting, resting.lanes, resting.bodies, resting.closes, soon,
+        contact.kind, contact.ball, contact.other, contact.other_position, contact.other_rotation,
+        contact.radius, contact.extent, contact.restitution, contact.resting, resting.lanes, resting.bodies,
+        resting.closes, soon,
     )  # fmt: skip
     times, numbers = zip(*soon.tolist(), strict=True)
     return resting.closes, min(times), any(numbers)

@@ -14,7 +14,7 @@ from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import address, choose, gather, larger, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY, felt_of, write_velocities
-from carom.systems.kernels.reach import are_apart, time_within_all
+from carom.systems.kernels.reach import are_apart, stay_apart, time_within_all
 
 # Of manifolds: it cannot strike as its bodies move now, or may; it rests, and only a heavy blow makes an impact of it:
 # one of a ball on an exact arc, and any other.
@@ -24,8 +24,8 @@ CANNOT, MAY, HELD_BALL, HELD = range(4)
 @shared("lanes", "bodies", "closing", "soon")
 def find_closing(
     crew, count, groups, solids, h, rows, watched, stream, center, detected_center, reach, linear, angular,
-    acceleration, index_a, index_b, points, row, group_of, lane_of, start, kind, ball, other, other_position, radius,
-    extent, restitution, resting, lanes, bodies, closing, soon,
+    acceleration, index_a, index_b, points, row, group_of, lane_of, start, kind, ball, other, other_position,
+    other_rotation, radius, extent, restitution, resting, lanes, bodies, closing, soon,
 ):  # fmt: skip
     """Tell of each manifold whether it may strike within ``h`` seconds, and how soon a body leaves its reach.
 
@@ -61,9 +61,16 @@ def find_closing(
         ):
             closing[m] = CANNOT
         else:
-            asked = solids and kind[p] < 0
-            closing[m] = MAY if not asked or lanes[row[group_of[m]] + of.CLOSES, lane_of[m]] > 0.0 else CANNOT
-            number += closing[m] == MAY
+            may = True
+            if kind[p] < 0:
+                may = not solids or lanes[row[group_of[m]] + of.CLOSES, lane_of[m]] > 0.0
+            elif not resting[p]:
+                may = not stay_apart(
+                    p, ball[p], other[p], h, kind, center, linear, acceleration, other_position, other_rotation,
+                    radius, extent,
+                )  # fmt: skip
+            closing[m] = MAY if may else CANNOT
+            number += may
     soon[crew[1], 1] = number
 
 

@@ -6,6 +6,7 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import REACH_FACTOR, ROOT_GAP
+from carom.systems.kernels.balls import BALL, gap_of_ball
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_columns import ALL, in_a_row, load_one, load_three
 from carom.systems.kernels.lanes import WIDTH, address, spread, which
@@ -34,6 +35,28 @@ def are_apart(p, i, o, span, center, linear, acceleration, other_position, radiu
     # Four lengths are no longer than twice the root of their squares: the ways at both speeds and accelerations.
     way = 2.0 * span * sqrt(quick + 0.25 * span * span * push)
     return away > (radius[p] + extent[p, 0] + way + ROOT_GAP) ** 2
+
+
+@woven
+def stay_apart(p, i, o, span, kind, center, linear, acceleration, other_position, other_rotation, radius, extent):
+    """Tell whether the ball i of pair p and the ball o, or what stands there, close too slowly to meet in time.
+
+    Both are convex: they part by no less than the planes across the line on which they are nearest now.
+    """
+    if o >= 0 and kind[p] != BALL:
+        return False
+    x, y, z = other_position[p, 0], other_position[p, 1], other_position[p, 2]
+    if o >= 0:
+        x, y, z = center[o, 0], center[o, 1], center[o, 2]
+    gap, nx, ny, nz = gap_of_ball(
+        kind[p], center[i, 0], center[i, 1], center[i, 2], radius[p], x, y, z, other_rotation[p, 0],
+        other_rotation[p, 1], other_rotation[p, 2], other_rotation[p, 3], extent[p, 0], extent[p, 1], extent[p, 2],
+    )  # fmt: skip
+    closing, push = 0.0, 0.0
+    for k, n in enumerate((nx, ny, nz)):
+        closing -= n * (linear[i, k] - (linear[o, k] if o >= 0 else 0.0))
+        push += (acceleration[i, k] - (acceleration[o, k] if o >= 0 else 0.0)) ** 2
+    return gap > (max(closing, 0.0) + 0.5 * span * sqrt(push)) * span + ROOT_GAP
 
 
 @woven

@@ -147,7 +147,8 @@ def take_substeps(
             share(describe(close, for_closing, (
                 count, groups, solids, h, bound, watched, stream, center, detected_center, reach,
                 linear, angular, acceleration, index_a, index_b, points, row, group_of, lane_of, start,
-                kind, ball, other, other_position, radius, extent, restitution, resting, lanes, bodies, closes, soon,
+                kind, ball, other, other_position, other_rotation, radius, extent, restitution, resting, lanes, bodies,
+                closes, soon,
             )))  # fmt: skip
             within, some = h, False
             for part in range(len(soon)):
