@@ -69,24 +69,25 @@ def pack_bodies(
             centred = not some(larger(larger(larger(x, -x), larger(y, -y)), larger(z, -z)))
         c, q = take_three(center, rows, n, near, three), take_four(rotation, rows, n, near, four)
         scatter(packed[POSE], address(index), 0, (c[0], c[1], c[2], zero, q[0], q[1], q[2], q[3]))
-        free = take_freedom(freedom, rows, n, near, six)
         m = take_one(inverse_mass, rows, n, near, one)
+        ix, iy, iz = take_three(inverse_inertia, rows, n, near, three)
+        scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], m, w[0], w[1], w[2], ix))
+        uneven = larger(larger(ix - iy, iy - ix), larger(iy - iz, iz - iy))
+        turns = some(uneven)
+        if not (weigh or turns):
+            continue
+        free = take_freedom(freedom, rows, n, near, six)
         if weigh:
             f = take_three(felt, rows, n, near, three)
             masses = (m * free[0], m * free[1], m * free[2], f[0], f[1], f[2], m, zero)
             scatter(packed[MASS_AND_FELT], address(index), 0, masses)
-        ix, iy, iz = take_three(inverse_inertia, rows, n, near, three)
-        uneven = larger(larger(ix - iy, iy - ix), larger(iy - iz, iz - iy))
-        if weigh or some(uneven):
-            inverse = (ix * free[3], zero, zero, ix * free[4], zero, ix * free[5])
-            if some(uneven):
-                a = take_four(principal, rows, n, near, four)
-                inverse = inverse_of(q, a, ix, iy, iz, uneven, inverse)
-            xx, xy, xz, yy, yz, zz = inverse
-            scatter(packed[INVERSE], address(index), 0, (xx, xy, xz, yy, yz, zz, larger(larger(ix, iy), iz), zero))
-        locked = 3.0 - (free[3] + free[4] + free[5])
-        scatter(packed[VELOCITY], address(index), 0, (v[0], v[1], v[2], m, w[0], w[1], w[2], ix))
-        if some(choose(uneven, locked, zero)):
+        inverse = (ix * free[3], zero, zero, ix * free[4], zero, ix * free[5])
+        if turns:
+            a = take_four(principal, rows, n, near, four)
+            inverse = inverse_of(q, a, ix, iy, iz, uneven, inverse)
+        xx, xy, xz, yy, yz, zz = inverse
+        scatter(packed[INVERSE], address(index), 0, (xx, xy, xz, yy, yz, zz, larger(larger(ix, iy), iz), zero))
+        if turns and some(choose(uneven, 3.0 - (free[3] + free[4] + free[5]), zero)):
             for i in index[0]:
                 pack_held(i, inverse_inertia, principal, freedom, rotation, bodies)
     apart[crew[1]] = not centred
@@ -148,9 +149,10 @@ def pack_velocities(rows, linear, angular, velocity):
 @woven
 def write_velocities(rows, linear, angular, velocity):
     """Do what `pack_velocities` does, within a kernel."""
-    for i in rows:
-        for k in range(3):
-            velocity[i, k], velocity[i, ANGULAR + k] = linear[i, k], angular[i, k]
+    for i in rows:  # all is read before any of it is written, which goes two by two then
+        v, w = three_of(i, linear), three_of(i, angular)
+        velocity[i, 0], velocity[i, 1], velocity[i, 2] = v
+        velocity[i, ANGULAR], velocity[i, ANGULAR + 1], velocity[i, ANGULAR + 2] = w
 
 
 @kernel("linear", "angular")
@@ -163,8 +165,16 @@ def unpack_velocities(rows, velocity, linear, angular):
 def read_velocities(rows, velocity, linear, angular):
     """Do what `unpack_velocities` does, within a kernel."""
     for i in rows:
-        for k in range(3):
-            linear[i, k], angular[i, k] = velocity[i, k], velocity[i, ANGULAR + k]
+        x, y, z = three_of(i, velocity)
+        u, v, w = velocity[i, ANGULAR], velocity[i, ANGULAR + 1], velocity[i, ANGULAR + 2]
+        linear[i, 0], linear[i, 1], linear[i, 2] = x, y, z
+        angular[i, 0], angular[i, 1], angular[i, 2] = u, v, w
+
+
+@woven
+def three_of(i, column):
+    """Return the first three numbers of a row."""
+    return column[i, 0], column[i, 1], column[i, 2]
 
 
 @woven
