@@ -107,8 +107,7 @@ def renew_contacts(
             aside -= 1
             moves[aside] = c
     changed[crew[1]] = moving > 0 or aside < len(moves)
-    kept = np.zeros((1 + len(moves) - aside, CONTACT_NUMBERS))
-    hand = len(kept) - 1
+    kept = np.zeros((len(moves) - aside, CONTACT_NUMBERS))
     for m in range(aside, len(moves)):
         c = moves[m]
         if match[c] >= 0:
@@ -117,13 +116,11 @@ def renew_contacts(
     for m in range(moving):
         c = moves[m]
         if match[c] > c:
-            take(match[c], recycled_from[c] >= 0, kept, hand, *columns)
-            give(c, recycled_from[c] >= 0, kept, hand, *columns)
+            move(match[c], c, recycled_from[c] >= 0, *columns)
     for m in range(moving - 1, -1, -1):
         c = moves[m]
         if match[c] < c:
-            take(match[c], recycled_from[c] >= 0, kept, hand, *columns)
-            give(c, recycled_from[c] >= 0, kept, hand, *columns)
+            move(match[c], c, recycled_from[c] >= 0, *columns)
     for m in range(aside, len(moves)):
         give(moves[m], recycled_from[moves[m]] >= 0, kept, m - aside, *columns)
     for c in range(begin, count):
@@ -133,6 +130,23 @@ def renew_contacts(
         depth[c] = found_depth[c]
         for k in range(3):
             normal[c, k], point[c, k] = found_normal[c, k], found_point[c, k]
+
+
+@woven
+def move(
+    o, c, seated, resting, strikes, plastic, warm_normal, impulse, warm_friction, warm_rolling, friction_impulse,
+    seat_depth, form, seat_a, seat_b, lean_a, lean_b,
+):  # fmt: skip
+    """Let contact c hold what contact o does, and be ``seated`` where that is."""
+    resting[c], strikes[c], plastic[c], warm_normal[c], impulse[c] = (
+        resting[o], strikes[o], plastic[o], warm_normal[o], impulse[o]
+    )  # fmt: skip
+    for column in (warm_friction, warm_rolling, friction_impulse):
+        column[c, 0], column[c, 1], column[c, 2] = column[o, 0], column[o, 1], column[o, 2]
+    if seated:
+        seat_depth[c], form[c] = seat_depth[o], form[o]
+        for column in (seat_a, seat_b, lean_a, lean_b):
+            column[c, 0], column[c, 1], column[c, 2] = column[o, 0], column[o, 1], column[o, 2]
 
 
 @woven
