@@ -53,8 +53,8 @@ def find_ball_contacts(
 
     Those that the table holds, ``count`` of them, stay until they are farther, by REACH_KEPT. Where they are all that
     is found, only where they are now is written, and into it. Each thread has a row of ``told``: how many of its pairs
-    are contacts, how many are of other shapes or unsound, and how many of its contacts the table does not hold in their
-    places. ``near``, ``chosen`` and ``measured`` are room for each pair.
+    are contacts, how many are of other shapes or unsound, and whether there are others than those that the table holds.
+    ``near``, ``chosen`` and ``measured`` are room for each pair.
     """
     _, part, parts = crew
     begin, end = part_of(crew, len(pairs))
@@ -71,10 +71,7 @@ def find_ball_contacts(
         measured[taken, 1], measured[taken, 2], measured[taken, 3] = sense * nx, sense * ny, sense * nz
         measured[taken, 4], measured[taken, 5], measured[taken, 6] = px, py, pz
         taken += 0 if gap > REACH_KEPT * reaches[p] else 1
-    o, kept, shift, new, faulty = 0, begin, 0, 0, 0
-    if begin > 0 and taken > begin:
-        x, y = pairs[near[begin], 0], pairs[near[begin], 1]
-        o = first_of_pair(0, count, x, y, a, b, handles, row_shift)
+    o, kept, new, faulty = 0, begin, 0, 0
     for m in range(begin, taken):
         p = near[m]
         x, y = pairs[p, 0], pairs[p, 1]
@@ -84,9 +81,7 @@ def find_ball_contacts(
             held = is_pair(o, count, x, y, a, b, handles)
             if not held and -measured[m, 0] > reaches[p]:
                 continue
-        if kept == begin:
-            shift = o - kept
-        new += not (held and o - kept == shift and feature[o] == 0 and not by_fcl[o])
+        new += not (held and feature[o] == 0 and not by_fcl[o])
         fault, _, _ = fault_of(
             measured[m, 1], measured[m, 2], measured[m, 3], measured[m, 0],
             measured[m, 4], measured[m, 5], measured[m, 6], inf, inf,
@@ -100,7 +95,7 @@ def find_ball_contacts(
     to, total = 0, 0
     for one in range(parts):
         to, total = to + (told[one, 0] if one < part else 0), total + told[one, 0]
-    told[part, 2] = new + (total != count) + (kept > begin and shift != to - begin)
+    told[part, 2] = new + (total != count)
     wait_for_all(crew, 2)
     same = True
     for one in range(parts):
