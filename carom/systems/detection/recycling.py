@@ -45,9 +45,10 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     """
     contact, collider, pose, resting = world[Contact], world[Collider], world[ColliderPose], world[Resting]
     known = resting.knows(world)
-    if known and not resting.solids:  # balls roll, and are never recycled
-        found = find_balls(world, pairs, reaches) if world[Settings].collision == "auto" else None
-        return found if found is not None else measure_pairs(world, pairs, reaches, apart=world[Apart])
+    if known and not resting.solids and world[Settings].collision == "auto":
+        found = find_balls(world, pairs, reaches)
+        if found is not None:
+            return found
     moved, moved_reaches = np.empty_like(pairs), np.empty_like(reaches)
     kept: Integers = np.empty(contact.count, np.int64)
     crew = crew_for(world, len(pairs))

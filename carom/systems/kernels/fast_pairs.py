@@ -81,19 +81,37 @@ def may_be_fast(
     span, rows, local_position, bound_center, bound_half, bound_radius, position, body_row, center, inverse_mass,
     linear, angular,
 ):  # fmt: skip
-    """Tell whether somebody may be fast within ``span`` seconds, if the fastest and the smallest of all were one."""
-    smallest, speed, spin, lever = NEVER, 0.0, 0.0, 0.0
+    """Tell whether somebody may be fast within ``span`` seconds, if the fastest and the smallest of all were one.
+
+    So it would reach as far from its centre, too, as the farthest part of any and the largest are together.
+    """
+    smallest, speed, spin, away, off, half, around = NEVER, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for c in rows:
         i = body_row[c]
         if i < 0:
             continue
         if inverse_mass[i] > 0.0:
             smallest = min(smallest, extent_of(c, bound_half, bound_radius))
-        reach = reach_of(c, i, local_position, bound_center, bound_half, position, center)
-        lever = max(lever, reach + bound_radius[c])
-        speed, spin = max(speed, length_of(i, linear)), max(spin, length_of(i, angular))
-    way = (2.0 * speed + 4.0 * spin * lever) * span  # either turns, and moves what is out there with it
+        away = max(away, squared_between(c, position, i, center))
+        off = max(off, squared_between(c, bound_center, c, local_position))
+        half, around = max(half, squared(c, bound_half)), max(around, bound_radius[c])
+        speed, spin = max(speed, squared(i, linear)), max(spin, squared(i, angular))
+    spin, lever = sqrt(spin), sqrt(away) + sqrt(off) + sqrt(half) + around
+    way = (2.0 * sqrt(speed) + 4.0 * spin * lever) * span  # either turns, and moves what is out there with it
     return way * (1.0 + spin * span) > FAST * smallest
+
+
+@woven
+def squared(i, vectors):
+    """Return the square of the length of vector i."""
+    return vectors[i, 0] * vectors[i, 0] + vectors[i, 1] * vectors[i, 1] + vectors[i, 2] * vectors[i, 2]
+
+
+@woven
+def squared_between(i, one, o, other):
+    """Return the square of how far place i of one column is from place o of another."""
+    x, y, z = one[i, 0] - other[o, 0], one[i, 1] - other[o, 1], one[i, 2] - other[o, 2]
+    return x * x + y * y + z * z
 
 
 @kernel("fast", "numbers")

@@ -12,7 +12,7 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.ecs.entity import INDEX_MASK
-from carom.systems.constants import RECYCLED_SLIP, RECYCLED_TURN
+from carom.systems.constants import REACH_KEPT, RECYCLED_SLIP, RECYCLED_TURN
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_columns import ALL, load_flat, load_three, store_flat
@@ -47,9 +47,9 @@ def recycle_contacts(
 
     Moved has a pair of which one is a ball, which rolls, one of whose points has slipped or sunk by RECYCLED_SLIP of
     the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known`` to be
-    what they were: its contacts stay as they are. ``seat``, ``lean`` and ``seat_depth`` say where the points and the
-    normal were found on the two shapes. Those placed are ``kept``. Each thread has a row of ``ends``, where those and
-    its pairs end: behind them are those of the next.
+    what they were: its contacts stay as they are. Those of balls are found up to where they leave (REACH_KEPT).
+    ``seat``, ``lean`` and ``seat_depth`` say where the points and the normal were found on the two shapes. Those placed
+    are ``kept``. Each thread has a row of ``ends``, where those and its pairs end: behind them are those of the next.
     """
     begin_pair, end_pair = part_of(crew, len(pairs))
     placed = np.empty(PLACED * (old_count + WIDTH))  # of one pair, for eight at a time: how deep, normal, point
@@ -61,10 +61,11 @@ def recycle_contacts(
         x, y = pairs[p, 0], pairs[p, 1]
         moved[moving, 0], moved[moving, 1], moved_reaches[moving] = x, y, reaches[p]
         moving += 1
-        if is_ball(x, shape) or is_ball(y, shape):
-            continue
         o = first_of_pair(o, old_count, x, y, a, b, handles, row_shift)
         if not is_pair(o, old_count, x, y, a, b, handles):
+            continue
+        if is_ball(x, shape) or is_ball(y, shape):
+            moved_reaches[moving - 1] *= REACH_KEPT
             continue
         if not known and form[o] != form_of_pair(x, y, shape, size, geometry):
             continue

@@ -22,6 +22,7 @@ from carom.systems.kernels.lanes import (
     address,
     choose,
     gather,
+    gather_four,
     larger,
     load,
     planes,
@@ -213,9 +214,15 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     faster than the rest speed: what others press it by would else have it strike in each substep anew, and never be
     pushed out of those. But it does not lie.
     """
-    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    n, zero = three(lanes, r + of.NORMAL), spread(0.0)
+    if balls:
+        v, w = gather_four(bodies[VELOCITY], index_a, g, 0), gather_four(bodies[VELOCITY], index_b, g, 0)
+        parting, yields = (dot(n, minus(w, v)), zero, zero), v[INVERSE_MASS] + w[INVERSE_MASS]
+    else:
+        a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+        parting, yields = parting_of(r, lanes, a, b), a[INVERSE_MASS] + b[INVERSE_MASS]
     felt_a, felt_b = felt_of(bodies[MASS_AND_FELT], index_a, g), felt_of(bodies[MASS_AND_FELT], index_b, g)
-    n, together, zero, one = three(lanes, r + of.NORMAL), load(lanes, r + of.TOGETHER), spread(0.0), spread(1.0)
+    together, one = load(lanes, r + of.TOGETHER), spread(1.0)
     joined = together - 0.5 * JOINED
     is_ball = choose(joined, zero, load(lanes, r + of.BALL))
     pressing = larger(zero, larger(dot(n, felt_a), -dot(n, felt_b)))
@@ -223,7 +230,7 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     for p in range(points):
         held = larger(held, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.WARM))
     engaged = choose(choose(joined, zero, together - 1.5), one, choose(is_ball, held, zero))
-    bearing = held * ((a[INVERSE_MASS] + b[INVERSE_MASS]) / h)
+    bearing = held * (yields / h)
     # Without restitution there is no bounce to lose by resting, so that all that forces do counts; and bounces that
     # land again in the next substep, or that what one bears of the other would end within two, are none.
     all_forces = root(larger(dot(felt_a, felt_a), dot(felt_b, felt_b)))
@@ -235,7 +242,6 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     # closes.
     known = larger(choose(all_forces, together, zero), joined)
     may_strike = some(choose(load(lanes, r + of.SHARE), choose(known, restitution, one), zero))
-    parting = (dot(n, minus(b, a)), zero, zero) if balls else parting_of(r, lanes, a, b)
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         closing = -(parting_at(q, lanes, parting) if points > 1 else parting[0])
