@@ -19,7 +19,7 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.contacts import store
 from carom.systems.detection.narrow import Found, measure_pairs
-from carom.systems.detection.recycling import Kept, find_balls
+from carom.systems.detection.recycling import Kept, find_balls, measure_what_moved
 from carom.systems.kernels.crew import ALONE
 from carom.systems.simulation import Simulation
 
@@ -132,6 +132,19 @@ def test_what_the_table_holds_stays_until_it_is_farther(crowd: tuple[World, Inte
     others = np.arange(len(farther.row_a)) != gone
     store(world, farther.take(others))
     assert are_the_same(find_balls(world, pairs, less), farther.take(others))
+
+
+def test_it_stays_as_long_whoever_finds_it(
+    crowd: tuple[World, Integers, Floats], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What follows does not hang on whether somebody knows that all contacts are of balls, as after a snapshot."""
+    world, pairs, reaches = crowd
+    store(world, measure_pairs(world, pairs, reaches))
+    wanted = find_balls(world, pairs, reaches / 1.5)
+    assert wanted is not None
+    assert not isinstance(wanted, Kept)
+    monkeypatch.setattr(recycling, "find_balls", lambda *arguments: None)
+    assert are_the_same(measure_what_moved(world, pairs, reaches / 1.5), wanted)
 
 
 @pytest.mark.parametrize("fault", ["feature", "by_fcl", "a", "b"])
