@@ -19,7 +19,7 @@ from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.contacts import store
 from carom.systems.detection.narrow import Found, measure_pairs
-from carom.systems.detection.recycling import Kept, find_balls, measure_what_moved
+from carom.systems.detection.recycling import Kept, find_balls, in_table, measure_what_moved
 from carom.systems.kernels.crew import ALONE
 from carom.systems.simulation import Simulation
 
@@ -56,9 +56,8 @@ def crowd(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> It
 
 def table(world: World) -> Found:
     """Return a copy of what the contact table has of what is found."""
-    contact = world[Contact]
-    columns = (contact.row_a, contact.row_b, contact.feature, contact.normal, contact.depth, contact.point)
-    return Found(*(column[: contact.count].copy() for column in (*columns, contact.by_fcl)), np.arange(contact.count))
+    count = world[Contact].count
+    return Found(*(column[:count].copy() for column in in_table(world[Contact])), np.arange(count))
 
 
 def are_the_same(found: Found | None, wanted: Found) -> bool:

@@ -150,7 +150,7 @@ def pack_velocities(rows, linear, angular, velocity):
 def write_velocities(rows, linear, angular, velocity):
     """Do what `pack_velocities` does, within a kernel."""
     for i in rows:  # all is read before any of it is written, which goes two by two then
-        v, w = three_of(i, linear), three_of(i, angular)
+        v, w = first_three(i, linear), first_three(i, angular)
         velocity[i, 0], velocity[i, 1], velocity[i, 2] = v
         velocity[i, ANGULAR], velocity[i, ANGULAR + 1], velocity[i, ANGULAR + 2] = w
 
@@ -165,14 +165,14 @@ def unpack_velocities(rows, velocity, linear, angular):
 def read_velocities(rows, velocity, linear, angular):
     """Do what `unpack_velocities` does, within a kernel."""
     for i in rows:
-        x, y, z = three_of(i, velocity)
+        x, y, z = first_three(i, velocity)
         u, v, w = velocity[i, ANGULAR], velocity[i, ANGULAR + 1], velocity[i, ANGULAR + 2]
         linear[i, 0], linear[i, 1], linear[i, 2] = x, y, z
         angular[i, 0], angular[i, 1], angular[i, 2] = u, v, w
 
 
 @woven
-def three_of(i, column):
+def first_three(i, column):
     """Return the first three numbers of a row."""
     return column[i, 0], column[i, 1], column[i, 2]
 
