@@ -15,7 +15,7 @@ from carom.systems.threads import Threads
 def gathered(parts: int) -> Iterator[Integers]:
     """Yield a crew all of whose threads have come."""
     threads = Threads()
-    with threads.step():
+    with threads:
         crew = threads.call(parts)
         until = time.monotonic() + 60.0
         while (crew[ROOM + HERE :: ROOM] != crew[SHIFT]).any():

@@ -96,10 +96,10 @@ class Frame:
     def run(self, phase: Phase, dt: float) -> bool:
         """Run a phase of ``dt`` seconds; tell whether it has run at all."""
         world, checked, after, spent, calls = self.world, self.checked, self.after, self.spent, self.calls
-        repeats = 1 if phase.repeat is None else phase.repeat(world)
+        repeats, asked = 1 if phase.repeat is None else phase.repeat(world), phase.question
         share = dt / max(repeats, 1)
         for done in range(repeats):
-            if phase.question is not None and not phase.question.holds(world, checked=checked):
+            if asked is not None and not (asked.guarded if checked else asked.condition)(world):
                 return done > 0
             for part, name, question, function in phase.steps:
                 if function is None:
@@ -107,7 +107,7 @@ class Frame:
                     self.run(part, share)
                     continue
                 world.running = part
-                if question is not None and not question.holds(world, checked=checked):
+                if question is not None and not (question.guarded if checked else question.condition)(world):
                     continue
                 if checked:
                     part.guarded(world, share)

@@ -41,6 +41,7 @@ class Structure:
         self.entity_names = Names()
         self._watches: dict[type[Component], Watch] = {}
         self._handles: tuple[int, Integers] = (-1, np.zeros(0, np.int64))
+        self._own_rows: dict[type[Component], tuple[int, Integers]] = {}  # in which structure they were found, and they
 
     def table(self, kind: type[Record]) -> Table:
         """Return the storage behind a kind, made on first use."""
@@ -203,6 +204,14 @@ class Structure:
         if self._handles[0] != self.structure:
             self._handles = (self.structure, self.entities(slice(0, self.used())))
         return self._handles[1]
+
+    def own_rows(self, kind: type[Component]) -> Integers:
+        """Return for each row in use its own number where it has a component, -1 where not; not to be written to."""
+        known = self._own_rows.get(kind)
+        if known is None or known[0] != self.structure:
+            there = self.table(kind).present[: self.used()]
+            known = self._own_rows[kind] = self.structure, np.where(there, np.arange(len(there)), -1)
+        return known[1]
 
     def used(self) -> int:
         """Return one more than the highest row in use."""

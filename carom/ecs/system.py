@@ -93,7 +93,7 @@ class Question:
 
     def __init__(self, condition: Condition, owner: str, declares: str, systems: tuple[System, ...]) -> None:
         kinds = dict.fromkeys(kind for one in systems for kind in (*one.reads, *one.writes, *one.adds))
-        self._condition = condition
+        self.condition = condition
         self._sight = Access(
             f"condition '{named(condition)}' of {owner}",
             tuple(kinds),
@@ -102,9 +102,9 @@ class Question:
             "a condition only looks; write in the system",
         )
 
-    def holds(self, world: World, *, checked: bool) -> bool:
-        """Ask it; ``checked`` refuses what nobody declares, and all writing."""
-        return bool(self._sight.call(world, self._condition) if checked else self._condition(world))
+    def guarded(self, world: World) -> bool:
+        """Ask it, refusing what nobody declares, and all writing."""
+        return bool(self._sight.call(world, self.condition))
 
 
 def named(condition: Condition) -> str:

@@ -14,7 +14,6 @@ from carom.ecs.errors import DeclarationError
 from carom.ecs.hierarchy import levels
 from carom.ecs.spatial import quaternion
 from carom.systems.bodies import centers_of_mass
-from carom.systems.kernels.rows import own_rows
 from carom.systems.mass import Part, rigid_body
 from carom.systems.settings import Settings
 from carom.systems.shapes import BY_NUMBER, Shape
@@ -37,12 +36,14 @@ class StatedBodies(Resource):
 
 def bodies_of(world: World) -> Integers:
     """Return for each row in use the row of the body it belongs to: itself, the nearest that carries it, or -1."""
-    is_body = world.table(RigidBody).present[: world.used()]
-    body: Integers = np.empty(len(is_body), np.int64)
-    own_rows(is_body, body)
-    for level in levels(world, world.row_numbers(Parent, Transform)):
+    own = world.own_rows(RigidBody)
+    carried = levels(world, world.row_numbers(Parent, Transform))
+    if not carried:
+        return own
+    body: Integers = own.copy()
+    for level in carried:
         carriers = world.slots.rows(world[Parent].entity[level])
-        body[level] = np.where(is_body[level], level, body[carriers])
+        body[level] = np.where(own[level] >= 0, level, body[carriers])
     return body
 
 

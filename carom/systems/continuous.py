@@ -50,17 +50,19 @@ class Fast(Resource):
         So are pairs of two that are ``free`` (m, 2), which `without_passing` tells.
         """
         pose, motion, center = world[ColliderPose], world[Motion], world[Flight].detected_center
+        size = len(motion.asleep)
+        if self._limited or len(self.trusts) != size:
+            self.trusts, self._limited = np.tile([np.inf, *np.zeros(5)], (size, 1)), False
+        self.all = NO_PAIRS
+        if not (len(pairs) or len(free)):  # most often
+            return
         fast, numbers = fast_of(world, pairs, span, center)
         if len(free):
             free, free_numbers = fast_of(world, free, span, center, free=True)
             fast, numbers = np.concatenate([fast, free]), np.concatenate([numbers, free_numbers])
             order = np.lexsort(fast.T[::-1])
             fast, numbers = fast[order], numbers[order]
-        size = len(motion.asleep)
-        if self._limited or len(self.trusts) != size:
-            self.trusts, self._limited = np.tile([np.inf, *np.zeros(5)], (size, 1)), False
         if not len(fast):
-            self.all = NO_PAIRS
             return
         self.all = FastPairs.of(fast, Looked.room(numbers), motion.linear, motion.angular)
         given, reaches = fast.copy(), numbers.copy()
@@ -75,9 +77,9 @@ class Fast(Resource):
 
     def trusted(self, found: Found) -> Found:
         """Return what is found, but of pairs that are looked after only what is near: the rest is found on the way."""
-        pairs = self.pairs
-        if not len(pairs):
+        if not len(self.all.pairs):
             return found
+        pairs = self.pairs
         far, numbers = np.empty(len(found.row_a), np.bool_), self.all.looked.numbers[self.all.asked]
         number = find_far(pairs, numbers, found.row_a, found.row_b, found.depth, far)
         return found.without(far, number)

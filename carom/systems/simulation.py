@@ -244,7 +244,7 @@ class Simulation:
             for hear in hearers:
                 hear(system)
 
-        with self.world[Threads].step():
+        with self.world[Threads]:
             self.schedule.run(self.world, self.settings.dt, checked=self.checked, after=tell if hearers else None)
 
     def advance(self, seconds: float) -> float:

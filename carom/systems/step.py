@@ -22,7 +22,7 @@ from carom.systems.forces.lift import apply_lift
 from carom.systems.forces.magnus import apply_magnus
 from carom.systems.forces.mutual_gravitation import apply_mutual_gravitation
 from carom.systems.forces.springs import apply_springs
-from carom.systems.forces.standing import forces_vary
+from carom.systems.forces.standing import forces_vary, laws_may_act
 from carom.systems.forces.thruster import apply_thruster
 from carom.systems.forces.vortex import apply_vortex
 from carom.systems.forces.wind import apply_wind
@@ -79,20 +79,24 @@ STEP = Schedule(
         Phase(
             "forces",
             clear_forces,
-            choose_bodies,  # whom laws with a region, layers or a time window act on
-            apply_wind,  # before drags, which are relative to the medium
-            apply_vortex,
             apply_gravity,
-            apply_mutual_gravitation,
-            apply_gravity_well,
-            apply_attraction,
-            apply_thruster,
-            apply_lift,
-            apply_magnus,
-            apply_buoyancy,
-            apply_springs,
-            apply_linear_drag,
-            apply_quadratic_drag,
+            Phase(
+                "laws",
+                choose_bodies,  # whom laws with a region, layers or a time window act on
+                apply_wind,  # before drags, which are relative to the medium
+                apply_vortex,
+                apply_mutual_gravitation,
+                apply_gravity_well,
+                apply_attraction,
+                apply_thruster,
+                apply_lift,
+                apply_magnus,
+                apply_buoyancy,
+                apply_springs,
+                apply_linear_drag,
+                apply_quadratic_drag,
+                when=laws_may_act,
+            ),
             apply_damping,
             apply_constant_push,  # last: leaving its stroke depends on the forces before
             sum_forces,  # accelerations; bodies back at the start of the substep

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from functools import cache
 from threading import Lock, Thread
 from weakref import finalize
@@ -21,7 +20,7 @@ FEWEST = 1024  # bodies, pairs or contacts below which sharing takes about as lo
 
 
 class Threads(Resource):
-    """The crew of a world: its other threads come when a step first has work to share, and go when that ends."""
+    """The crew of a world, and the context of a step: its other threads come when that first has work to share."""
 
     def __init__(self) -> None:
         self.crew = ALONE
@@ -29,18 +28,17 @@ class Threads(Resource):
         self._parts, self._bells = 1, list[Lock]()
         self._dismissal: finalize[..., Threads] | None = None
 
-    @contextmanager
-    def step(self) -> Iterator[None]:
+    def __enter__(self) -> None:
         """Let work be shared until this is left; who had some in the step before is called at once."""
         self.stepping = True
         if self._wanted:
             self._call()
         self._wanted = False
-        try:
-            yield
-        finally:
-            self.stepping = False
-            self._send_away()
+
+    def __exit__(self, *fault: object) -> None:
+        """Send those away who have been called."""
+        self.stepping = False
+        self._send_away()
 
     def call(self, parts: int) -> Integers:
         """Return a crew of so many threads, called if they have not been in this step."""

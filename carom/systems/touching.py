@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import ColliderPose, Material, Motion, World, system
-from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.column import Integers
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.hit import Hit
 from carom.ecs.relations.impact import Impact
 from carom.ecs.relations.touching import ContactBegin, ContactEnd, Touching
 from carom.systems.awake import Awake, stirs
-from carom.systems.kernels.touching import find_hits, find_struck, renew_touching, write_events
+from carom.systems.kernels.touching import find_hits, renew_touching, write_touching
 from carom.systems.settings import Settings, time_of
 
 
@@ -22,55 +22,29 @@ from carom.systems.settings import Settings, time_of
 )
 def tell_contacts(world: World, dt: float) -> None:
     """Tell which pairs begin and end to touch."""
-    contact, touching = world[Contact], world[Touching]
-    if not (contact.count or touching.count or world[Impact].count):
+    contact, touching, impact = world[Contact], world[Touching], world[Impact]
+    count, room = touching.count, touching.count + contact.count + impact.count
+    if not room:
         return
-    struck_a, struck_b, struck_at = struck(world)
-    count, room = touching.count, touching.count + contact.count + len(struck_a)
     a, b, since = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room)
     begins, ends = np.empty(room, np.bool_), np.empty(count, np.bool_)
     found, new = renew_touching(
         contact.count, contact.a, contact.b, contact.row_a, contact.row_b, contact.impulse, contact.depth,
-        struck_a, struck_b, struck_at, time_of(world),
+        impact.count, impact.a, impact.b, impact.time, time_of(world),
         count, touching.a, touching.b, touching.since, world.handles(), world.slots.row_shift,
         world[ColliderPose].body_row, world[Motion].asleep,
         a, b, since, begins, ends,
     )  # fmt: skip
     if found == count and not new:  # as most often; then it is what it was
         return
-    if found - new < count:
-        began = np.full(count, (world.frame - 1) * world[Settings].dt)
-        tell(world, ContactEnd, count - (found - new), ends, began, touching.a, touching.b)
-    if new:
-        tell(world, ContactBegin, new, begins[:found], since, a, b)
+    world.resize(ContactEnd, count - (found - new))
+    world.resize(ContactBegin, new)
     world.resize(Touching, found)
-    touching = world[Touching]
-    touching.a[:found], touching.b[:found], touching.since[:found] = a[:found], b[:found], since[:found]
-
-
-def struck(world: World) -> tuple[Integers, Integers, Floats]:
-    """Return the pairs (rows) of living entities that were struck in the step, in order of rows, and when first (s)."""
-    impact = world[Impact]
-    if not impact.count:
-        return impact.a[:0], impact.b[:0], impact.time[:0]
-    a, b, at = np.empty(impact.count, np.int64), np.empty(impact.count, np.int64), np.empty(impact.count)
-    count = find_struck(impact.count, impact.a, impact.b, impact.time, world.handles(), world.slots.row_shift, a, b, at)
-    return a[:count], b[:count], at[:count]
-
-
-def tell(
-    world: World,
-    kind: type[ContactBegin] | type[ContactEnd],
-    count: int,
-    which: Booleans,
-    time: Floats,
-    a: Integers,
-    b: Integers,
-) -> None:
-    """Write a table of events, so many of ``which``, in order of time, then handles."""
-    world.resize(kind, count)
-    table = world[kind]
-    write_events(which, time, a, b, table.time, table.a, table.b)
+    end, begin, touching = world[ContactEnd], world[ContactBegin], world[Touching]
+    write_touching(
+        count, ends, (world.frame - 1) * world[Settings].dt, end.time, end.a, end.b,
+        found, a, b, since, begins, begin.time, begin.a, begin.b, touching.a, touching.b, touching.since,
+    )  # fmt: skip
 
 
 @system(reads=(Impact, Material, Settings, Awake), writes=(Hit,), when=stirs)

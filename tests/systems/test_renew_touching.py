@@ -18,13 +18,17 @@ Pair = tuple[int, int]
 
 
 class Step(NamedTuple):
-    """Who touched before, since when; how contacts press, how deep; who was struck, when; who sleeps; who is gone."""
+    """Who touched before, since when; how contacts press, how deep; who was struck, when; who sleeps; who is gone.
+
+    Who is struck is so once more, these times (s) later.
+    """
 
     before: dict[Pair, float]
     contacts: dict[Pair, list[tuple[float, float]]]
     struck: dict[Pair, float]
     sleepers: set[int]
     dead: set[int]
+    again: list[float]
 
 
 @st.composite
@@ -40,6 +44,7 @@ def steps(draw: st.DrawFn) -> Step:
         draw(st.dictionaries(living, st.floats(4.0, 5.0), max_size=4)),
         draw(st.sets(st.integers(0, BODIES - 1), max_size=3)),
         dead,
+        draw(st.lists(st.floats(0.0, 0.5), max_size=2)),
     )
 
 
@@ -74,16 +79,19 @@ def test_who_touches_is_who_presses_lies_close_was_struck_or_sleeps(step: Step) 
     def rows(pairs: list[Pair]) -> list[np.ndarray]:
         return [np.array([pair[side] for pair in pairs], np.int64) for side in range(2)]
 
-    before, struck = sorted(step.before), sorted(step.struck)
+    before = sorted(step.before)
+    impacts = [(pair, time + later) for later in (*step.again, 0.0) for pair, time in step.struck.items()]
+    impacts.sort(key=lambda impact: impact[1])  # as a step goes through them; who is gone was struck, too
+    impacts += [((min(pair), max(pair)), NOW) for pair in step.before if not step.dead.isdisjoint(pair)]
     points = [(pair, *point) for pair in sorted(step.contacts) for point in step.contacts[pair]]
     of_points = [pair for pair, _, _ in points]
     impulse, depth = (np.array([point[k] for point in points]) for k in (1, 2))
-    room = len(before) + len(points) + len(struck)
+    room = len(before) + len(points) + len(impacts)
     a, b, since = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room)
     begins, ends = np.empty(room, np.bool_), np.empty(len(before), np.bool_)
     found, new = renew_touching(
         len(points), *entities(of_points), *rows(of_points), impulse, depth,
-        *rows(struck), np.array([step.struck[pair] for pair in struck]), NOW,
+        len(impacts), *entities([pair for pair, _ in impacts]), np.array([time for _, time in impacts]), NOW,
         len(before), *entities(before), np.array([step.before[pair] for pair in before]),
         world.handles(), world.slots.row_shift, np.arange(BODIES), asleep, a, b, since, begins, ends,
     )  # fmt: skip

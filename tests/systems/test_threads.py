@@ -85,12 +85,12 @@ def test_threads_go_with_their_world(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("carom.systems.threads.processors", lambda: 8)
     before, simulation = carom_threads(), Simulation(threads=3)
     threads = simulation.world[Threads]
-    with threads.step():
+    with threads:
         crew = crew_for(simulation.world, 10_000)
         assert len(crew) == 3 * ROOM
         assert crew_for(simulation.world, 1) is ALONE
     assert crew_for(simulation.world, 10_000) is ALONE
-    with threads.step():
+    with threads:
         threads.call(2)
     assert carom_threads() <= before + 3
     del simulation, threads
@@ -123,7 +123,7 @@ def test_who_had_nothing_to_do_is_not_called_again() -> None:
     threads = Threads()
     called = []
     for wanted in (True, False, False):
-        with threads.step():
+        with threads:
             called.append(threads.crew[SHIFT] % 2 == 0 and threads.crew is not ALONE)
             if wanted:
                 threads.call(2)
@@ -133,7 +133,7 @@ def test_who_had_nothing_to_do_is_not_called_again() -> None:
 def test_a_step_that_fails_sends_them_away() -> None:
     """Whatever ends a step, nobody is left waiting for work."""
     threads = Threads()
-    with pytest.raises(RuntimeError, match="fails"), threads.step():
+    with pytest.raises(RuntimeError, match="fails"), threads:
         crew = threads.call(2)
         assert crew[SHIFT] % 2 == 0
         raise RuntimeError("fails")

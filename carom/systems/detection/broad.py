@@ -11,11 +11,17 @@ from carom.ecs.components.flight import Flight
 from carom.systems.awake import Awake
 from carom.systems.constants import FEW_ASTRAY, FEW_BESIDE, MOST_ASTRAY
 from carom.systems.detection.broad_index import Index
-from carom.systems.kernels.broad_cache import REBUILD, find_leavers, find_met, keep_overlapping
+from carom.systems.kernels.broad_cache import (
+    IS_SENSOR,
+    REBUILD,
+    are_those_met,
+    find_leavers,
+    find_met,
+    keep_overlapping,
+)
 from carom.systems.kernels.broad_pairs import renew_pairs
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.islands import find_lively
-from carom.systems.kernels.rows import are_same_rows
 from carom.systems.settings import Settings
 from carom.systems.shapes.plane import Plane
 from carom.systems.stream import Stream
@@ -39,7 +45,7 @@ def still_overlapping(world: World, pairs: Integers) -> Integers:
     if not len(pairs):
         return pairs
     collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
-    found, meeting = np.empty_like(pairs), np.empty(len(pairs), np.bool_)
+    found, meeting = np.empty((len(pairs), 2), np.int64), np.empty(len(pairs), np.bool_)
     lively: Booleans = np.empty(len(collider.shape), np.bool_)
     lively.fill(True)
     if len(world[Awake].sleepers):
@@ -75,6 +81,7 @@ class BroadPhase(Resource):
         """Forget everything; the next detection finds the same pairs from nothing."""
         self.rows: Integers = NOBODY  # also a world without colliders is new
         self._flat, self._comes = NOBODY[:0], 0.0
+        self.senses = False  # whether some may be sensors
         self._goes_along, self._set_out = False, np.zeros(3)
         self._watched: tuple[Integers, Integers, Integers] | None = None
 
@@ -99,17 +106,16 @@ class BroadPhase(Resource):
     def renewed(self, world: World) -> Integers:
         """Return the pairs (n, 2) whose fat bounds overlap, sorted."""
         collider, there = world[Collider], world.row_numbers(Collider)
-        met: Integers = np.empty(len(there), np.int64)
-        rows = met[: find_met(there, collider.layer, collider.mask, met)]
-        if not are_same_rows(rows, self.rows):
-            if len(rows) and rows[-1] >= len(self.known):
+        if not are_those_met(there, collider.layer, collider.mask, self.rows):
+            met: Integers = np.empty(len(there), np.int64)
+            self.rows = met[: find_met(there, collider.layer, collider.mask, met)]
+            if len(self.rows) and self.rows[-1] >= len(self.known):
                 self._make_room(world.capacity)
-            self.rows = rows
             return self._found_anew(world)
         if self._half_spaces_come(world) > self._comes:
             return self._found_anew(world)
         leavers = self._leavers(world)
-        astray = max(FEW_ASTRAY, MOST_ASTRAY * len(rows))
+        astray = max(FEW_ASTRAY, MOST_ASTRAY * len(self.rows))
         if leavers is None or len(leavers) + len(self.index.strays) > astray:
             return self._found_anew(world)
         if len(leavers):
@@ -118,6 +124,7 @@ class BroadPhase(Resource):
 
     def _replace(self, world: World, leavers: Integers) -> None:
         """Look up only those that left their fat bounds."""
+        self.senses |= self._have_sensors(leavers)
         self.index.lead_astray(leavers)
         new = self.index.pairs_of(world, leavers)
         leaves = np.zeros(len(self.known), np.bool_)
@@ -136,10 +143,14 @@ class BroadPhase(Resource):
         self._flat = self.rows[world[Collider].shape[self.rows] == Plane.number]
         self._goes_along, self._set_out = self._flows(world), world[Stream].gone.copy()
         self._leavers(world, anew=True)
+        self.senses = self._have_sensors(self.rows)
         self._comes = 2.0 * self._half_spaces_come(world)  # so that it is not left at once
         self.index = Index(world, self.rows, self.fat_lower, self.fat_upper, self.known, self._comes)
         self.pairs = self.index.all_pairs(world)
         return self.pairs
+
+    def _have_sensors(self, rows: Integers) -> bool:
+        return bool((self.known[rows, 3] & IS_SENSOR).any())
 
     def _flows(self, world: World) -> bool:
         """Tell whether there is a stream that all but a few go along in, and no half space that comes on and on."""

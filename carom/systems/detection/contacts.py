@@ -105,26 +105,29 @@ def find(world: World, pairs: Integers) -> Found:
 def store(world: World, found: Found) -> None:
     """Write the contact table, matched with the one before."""
     old_count, count, resting = world[Contact].count, len(found.row_a), world[Resting]
-    if not resting.knows(world):
+    known = resting.knows(world)
+    if not known:
         resting.belts = bool(world[Collider].surface_velocity.any())
     world.resize(Contact, count)
-    same = bool(count or old_count) and fill(world, found, old_count, count)
+    same = bool(count or old_count) and fill(world, found, old_count, known=known)
     group_contacts(world, same=same)
     resting.structure, resting.awake = world.structure, world[Awake].now(world)
 
 
-def fill(world: World, found: Found, old_count: int, count: int) -> bool:
+def fill(world: World, found: Found, old_count: int, *, known: bool) -> bool:
     """Write what is known of contacts, and what follows from it, into the contact table.
 
-    Return whether the same contacts were in the same places, what follows from shapes and materials was known, and what
+    Where all are ``known``, nothing was done from outside since the table before of ``old_count`` contacts. Return
+    whether the same contacts were in the same places, what follows from shapes and materials was known, and what
     they hold is what they held.
     """
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
+    count = contact.count
     crew = crew_for(world, count)
     changed, resting = np.zeros(threads_of(crew), np.bool_), world[Resting]
     match = found.old if isinstance(found, Kept) else renew(world, crew, found, old_count, changed)
     complete_contacts(
-        crew, count, match, found.old, resting.knows(world), resting.belts, changed,
+        crew, count, match, found.old, known, resting.belts, changed,
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, world[Flight].detected_center, world[Transform].rotation,

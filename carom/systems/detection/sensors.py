@@ -8,6 +8,10 @@ from carom.ecs import Collider, ColliderPose, Transform, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.spatial import quaternion
+from carom.systems.detection.broad import BroadPhase
+
+NOBODY: Integers = np.empty((0, 2), np.int64)
+NO_POSITIONS, NO_ROTATIONS = np.empty((0, 2, 3)), np.empty((0, 2, 4))
 
 
 class Sensing(Resource):
@@ -22,8 +26,7 @@ class Sensing(Resource):
 
     def forget(self) -> None:
         """Begin a step."""
-        self.pairs: Integers = np.empty((0, 2), np.int64)
-        self.positions, self.rotations = np.empty((0, 2, 3)), np.empty((0, 2, 4))
+        self.pairs, self.positions, self.rotations = NOBODY, NO_POSITIONS, NO_ROTATIONS
         self.gaps: Floats | None = None
 
     def note(self, world: World, rows: Integers) -> None:
@@ -46,11 +49,10 @@ class Sensing(Resource):
 
 
 def without_sensors(world: World, pairs: Integers) -> Integers:
-    """Return ``pairs`` (n, 2) of rows without those of sensors, which are noted."""
-    sensor = world[Collider].sensor
-    if not sensor[: world.used()].any():
+    """Return ``pairs`` (n, 2) of rows that the broad phase has found without those of sensors, which are noted."""
+    if not world[BroadPhase].senses:
         return pairs
-    senses = sensor[pairs]
+    senses = world[Collider].sensor[pairs]
     of_sensors = senses.any(axis=1)
     rows = pairs[of_sensors]
     world[Sensing].note(world, np.where(senses[of_sensors, :1], rows, rows[:, ::-1]))

@@ -9,10 +9,11 @@ from carom.ecs.column import Integers
 from carom.ecs.components.spring import Spring
 from carom.ecs.spatial import quaternion
 from carom.systems.ends import ends_there
+from carom.systems.forces.standing import Standing
 from carom.systems.kernels.springs import add_springs
 
 
-@system(reads=(Transform, Motion, RigidBody), writes=(Spring,), adds=(Force,))
+@system(reads=(Transform, Motion, RigidBody, Standing), writes=(Spring,), adds=(Force,))
 def apply_springs(world: World, dt: float) -> None:
     """Add what springs and their dampers pull, equal and opposite, with its torque about the centres of mass."""
     rows, row_a, row_b = ends_there(world, Spring)

@@ -34,3 +34,8 @@ def forces_vary(world: World) -> bool:
     """Tell whether forces are to be summed in this substep: where they do not stay, in the first, and of who woke."""
     standing = world[Standing]
     return not standing.stay or standing.rows is not world[Awake].now(world)
+
+
+def laws_may_act(world: World) -> bool:
+    """Tell whether laws, springs or systems that are not carom's may act: where forces stay there are none."""
+    return not world[Standing].stay

@@ -45,6 +45,17 @@ def find_met(rows, layer, mask, met):
     return count
 
 
+@kernel()
+def are_those_met(rows, layer, mask, met):
+    """Tell whether ``met`` are the rows that `find_met` writes, in their order."""
+    count, same = 0, True
+    for i in rows:
+        if layer[i] != 0 and mask[i] != 0:
+            same &= count < len(met) and met[count] == i
+            count += 1
+    return same and count == len(met)
+
+
 @kernel("fat_lower", "fat_upper", "known", "seat", "leavers")
 def find_leavers(
     anew, rows, shape, size, bound_half, bound_radius, body_row, inverse_mass, layer, mask, sensor,

@@ -8,13 +8,6 @@ import numpy as np
 from carom.systems.kernels.kernel import kernel
 
 
-@kernel("own")
-def own_rows(some, own):
-    """Write the number of each row that is among ``some``, -1 of others."""
-    for i in range(len(some)):
-        own[i] = i if some[i] else -1
-
-
 @kernel()
 def are_same_rows(one, other):
     """Tell whether two lists are of the same rows."""

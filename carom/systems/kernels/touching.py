@@ -12,7 +12,7 @@ from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.recycling import first_of_pair, is_at, is_pair, row_of
 
 
-@kernel("struck_a", "struck_b", "struck_at")
+@woven
 def find_struck(count, a, b, time, handles, row_shift, struck_a, struck_b, struck_at):
     """Write the pairs (rows) of those alive that ``count`` impacts were of, in order, each with its first time.
 
@@ -33,15 +33,27 @@ def find_struck(count, a, b, time, handles, row_shift, struck_a, struck_b, struc
     return pairs
 
 
-@kernel("time", "a", "b")
-def write_events(which, since, of_a, of_b, time, a, b):
-    """Write the events that take place (``which``) in order of time, then handles."""
-    n = 0
-    for k in range(len(which)):
-        if which[k]:
-            time[n], a[n], b[n] = since[k], of_a[k], of_b[k]
-            n += 1
-    sort_rows(n, time, a, b)
+@kernel("end_time", "end_a", "end_b", "begin_time", "begin_a", "begin_b", "was_a", "was_b", "was_since")
+def write_touching(
+    count, ends, began, end_time, end_a, end_b, found, a, b, since, begins, begin_time, begin_a, begin_b,
+    was_a, was_b, was_since,
+):  # fmt: skip
+    """Write the ``found`` pairs in the place of ``count``, and who ends and begins in order of time, then handles.
+
+    Those that end did so at some time within the step that ``began`` (s) then.
+    """
+    ended, new = 0, 0
+    for o in range(count):
+        if ends[o]:
+            end_time[ended], end_a[ended], end_b[ended] = began, was_a[o], was_b[o]
+            ended += 1
+    for n in range(found):
+        if begins[n]:
+            begin_time[new], begin_a[new], begin_b[new] = since[n], a[n], b[n]
+            new += 1
+        was_a[n], was_b[n], was_since[n] = a[n], b[n], since[n]
+    sort_rows(ended, end_time, end_a, end_b)
+    sort_rows(new, begin_time, begin_a, begin_b)
 
 
 @woven
@@ -117,23 +129,27 @@ def is_earlier(k, o, a, b, time):
     return b[k] < b[o]
 
 
-@kernel("a", "b", "since", "begins", "ends")
+@kernel("a", "b", "since", "begins", "ends", makes_arrays=True)
 def renew_touching(
     points, contact_a, contact_b, row_a, row_b, impulse, depth,
-    struck_a, struck_b, struck_at, now, count, was_a, was_b, was_since, handles, row_shift, body_row, asleep,
+    impacts, impact_a, impact_b, impact_time, now, count, was_a, was_b, was_since, handles, row_shift, body_row, asleep,
     a, b, since, begins, ends,
 ):  # fmt: skip
     """Write the pairs that touch, since when, and whether each ``begins``; ``ends`` tells which of those before do not.
 
-    ``points`` rows of the contact table and the pairs (rows) that were struck, first at ``struck_at`` (s), are in order
-    of rows, as the ``count`` pairs before were. Others than those struck begin ``now``. Nobody looks for contacts of
-    those who sleep: they go on touching. Returns how many pairs touch and how many of them begin.
+    ``points`` rows of the contact table are in order of rows, as the ``count`` pairs before were. Pairs that were
+    struck begin at the first of the ``impacts`` that were of them, others ``now``. Nobody looks for contacts of those
+    who sleep: they go on touching. Returns how many pairs touch and how many of them begin.
     """
     for o in range(count):
         ends[o] = True
+    struck_a, struck_b, struck_at = np.empty(impacts, np.int64), np.empty(impacts, np.int64), np.empty(impacts)
+    struck = find_struck(
+        impacts, impact_a, impact_b, impact_time, handles, row_shift, struck_a, struck_b, struck_at
+    )  # fmt: skip
     c, s, o, n, new = 0, 0, 0, 0, 0
-    while c < points or s < len(struck_a):
-        strikes = s < len(struck_a)
+    while c < points or s < struck:
+        strikes = s < struck
         if strikes and c < points:
             strikes = struck_a[s] < row_a[c] or (struck_a[s] == row_a[c] and struck_b[s] <= row_b[c])
         x, y = (struck_a[s], struck_b[s]) if strikes else (row_a[c], row_b[c])
