@@ -84,7 +84,7 @@ def test_explain_shows_its_systems_where_they_are_placed(site: Path) -> None:
     assert names[names.index("take_damage") + 1] == "clear_inputs"
     assert names[names.index("apply_tether") - 1] == "apply_quadratic_drag"
     assert (damage["phase"], damage["reads"], damage["writes"]) == ("finish", ["Impact"], ["Health"])
-    assert (tether["phase"], tether["adds"]) == ("forces", ["Force"])
+    assert (tether["phase"], tether["adds"]) == ("laws", ["Force"])
     assert tether["reads"] == ["Forces", "Transform", "RigidBody"]
 
 

@@ -97,14 +97,17 @@ class Frame:
         """Run a phase of ``dt`` seconds; tell whether it has run at all."""
         world, checked, after, spent, calls = self.world, self.checked, self.after, self.spent, self.calls
         repeats, asked = 1 if phase.repeat is None else phase.repeat(world), phase.question
-        share = dt / max(repeats, 1)
+        share, began, clock = dt / max(repeats, 1), self.began, perf_counter_ns
         for done in range(repeats):
             if asked is not None and not (asked.guarded if checked else asked.condition)(world):
+                self.began = began
                 return done > 0
             for part, name, question, function in phase.steps:
                 if function is None:
                     world.running = None
+                    self.began = began
                     self.run(part, share)
+                    began = self.began
                     continue
                 world.running = part
                 if question is not None and not (question.guarded if checked else question.condition)(world):
@@ -113,11 +116,12 @@ class Frame:
                     part.guarded(world, share)
                 else:
                     function(world, share)
-                now = perf_counter_ns()
-                spent[name] += now - self.began
+                now = clock()
+                spent[name] += now - began
                 calls[name] += 1
-                self.began = now
+                began = now
                 if after is not None:
                     after(part)
-                    self.began = perf_counter_ns()
+                    began = clock()
+        self.began = began
         return True

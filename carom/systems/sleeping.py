@@ -56,12 +56,13 @@ def wake_disturbed(world: World, dt: float) -> None:
     """Wake who was changed from outside since the last step, and see whether there is anything to do."""
     awake = world[Awake]
     changes, turned = awake.look(world), _turned(world)
-    if changes or awake.strangers:
+    changed = bool(changes)
+    if changed or awake.strangers:
         awake.find(world)
     asked = awake.sleepers
     if len(asked):
         asked = asked[world[Motion].still[asked] < 0.0]
-    if not changes and not len(asked) and not len(turned) and awake.idle:
+    if not (changed or len(asked) or len(turned)) and awake.idle:
         return
     ties, joined = world[Ties], Joint in changes.edited
     if joined or changes.structure or changes.restored:
@@ -84,7 +85,7 @@ def wake_disturbed(world: World, dt: float) -> None:
             if joined:
                 disturbed += [held, ties.bodies]
             wake(world, np.concatenate(disturbed))
-    awake.idle = not changes and awake.nobody_moves(world)
+    awake.idle = not changed and awake.nobody_moves(world)
 
 
 @system(

@@ -30,7 +30,8 @@ def tell_contacts(world: World, dt: float) -> None:
     begins, ends = np.empty(room, np.bool_), np.empty(count, np.bool_)
     found, new = renew_touching(
         contact.count, contact.a, contact.b, contact.row_a, contact.row_b, contact.impulse, contact.depth,
-        impact.count, impact.a, impact.b, impact.time, time_of(world),
+        impact.count, impact.a, impact.b, impact.time, np.empty(impact.count, np.int64),
+        np.empty(impact.count, np.int64), np.empty(impact.count), time_of(world),
         count, touching.a, touching.b, touching.since, world.handles(), world.slots.row_shift,
         world[ColliderPose].body_row, world[Motion].asleep,
         a, b, since, begins, ends,

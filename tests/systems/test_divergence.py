@@ -72,7 +72,7 @@ def test_a_force_in_one_of_them_is_named(both: bool) -> None:
         a.force_function(one_place_more(lambda world: False), "nudge")
     found = first_divergence(a, b, 30)
     assert str(found) == (
-        "frame 12, system 'nudge', run 1 in phase 'forces': Force.force[2] of entity 'ball' "
+        "frame 12, system 'nudge', run 1 in phase 'laws': Force.force[2] of entity 'ball' "
         f"is 0.0 in the first and 1e-09 in the second, {int(np.float64(1e-9).view('i8'))} ulps apart"
     )
     assert (a.frame, b.frame) == (12, 12)

@@ -91,7 +91,8 @@ def test_who_touches_is_who_presses_lies_close_was_struck_or_sleeps(step: Step) 
     begins, ends = np.empty(room, np.bool_), np.empty(len(before), np.bool_)
     found, new = renew_touching(
         len(points), *entities(of_points), *rows(of_points), impulse, depth,
-        len(impacts), *entities([pair for pair, _ in impacts]), np.array([time for _, time in impacts]), NOW,
+        len(impacts), *entities([pair for pair, _ in impacts]), np.array([time for _, time in impacts]),
+        np.empty(len(impacts), np.int64), np.empty(len(impacts), np.int64), np.empty(len(impacts)), NOW,
         len(before), *entities(before), np.array([step.before[pair] for pair in before]),
         world.handles(), world.slots.row_shift, np.arange(BODIES), asleep, a, b, since, begins, ends,
     )  # fmt: skip

@@ -96,7 +96,7 @@ def test_contacts_keep_what_they_held(threads: int, renewal: Renewal) -> None:
         found.normal[k], found.depth[k], found.by_fcl[k] = (k, 0.0, 1.0), k, k % 2
         found.old[k] = match[k] if (x, y) in renewal.recycled else -1
     matched, pool = np.empty(count, np.int64), Threads()
-    with pool.step():
+    with pool:
         crew = pool.call(threads) if threads > 1 else ALONE
         changed = np.zeros(threads_of(crew), np.bool_)
         renew_contacts(

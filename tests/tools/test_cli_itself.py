@@ -70,7 +70,7 @@ def test_explain_schema_and_worlds_print(capsys: pytest.CaptureFixture[str]) -> 
     frame = json.loads(capsys.readouterr().out)
     assert all({"phase", "system", "reads", "writes", "adds"} < system.keys() for system in frame)
     repeated = {system["phase"] for system in frame if system["repeated"]}
-    assert repeated == {"substep", "forces", "begin substep", "end substep"}
+    assert repeated == {"substep", "forces", "laws", "begin substep", "end substep"}
     assert main(["schema"]) == 0
     assert "properties" in json.loads(capsys.readouterr().out)
     assert main(["worlds"]) == 0

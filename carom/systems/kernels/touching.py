@@ -129,21 +129,21 @@ def is_earlier(k, o, a, b, time):
     return b[k] < b[o]
 
 
-@kernel("a", "b", "since", "begins", "ends", makes_arrays=True)
+@kernel("struck_a", "struck_b", "struck_at", "a", "b", "since", "begins", "ends")
 def renew_touching(
     points, contact_a, contact_b, row_a, row_b, impulse, depth,
-    impacts, impact_a, impact_b, impact_time, now, count, was_a, was_b, was_since, handles, row_shift, body_row, asleep,
-    a, b, since, begins, ends,
+    impacts, impact_a, impact_b, impact_time, struck_a, struck_b, struck_at, now,
+    count, was_a, was_b, was_since, handles, row_shift, body_row, asleep, a, b, since, begins, ends,
 ):  # fmt: skip
     """Write the pairs that touch, since when, and whether each ``begins``; ``ends`` tells which of those before do not.
 
     ``points`` rows of the contact table are in order of rows, as the ``count`` pairs before were. Pairs that were
-    struck begin at the first of the ``impacts`` that were of them, others ``now``. Nobody looks for contacts of those
-    who sleep: they go on touching. Returns how many pairs touch and how many of them begin.
+    struck, for which there is room in ``struck_a``, ``struck_b`` and ``struck_at``, begin at the first of the
+    ``impacts`` that were of them, others ``now``. Nobody looks for contacts of those who sleep: they go on touching.
+    Returns how many pairs touch and how many of them begin.
     """
     for o in range(count):
         ends[o] = True
-    struck_a, struck_b, struck_at = np.empty(impacts, np.int64), np.empty(impacts, np.int64), np.empty(impacts)
     struck = find_struck(
         impacts, impact_a, impact_b, impact_time, handles, row_shift, struck_a, struck_b, struck_at
     )  # fmt: skip
