@@ -12,15 +12,17 @@ from crews import gathered
 
 from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Floats, Integers
+from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.constants import REACH_KEPT
 from carom.systems.detection import narrow, recycling
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
-from carom.systems.detection.contacts import store
+from carom.systems.detection.contacts import fill, store
 from carom.systems.detection.narrow import Found, measure_pairs
-from carom.systems.detection.recycling import Kept, find_balls, in_table, measure_what_moved
+from carom.systems.detection.recycling import Complete, Kept, find_balls, in_table, measure_what_moved
 from carom.systems.kernels.crew import ALONE
+from carom.systems.resting import Resting
 from carom.systems.simulation import Simulation
 
 COUNT = 40
@@ -67,6 +69,12 @@ def are_the_same(found: Found | None, wanted: Found) -> bool:
     )
 
 
+def shift(world: World, row: int) -> None:
+    """Move a ball and its body by a little."""
+    for places in (world[ColliderPose].position, world[Flight].detected_center):
+        places[row] += 1e-9
+
+
 def place_of(found: Found, k: int, pairs: Integers) -> int:
     """Return which pair a contact is of."""
     return int(np.argmax((pairs == (found.row_a[k], found.row_b[k])).all(axis=1)))
@@ -92,7 +100,7 @@ def test_what_the_table_holds_is_placed_in_it(crowd: tuple[World, Integers, Floa
     world, pairs, reaches = crowd
     store(world, measure_pairs(world, pairs, reaches))
     count, held = world[Contact].count, table(world)
-    world[ColliderPose].position[pairs[0, 1]] += 1e-9
+    shift(world, pairs[0, 1])
     wanted = measure_pairs(world, pairs, reaches)
     assert not are_the_same(held, wanted)
     for some in (wanted.row_a[0], wanted.row_b[0]), (wanted.row_a[-1], wanted.row_b[-1]):
@@ -106,7 +114,7 @@ def test_what_the_table_holds_is_placed_in_it(crowd: tuple[World, Integers, Floa
     assert found.old.tolist() == list(range(count))
     assert are_the_same(found, wanted)
     assert are_the_same(table(world), wanted)
-    world[ColliderPose].position[pairs[0, 1]] += 1e-9
+    shift(world, pairs[0, 1])
     store(world, measure_pairs(world, pairs[others], reaches[others]))
     held = table(world)
     more = find_balls(world, pairs, reaches)
@@ -144,6 +152,28 @@ def test_it_stays_as_long_whoever_finds_it(
     assert not isinstance(wanted, Kept)
     monkeypatch.setattr(recycling, "find_balls", lambda *arguments: None)
     assert are_the_same(measure_what_moved(world, pairs, reaches / 1.5), wanted)
+
+
+def test_what_follows_from_where_they_are_is_there(crowd: tuple[World, Integers, Floats]) -> None:
+    """As it is of what is found anew, to the last bit; not where a surface runs, or a ball rolls about no centre."""
+    world, pairs, reaches = crowd
+    contact, columns = world[Contact], ("offset_a", "offset_b", "share")
+    store(world, measure_pairs(world, pairs, reaches))
+    shift(world, pairs[0, 1])
+    found = find_balls(world, pairs, reaches)
+    assert isinstance(found, Complete)
+    placed = [getattr(contact, name)[: contact.count].copy() for name in columns]
+    assert np.unique(placed[2]).tolist() == [0.0, 0.5, 1.0]
+    assert fill(world, Kept(*found), contact.count, known=True)
+    for name, column in zip(columns, placed, strict=True):
+        assert getattr(contact, name)[: contact.count].tobytes() == column.tobytes()
+    world[Resting].belts = True
+    found = find_balls(world, pairs, reaches)
+    assert isinstance(found, Kept)
+    assert not isinstance(found, Complete)
+    world[ColliderPose].position[pairs[0, 1]] += 1e-9
+    assert are_the_same(find_balls(world, pairs, reaches), measure_pairs(world, pairs, reaches))
+    assert not isinstance(find_balls(world, pairs, reaches), Kept)
 
 
 @pytest.mark.parametrize("fault", ["feature", "by_fcl", "a", "b"])

@@ -128,8 +128,12 @@ def test_what_is_to_be_measured_again_leaves_its_contacts_as_they_are(pair: tupl
 
 
 @pytest.mark.parametrize("astray", [None, (0, 0), (1, 3), (2, 7), (3, 3), (3, 16), (4, 8), (5, 0), (5, 2)])
-def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None) -> None:
-    """As many of a pair as there may be, of one normal or several, to the end of the table; one astray leaves all."""
+@pytest.mark.parametrize("completes", [False, True])
+def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None, completes: bool) -> None:
+    """As many of a pair as there may be, of one normal or several, to the end of the table; one astray leaves all.
+
+    With where they are from both bodies, or from what stands, where that is asked for; a face bears the points on it.
+    """
     generator = np.random.default_rng(5)
     numbers = np.array([1, 4, 8, 17, 9, 3])
     pairs, of = np.arange(12).reshape(6, 2), np.repeat(np.arange(6), numbers)
@@ -140,7 +144,9 @@ def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None) -> No
     position, rotation = generator.normal(size=(12, 3)), quaternion.normalise(generator.normal(size=(12, 4)))
     normal = quaternion.normalise(generator.normal(size=(count, 3)))
     normal[of % 2 == 1] = normal[np.searchsorted(of, of)][of % 2 == 1]
+    normal[of == 5] = quaternion.rotate(rotation[pairs[5, 1]], (0.0, 1.0, 0.0))
     point, depth = generator.normal(size=(count, 3)), 0.01 * generator.normal(size=count)
+    body, center = np.arange(12) - 6, generator.normal(size=(6, 3))
     contact.seat_depth[:], (contact.a[:], contact.b[:]) = depth, pairs[of].T
     for side, sense, seat, lean in (
         (0, 0.5, contact.seat_a, contact.lean_a),
@@ -155,7 +161,8 @@ def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None) -> No
         same = of != pair
         contact.seat_b[np.argmin(same) + number] += 0.01
     table = contact.normal, contact.depth, contact.point
-    for column in table:
+    offsets = contact.offset_a, contact.offset_b, contact.share
+    for column in (*table, *offsets):
         column[:] = np.nan
     moved, reaches, kept, ends = (
         np.empty_like(pairs),
@@ -164,13 +171,21 @@ def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None) -> No
         np.zeros((1, 2), np.int64),
     )
     recycle_contacts(
-        ALONE, pairs, np.ones(6), True, count, np.arange(12), np.zeros(12, np.int32),
+        ALONE, pairs, np.ones(6), True, completes, count, np.arange(12), np.zeros(12, np.int32),
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
-        position, rotation, contact.a, contact.b, contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b,
-        contact.seat_depth, contact.form, moved, reaches, contact.row_a, contact.row_b, *table, kept, ends,
+        position, rotation, body, center, contact.a, contact.b,
+        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
+        moved, reaches, contact.row_a, contact.row_b, *table, *offsets, kept, ends,
     )  # fmt: skip
     assert ends.tolist() == [[same.sum(), 0 if astray is None else 1]]
     assert kept[: ends[0, 0]].tolist() == np.flatnonzero(same).tolist()
     for found, wanted in zip(table, (normal, depth, point), strict=True):
         assert found[same] == pytest.approx(wanted[same], abs=1e-14)
         assert np.isnan(found[~same]).all()
+    half = 0.5 * depth[:, None] * normal
+    seats = np.concatenate([position[:6], center])[pairs[of]]
+    wanted_offsets = point + half - seats[:, 0], point - half - seats[:, 1], np.where(of == 5, 0.0, 0.5)
+    placed = same & completes
+    for found, wanted in zip(offsets, wanted_offsets, strict=True):
+        assert found[placed] == pytest.approx(wanted[placed], abs=1e-14)
+        assert np.isnan(found[~placed]).all()

@@ -21,7 +21,7 @@ from carom.systems.detection.fcl_objects import FclObjects
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.narrow import NOTHING, Found
-from carom.systems.detection.recycling import Kept, measure_what_moved
+from carom.systems.detection.recycling import Complete, Kept, measure_what_moved
 from carom.systems.detection.seams import Seams, without_seams
 from carom.systems.detection.sensors import Sensing, without_sensors
 from carom.systems.grouping import group_contacts
@@ -110,6 +110,7 @@ def store(world: World, found: Found) -> None:
         resting.belts = bool(world[Collider].surface_velocity.any())
     world.resize(Contact, count)
     same = bool(count or old_count) and fill(world, found, old_count, known=known)
+    resting.lasts = isinstance(found, Kept)
     group_contacts(world, same=same)
     resting.structure, resting.awake = world.structure, world[Awake].now(world)
 
@@ -121,13 +122,24 @@ def fill(world: World, found: Found, old_count: int, *, known: bool) -> bool:
     whether the same contacts were in the same places, what follows from shapes and materials was known, and what
     they hold is what they held.
     """
+    changed = not isinstance(found, Complete) and complete(world, found, old_count, known=known)
+    contact = world[Contact]
+    crushed = let_go_of_crushed(
+        world[Awake].now(world), contact.count, contact.body_a, contact.body_b, contact.depth,
+        world[RigidBody].inverse_mass, world[Motion].linear, world[Motion].angular,
+        contact.warm_normal, contact.warm_friction, contact.warm_rolling, world[Resting].crushed_among(world),
+    )  # fmt: skip
+    return contact.count == old_count and not (changed or crushed)
+
+
+def complete(world: World, found: Found, old_count: int, *, known: bool) -> bool:
+    """Replace the contacts by those found, with what follows from their colliders; tell whether any of it changed."""
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
-    count = contact.count
-    crew = crew_for(world, count)
-    changed, resting = np.zeros(threads_of(crew), np.bool_), world[Resting]
+    crew = crew_for(world, contact.count)
+    changed = np.zeros(threads_of(crew), np.bool_)
     match = found.old if isinstance(found, Kept) else renew(world, crew, found, old_count, changed)
     complete_contacts(
-        crew, count, match, found.old, known, resting.belts, changed,
+        crew, contact.count, match, found.old, known, world[Resting].belts, changed,
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, world[Flight].detected_center, world[Transform].rotation,
@@ -140,12 +152,7 @@ def fill(world: World, found: Found, old_count: int, *, known: bool) -> bool:
         contact.other_position, contact.other_rotation,
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
     )  # fmt: skip
-    crushed = let_go_of_crushed(
-        world[Awake].now(world), count, contact.body_a, contact.body_b, contact.depth, world[RigidBody].inverse_mass,
-        world[Motion].linear, world[Motion].angular,
-        contact.warm_normal, contact.warm_friction, contact.warm_rolling, resting.crushed_among(world),
-    )  # fmt: skip
-    return count == old_count and not any(changed.tolist()) and not crushed
+    return any(changed.tolist())
 
 
 def renew(world: World, crew: Integers, found: Found, old_count: int, changed: Booleans) -> Integers:

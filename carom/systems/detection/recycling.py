@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Collider, ColliderPose, World
+from carom.ecs import Collider, ColliderPose, RigidBody, Transform, World
 from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.apart import Apart
@@ -26,6 +27,12 @@ class Kept(Found):
     __slots__ = ()
 
 
+class Complete(Kept):
+    """All contacts of the table, of which it holds also what follows from where their colliders are."""
+
+    __slots__ = ()
+
+
 def in_table(contact: Contact) -> tuple[Integers, Integers, Integers, Floats, Floats, Floats, Booleans]:
     """Return the columns of the contact table of what is found."""
     return (
@@ -33,9 +40,9 @@ def in_table(contact: Contact) -> tuple[Integers, Integers, Integers, Floats, Fl
     )  # fmt: skip
 
 
-def all_of(contact: Contact, places: Integers) -> Kept:
+def all_of(contact: Contact, places: Integers, *, complete: bool) -> Kept:
     """Return all contacts of the table; ``places`` (n,) are those that they have there."""
-    return Kept(*Found(*in_table(contact), places).take(slice(contact.count)))
+    return (Complete if complete else Kept)(*Found(*in_table(contact), places).take(slice(contact.count)))
 
 
 def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
@@ -53,18 +60,20 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     kept: Integers = np.empty(contact.count, np.int64)
     crew = crew_for(world, len(pairs))
     ends = np.zeros((threads_of(crew), 2), np.int64)
+    completes = known and resting.lasts and not resting.belts
     recycle_contacts(
-        crew, pairs, reaches, known, contact.count, world.handles(), world.slots.row_shift,
+        crew, pairs, reaches, known, completes, contact.count, world.handles(), world.slots.row_shift,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
-        pose.position, pose.rotation,
+        pose.position, pose.rotation, pose.body_row, world[Flight].detected_center,
         contact.a, contact.b, contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b,
         contact.seat_depth, contact.form,
-        moved, moved_reaches, contact.row_a, contact.row_b, contact.normal, contact.depth, contact.point, kept, ends,
+        moved, moved_reaches, contact.row_a, contact.row_b, contact.normal, contact.depth, contact.point,
+        contact.offset_a, contact.offset_b, contact.share, kept, ends,
     )  # fmt: skip
     count, moving = map(max, zip(*ends.tolist(), strict=True))  # not all may have come
     world[Answered].recycled += len(pairs) - moving
     if not moving and count == contact.count:
-        return all_of(contact, kept)
+        return all_of(contact, kept, complete=completes)
     fresh = NOTHING
     if moving:
         fresh = measure_pairs(world, moved[:moving], moved_reaches[:moving], apart=world[Apart])
@@ -84,8 +93,10 @@ def find_balls(world: World, pairs: Integers, reaches: Floats) -> Found | None:
     crew, n = crew_for(world, len(pairs)), len(pairs)
     told, found = np.zeros((threads_of(crew), 3), np.int64), Found.room(n)
     find_ball_contacts(
-        crew, pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation,
-        world.handles(), world.slots.row_shift, contact.count, contact.a, contact.b, *in_table(contact),
+        crew, pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation, pose.body_row,
+        world[Flight].detected_center, world[Transform].rotation, world[RigidBody].inverse_mass,
+        world.handles(), world.slots.row_shift, contact.count, contact.a, contact.b, contact.kind, *in_table(contact),
+        contact.offset_a, contact.offset_b, contact.share,
         np.empty(n, np.int64), np.empty(n, np.int64), np.empty((n, 7)), told, *found,
     )  # fmt: skip
     count, others, new = map(sum, zip(*told.tolist(), strict=True))
@@ -93,4 +104,6 @@ def find_balls(world: World, pairs: Integers, reaches: Floats) -> Found | None:
         return None
     world[Answered].kernels += n
     world[Apart].note(pairs, NO_GAPS, 0)
-    return found.take(slice(count)) if new else all_of(contact, found.old)
+    if new:
+        return found.take(slice(count))
+    return all_of(contact, found.old, complete=not world[Resting].belts)

@@ -8,9 +8,11 @@ from carom.systems.constants import REACH_KEPT
 from carom.systems.kernels.balls import HALF_SPACE, gap_of_ball, gap_of_balls
 
 # mypy: disable-error-code="no-untyped-def"
+from carom.systems.kernels.contacts import exact_pair
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, is_ball, kind_and_extent
+from carom.systems.kernels.offsets import find_offsets
 from carom.systems.kernels.recycling import first_of_pair, is_pair
 from carom.systems.kernels.validity import SOUND, fault_of
 from carom.systems.kernels.writing import write_point
@@ -41,20 +43,21 @@ def measure_balls(
 
 
 @shared(
-    "row_a", "row_b", "normal", "depth", "point", "near", "chosen", "measured", "told",
+    "row_a", "row_b", "normal", "depth", "point", "offset_a", "offset_b", "share", "near", "chosen", "measured", "told",
     "found_a", "found_b", "found_feature", "found_normal", "found_depth", "found_point", "found_by_fcl", "old",
 )  # fmt: skip
 def find_ball_contacts(
-    crew, pairs, reaches, shape, size, position, rotation, handles, row_shift, count,
-    a, b, row_a, row_b, feature, normal, depth, point, by_fcl, near, chosen, measured, told,
+    crew, pairs, reaches, shape, size, position, rotation, body_row, center, body_rotation, inverse_mass,
+    handles, row_shift, count, a, b, kind, row_a, row_b, feature, normal, depth, point, by_fcl,
+    offset_a, offset_b, share, near, chosen, measured, told,
     found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, old,
 ):  # fmt: skip
     """Find the contacts of pairs that `measure_balls` is for, sorted, as all that measure and collect would.
 
     Those that the table holds, ``count`` of them, stay until they are farther, by REACH_KEPT. Where they are all that
-    is found, only where they are now is written, and into it. Each thread has a row of ``told``: how many of its pairs
-    are contacts, how many are of other shapes or unsound, and whether there are others than those that the table holds.
-    ``near``, ``chosen`` and ``measured`` are room for each pair.
+    is found, and meet as they did (`exact_pair`), only where they are now is written, and into it. Each thread has a
+    row of ``told``: how many of its pairs are contacts, how many are of other shapes or unsound, and whether there are
+    others than those that the table holds. ``near``, ``chosen`` and ``measured`` are room for each pair.
     """
     _, part, parts = crew
     begin, end = part_of(crew, len(pairs))
@@ -81,7 +84,10 @@ def find_ball_contacts(
             held = is_pair(o, count, x, y, a, b, handles)
             if not held and -measured[m, 0] > reaches[p]:
                 continue
-        new += not (held and feature[o] == 0 and not by_fcl[o])
+        what, _, _, _, _, _, _ = exact_pair(
+            x, y, shape, size, body_row, position, rotation, center, body_rotation, inverse_mass
+        )
+        new += not (held and feature[o] == 0 and not by_fcl[o] and kind[o] == what)
         fault, _, _ = fault_of(
             measured[m, 1], measured[m, 2], measured[m, 3], measured[m, 0],
             measured[m, 4], measured[m, 5], measured[m, 6], inf, inf,
@@ -107,6 +113,10 @@ def find_ball_contacts(
         if same:
             old[c] = c
             write_measured(c, p, m, pairs, measured, row_a, row_b, normal, depth, point)
+            find_offsets(
+                c, c + 1, pairs[p, 0], pairs[p, 1], normal, depth, point, body_row, shape, position, rotation, center,
+                offset_a, offset_b, share,
+            )  # fmt: skip
         else:
             old[c], found_feature[c], found_by_fcl[c] = -1, 0, False
             write_measured(c, p, m, pairs, measured, found_a, found_b, found_normal, found_depth, found_point)

@@ -6,14 +6,13 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.components.material import Combine
-from carom.systems.constants import LEANING
 from carom.systems.kernels.balls import BOX, HALF_SPACE
 from carom.systems.kernels.cores import CONE_SHAPE, CONVEX_SHAPE, CYLINDER_SHAPE, ELLIPSOID_SHAPE
 from carom.systems.kernels.crew import runs_of, shared
-from carom.systems.kernels.frames import turned_back
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
-from carom.systems.kernels.recycling import is_alike, seat_pair, turned
+from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
+from carom.systems.kernels.offsets import find_offsets
+from carom.systems.kernels.recycling import seat_pair, turned
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
 
@@ -69,8 +68,6 @@ def complete_contacts(
                 seat_a, seat_b, lean_a, lean_b, seat_depth, form,
             )  # fmt: skip
         on_a, on_b = body_row[a], body_row[b]
-        ax, ay, az = seat_of(a, on_a, center, pose_position)
-        bx, by, bz = seat_of(b, on_b, center, pose_position)
         belt = belts and (runs(a, surface_velocity) or runs(b, surface_velocity))
         what, i, o, sense, ex, ey, ez = exact_pair(
             a, b, shape, size, body_row, pose_position, pose_rotation, center, rotation, inverse_mass
@@ -105,20 +102,14 @@ def complete_contacts(
                         other_position[c, k] += size[o, 3] * extent[c, k]
                 for k in range(4):
                     other_rotation[c, k] = pose_rotation[o, k]
-        for c in range(first, end):
-            x, y, z, half = normal[c, 0], normal[c, 1], normal[c, 2], 0.5 * depth[c]
-            x, y, z = half * x, half * y, half * z
-            px, py, pz = point[c, 0], point[c, 1], point[c, 2]
-            offset_a[c, 0], offset_a[c, 1], offset_a[c, 2] = px + x - ax, py + y - ay, pz + z - az
-            offset_b[c, 0], offset_b[c, 1], offset_b[c, 2] = px - x - bx, py - y - by, pz - z - bz
-            if belt:
-                surface[c, 0], surface[c, 1], surface[c, 2] = surface_of_pair(
-                    c, a, b, normal, surface_velocity, pose_rotation
-                )
-            if c > first and is_alike(c, c - 1, normal):
-                share[c] = share[c - 1]
-            else:
-                share[c] = share_of_b(c, a, b, normal, shape, pose_rotation)
+        for c in range(first, end if belt else first):
+            surface[c, 0], surface[c, 1], surface[c, 2] = surface_of_pair(
+                c, a, b, normal, surface_velocity, pose_rotation
+            )
+        find_offsets(
+            first, end, a, b, normal, depth, point, body_row, shape, pose_position, pose_rotation, center,
+            offset_a, offset_b, share,
+        )  # fmt: skip
 
 
 @woven
@@ -135,14 +126,6 @@ def roll_radius(i, shape, size, bound_half, bound_radius):
 def smaller_lever(x, y):
     """Return the smaller of two radii, of which one that is 0 says nothing."""
     return max(x, y) if x == 0.0 or y == 0.0 else min(x, y)
-
-
-@woven
-def seat_of(i, body, center, pose_position):
-    """Return what offsets of a collider's contacts begin at: its body's centre of mass, or its own origin."""
-    if body >= 0:
-        return center[body, 0], center[body, 1], center[body, 2]
-    return pose_position[i, 0], pose_position[i, 1], pose_position[i, 2]
 
 
 @woven
@@ -166,29 +149,6 @@ def exact_pair(a, b, shape, size, body_row, pose_position, pose_rotation, center
     ):
         what = -1
     return what, i, o, sense, ex, ey, ez
-
-
-@woven
-def share_of_b(c, a, b, normal, shape, pose_rotation):
-    """Return how much the point of contact c goes with b rather than with a, over whose face it glides."""
-    share = 0.5
-    if is_flat(a, c, normal, shape, pose_rotation):
-        share += 0.5
-    if is_flat(b, c, normal, shape, pose_rotation):
-        share -= 0.5
-    return share
-
-
-@woven
-def is_flat(i, c, normal, shape, pose_rotation):
-    """Tell whether a collider turns a face to contact c, over which its point glides."""
-    if shape[i] == PLANE_SHAPE:
-        return True
-    if shape[i] != BOX_SHAPE:
-        return False
-    x, y, z = turned_back(pose_rotation, i, normal[c, 0], normal[c, 1], normal[c, 2])
-    x, y, z = x * x, y * y, z * z
-    return x + y + z - max(x, y, z) <= LEANING * LEANING
 
 
 @woven

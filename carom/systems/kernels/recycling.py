@@ -18,6 +18,7 @@ from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_columns import ALL, load_flat, load_three, store_flat
 from carom.systems.kernels.lanes import WIDTH, address, larger, spread, which
 from carom.systems.kernels.narrow import is_ball
+from carom.systems.kernels.offsets import find_offsets, is_alike
 from carom.systems.kernels.spatial import turn
 
 PLACED = 7  # numbers of a contact that is placed
@@ -35,13 +36,15 @@ def form_of_pair(a, b, shape, size, geometry):
 
 
 @shared(
-    "moved", "moved_reaches", "row_a", "row_b", "normal", "depth", "point", "kept", "ends", makes_arrays=True
+    "moved", "moved_reaches", "row_a", "row_b", "normal", "depth", "point", "offset_a", "offset_b", "share",
+    "kept", "ends",
+    makes_arrays=True,
 )  # fmt: skip
 def recycle_contacts(
-    crew, pairs, reaches, known, old_count, handles, row_shift,
-    shape, size, geometry, bound_half, bound_radius, position, rotation,
+    crew, pairs, reaches, known, completes, old_count, handles, row_shift,
+    shape, size, geometry, bound_half, bound_radius, position, rotation, body_row, center,
     a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, form,
-    moved, moved_reaches, row_a, row_b, normal, depth, point, kept, ends,
+    moved, moved_reaches, row_a, row_b, normal, depth, point, offset_a, offset_b, share, kept, ends,
 ):  # fmt: skip
     """Place the contacts of all pairs that have hardly moved where their shapes are now; write which pairs have moved.
 
@@ -49,7 +52,8 @@ def recycle_contacts(
     the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known`` to be
     what they were: its contacts stay as they are. Those of balls are found up to where they leave (REACH_KEPT).
     ``seat``, ``lean`` and ``seat_depth`` say where the points and the normal were found on the two shapes. Those placed
-    are ``kept``. Each thread has a row of ``ends``, where those and its pairs end: behind them are those of the next.
+    are ``kept``; with their offsets, where this ``completes`` them. Each thread has a row of ``ends``, where those and
+    its pairs end: behind them are those of the next.
     """
     begin_pair, end_pair = part_of(crew, len(pairs))
     placed = np.empty(PLACED * (old_count + WIDTH))  # of one pair, for eight at a time: how deep, normal, point
@@ -95,6 +99,11 @@ def recycle_contacts(
             if not known:
                 row_a[c], row_b[c] = x, y
             count += 1
+        if completes:
+            find_offsets(
+                first, o, x, y, normal, depth, point, body_row, shape, position, rotation, center,
+                offset_a, offset_b, share,
+            )  # fmt: skip
     _, part, parts = crew
     for turn_of in range(parts):
         if turn_of == part:
@@ -198,12 +207,6 @@ def smaller_reach(a, b, bound_half, bound_radius):
 def rotation_of(i, rotation):
     """Return the quaternion of collider i."""
     return rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
-
-
-@woven
-def is_alike(c, o, column):
-    """Tell whether two contacts have the same vector there."""
-    return column[c, 0] == column[o, 0] and column[c, 1] == column[o, 1] and column[c, 2] == column[o, 2]
 
 
 @woven

@@ -154,10 +154,11 @@ def renew_touching(
             strikes = struck_a[s] < row_a[c] or (struck_a[s] == row_a[c] and struck_b[s] <= row_b[c])
         x, y = (struck_a[s], struck_b[s]) if strikes else (row_a[c], row_b[c])
         presses, deepest, living = strikes, -inf, True
+        if c < points and row_a[c] == x and row_b[c] == y:  # then all of its contacts are of the same two
+            living = contact_a[c] == handles[x] and contact_b[c] == handles[y]
         while c < points and row_a[c] == x and row_b[c] == y:
             presses |= impulse[c] > 0.0
             deepest = max(deepest, depth[c])
-            living &= contact_a[c] == handles[x] and contact_b[c] == handles[y]
             c += 1
         known = is_pair(o, count, x, y, was_a, was_b, handles)  # most often
         if not known:
