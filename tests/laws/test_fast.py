@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from carom.ecs.spatial import quaternion
+from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.shapes.geometry import Geometry
 from carom.systems.shapes.mesh import Mesh
@@ -55,6 +56,17 @@ def test_a_bullet_stops_at_a_thin_wall(phase: int) -> None:
     bullet = shot(phase, BALL, {"collider": WALL}, (0.0, 0.0, 0.0))["bullet"]
     assert bullet.transform.position[0] == pytest.approx(-0.015, abs=1e-9)
     assert bullet.motion.linear[0] == pytest.approx(0.0, abs=1e-9)
+
+
+def test_nobody_is_looked_after_who_is_fast_no_more() -> None:
+    """A cube that flies at a wall is, until it has been stopped by hand."""
+    simulation = shot(0, CUBE, {"collider": WALL}, (0.0, 0.0, 0.0))
+    simulation["bullet"].transform.position, simulation["bullet"].motion.linear = (-3.0, 0.0, 0.0), (300.0, 0.0, 0.0)
+    simulation.step()
+    assert len(simulation.world[Fast].all.pairs) == 1
+    simulation["bullet"].motion.linear = (0.0, 0.0, 0.0)
+    simulation.step()
+    assert len(simulation.world[Fast].all.pairs) == 0
 
 
 @pytest.mark.parametrize("phase", PHASES)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.ecs import Motion
+from carom.ecs import Collider, Motion
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Enter, Inside
+from carom.systems.detection.broad import BroadPhase
 from carom.systems.simulation import Simulation
 
 GATE = {"box": {"size": (1.0, 1.0, 1.0)}, "sensor": True}
@@ -46,6 +47,22 @@ def test_entering_is_told_once_and_stops_nobody(collision: str) -> None:
     assert entered(simulation, 60) == [(22, gate, ball, pytest.approx(0.3525, abs=1e-12))]
     assert simulation[ball].motion.linear.tolist() == [4.0, 0.0, 0.0]
     assert simulation.world.count(Contact) == 0
+
+
+def test_who_comes_to_be_a_sensor_touches_nobody() -> None:
+    """In a world that had none: the wall lets the ball through, and is told of it; a wall again, it stops the next."""
+    simulation, gate, ball = flying_through()
+    with simulation.world.edit(Collider) as collider:
+        collider.sensor[simulation.world.row(gate)] = False
+    simulation.step(10)
+    assert not simulation.world[BroadPhase].senses
+    simulation[gate].collider.sensor = True
+    assert entered(simulation, 50) == [(22, gate, ball, pytest.approx(0.3525, abs=1e-12))]
+    assert simulation[ball].motion.linear.tolist() == [4.0, 0.0, 0.0]
+    simulation[gate].collider.sensor = False
+    simulation[ball].motion.linear = (-4.0, 0.0, 0.0)
+    assert entered(simulation, 60) == []
+    assert simulation[ball].transform.position[0] > 0.5
 
 
 def test_a_manifold_enters_once() -> None:
