@@ -127,10 +127,8 @@ class BroadPhase(Resource):
         self.senses |= self._have_sensors(leavers)
         self.index.lead_astray(leavers)
         new = self.index.pairs_of(world, leavers)
-        leaves = np.zeros(len(self.known), np.bool_)
-        leaves[leavers] = True
         pairs: Integers = np.empty((len(self.pairs) + len(new), 2), np.int64)
-        self.pairs = pairs[: renew_pairs(self.pairs, new, leaves, pairs)]
+        self.pairs = pairs[: renew_pairs(self.pairs, new, leavers, len(self.known), pairs)]
 
     def _half_spaces_come(self, world: World) -> float:
         """Return how far (m) half spaces come within the step, as others see it."""

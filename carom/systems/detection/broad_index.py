@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
 from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Booleans, Floats, Integers
@@ -13,14 +12,15 @@ from carom.ecs.slots import as_rows
 from carom.systems.constants import CELL_SLACK, MOST_CELLS_ALONG, SIZE_CLASS
 from carom.systems.kernels.broad_lookup import look_up
 from carom.systems.kernels.broad_pairs import order_pairs
-from carom.systems.kernels.grid import AGAINST_ALL, ASTRAY, IN_GRID, IN_TREE, pairs_in_cells, sort_into_cells
+from carom.systems.kernels.grid import AGAINST_ALL, IN_GRID, IN_TREE, lead_astray, pairs_in_cells, sort_into_cells
 from carom.systems.kernels.kernel import Kernel
 from carom.systems.kernels.tree import grow_tree
 from carom.systems.shapes.plane import Plane
 
 ROOM_PER_ROW = 16  # candidates there is room for at first; what is not written costs address space only
 QUARTER = 50  # bits of a float64 behind those that tell quarters of an octave
-VOLUMES = 2.0 ** (0.75 * np.arange(1 - SIZE_CLASS, 1))  # of members by their size, as part of the largest's
+EACH = np.ones(SIZE_CLASS, np.int64)
+VOLUMES = 2.0 ** (-0.75 * np.arange(SIZE_CLASS))  # of members from the largest down, as part of the largest's
 NEAR_CELLS = 13.5  # that a member of the grid is tested against: half of all 27
 TREE_TESTS = 100.0  # what a look-up in the tree costs, in tests of two bounds
 CELLS_AROUND = 2.0**19  # the middle body, in which bodies stay in the grid where others are too far out
@@ -44,8 +44,9 @@ class Index:
         in_grid = self._lay_out_cells(self._most_alike(moves & ends, size))
         in_tree = ends & ~in_grid
         self.place[rows] = np.where(in_grid, IN_GRID, np.where(ends, IN_TREE, AGAINST_ALL))
-        self.apart = self.against_all = rows[~ends]
-        self.strays: Integers = np.empty(0, np.int64)
+        against_all = rows[~ends]
+        self._apart, self._fixed = np.concatenate((against_all, rows)), len(against_all)  # with room for all as strays
+        self._count = self._fixed
         self.outside_grid = rows[~in_grid]
         self._fill_grid(rows[in_grid])
         self._grow_tree(world, rows[in_tree], size[in_tree] // SIZE_CLASS)
@@ -69,9 +70,8 @@ class Index:
             return which
         least = int(size[which].min())
         counts = np.bincount(size[which] - least)
-        windows = sliding_window_view(np.pad(counts, (SIZE_CLASS - 1, 0)), SIZE_CLASS)  # by their largest size
-        inside = windows.sum(axis=1)
-        crowd = inside / np.maximum((windows * VOLUMES).sum(axis=1), VOLUMES[0])  # in a cell, of members packed densely
+        inside, filled = (np.convolve(counts, of)[: len(counts)] for of in (EACH, VOLUMES))  # by their largest size
+        crowd = inside / np.maximum(filled, VOLUMES[-1])  # in a cell, of members packed densely
         cost = NEAR_CELLS * crowd * inside + TREE_TESTS * (counts.sum() - inside)
         largest = least + int(np.argmin(cost))
         return which & (size <= largest) & (size > largest - SIZE_CLASS)
@@ -123,19 +123,20 @@ class Index:
         """Return the pairs (n, 2), sorted, that some rows are in."""
         return self._ordered(self._looked_up(world, rows))
 
+    @property
+    def strays(self) -> Integers:
+        """The rows that have left grid and tree."""
+        return self._apart[self._fixed : self._count]
+
     def lead_astray(self, rows: Integers) -> None:
         """Take rows out of grid and tree: from now on they are tested one by one."""
-        self.strays = np.concatenate((self.strays, rows[self.place[rows] != ASTRAY]))
-        self.place[rows] = ASTRAY
-        self.apart = np.concatenate((self.against_all, self.strays))
+        self._count = lead_astray(rows, self.place, self._apart, self._count)
 
     def _looked_up(self, world: World, asking: Integers) -> Integers:
         collider, pose = world[Collider], world[ColliderPose]
-        asks: Booleans = np.zeros(len(self.place), np.bool_)
-        asks[asking] = True
         return self._filled(
-            look_up, asking, asks, self.rows, self.apart, self.place, collider.shape, collider.size, pose.body_row,
-            pose.position, pose.rotation, self.fat_lower, self.fat_upper, self.comes,
+            look_up, asking, self.rows, self._apart[: self._count], self.place, collider.shape, collider.size,
+            pose.body_row, pose.position, pose.rotation, self.fat_lower, self.fat_upper, self.comes,
             self.cell, self.grid_rows, self.grid_cells, self.members, *self.nodes,
         )  # fmt: skip
 

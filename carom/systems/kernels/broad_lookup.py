@@ -12,15 +12,17 @@ from carom.systems.kernels.kernel import kernel
 
 @kernel("found", makes_arrays=True)
 def look_up(
-    asking, asks, rows, apart, place, shape, size, body_row, pose_position, pose_rotation, fat_lower, fat_upper,
+    asking, rows, apart, place, shape, size, body_row, pose_position, pose_rotation, fat_lower, fat_upper,
     comes, cell, grid_rows, grid_cells, members, bounds, span, skip, moves, found,
 ):  # fmt: skip
-    """Write a candidate for all whose fat bounds overlap those of the rows ``asking``, marked in ``asks``.
+    """Write a candidate for all whose fat bounds overlap those of the rows ``asking``.
 
     Half spaces come as far as told (m). ``apart`` are the rows in neither grid nor tree, which are tested one by
     one. Two that both ask are written once. Returns the count of candidates, or -1 where they do not fit in.
     """
-    near = np.empty(len(rows) + 1, np.int64)
+    near, asks = np.empty(len(rows) + 1, np.int64), np.zeros(len(place), np.bool_)
+    for i in asking:
+        asks[i] = True
     count = 0
     for i in asking:
         nearby = 0

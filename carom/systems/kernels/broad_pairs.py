@@ -42,9 +42,15 @@ def order_pairs(candidates, used, known, scratch, pairs):
     return count
 
 
-@kernel("pairs")
-def renew_pairs(old, new, leaves, pairs):
-    """Merge the pairs that no leaver is in with those found anew; both are sorted. Return their count."""
+@kernel("pairs", makes_arrays=True)
+def renew_pairs(old, new, leavers, used, pairs):
+    """Merge the pairs that no leaver is in with those found anew; both are sorted. Return their count.
+
+    All rows are among those ``used``.
+    """
+    leaves = np.zeros(used, np.bool_)
+    for i in leavers:
+        leaves[i] = True
     count, n = 0, 0
     for o in range(len(old)):
         i, j = old[o, 0], old[o, 1]

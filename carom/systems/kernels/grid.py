@@ -25,6 +25,16 @@ def cell_along(x, k, cell):
     return int(min(max(at, 0.0), cell[2, k] - 1.0))
 
 
+@kernel("place", "apart")
+def lead_astray(rows, place, apart, count):
+    """Write those of ``rows`` that are not astray yet behind the ``count`` that are ``apart``; return the new count."""
+    for i in rows:
+        if place[i] != ASTRAY:
+            place[i], apart[count] = ASTRAY, i
+            count += 1
+    return count
+
+
 @kernel("grid_rows", "grid_cells", "boxes", makes_arrays=True)
 def sort_into_cells(cell, fat_lower, fat_upper, grid_rows, grid_cells, boxes):
     """Bring the grid's members, given in order of rows, into that of cells; write their cells and bounds."""

@@ -65,6 +65,7 @@ def compile_measuring() -> None:
     from carom.systems.detection.seams import without_seams
     from carom.systems.kernels.broad_pairs import renew_pairs
     from carom.systems.kernels.fast_pairs import NUMBERS, let_go
+    from carom.systems.kernels.grid import lead_astray
     from carom.systems.kernels.lanes import WIDTH, aligned
     from carom.systems.kernels.manifolds import part_masses
     from carom.systems.kernels.recycling import merge_contacts
@@ -114,7 +115,8 @@ def compile_measuring() -> None:
     room = np.empty((2 * len(pairs), 2), np.int64)
     simulation.space.cast_ray((0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
     simulation.space.cast_shape(shapes[0], (0.0, 2.0, 0.0), (0.0, -1.0, 0.0))
-    renew_pairs(pairs, pairs, np.zeros(world.capacity, np.bool_), room)  # of bodies that leave their fat bounds
+    renew_pairs(pairs, pairs, rows, world.capacity, room)  # of bodies that leave their fat bounds
+    lead_astray(rows, np.zeros(world.capacity, np.int64), rows.copy(), 0)
 
 
 def compile_frame() -> None:
