@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Motion, RigidBody, Transform, World
-from carom.ecs.column import Floats, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -17,10 +17,11 @@ from carom.systems.kernels.fast_pairs import (
     TRIANGLE_CORNERS,
     find_far,
     find_fast,
+    find_quick,
     find_trusts,
     let_go,
-    may_be_fast,
     place_fast,
+    take_quick,
 )
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.trust import find_agreeing, spend_trust
@@ -136,20 +137,30 @@ def look_at(world: World, fast: Integers, center: Floats, looked: Looked) -> Lan
     return Land(meshes.bounds, meshes.nodes, meshes.triangles, room)
 
 
-def some_may_be_fast(world: World, pairs: Integers, span: float, center: Floats) -> bool:
-    """Tell whether some of ``pairs`` (n, 2) may be fast, as `fast_of` says, of those that can meet within the ``span``.
+def quick_ones(world: World, pairs: Integers, span: float, center: Floats) -> Booleans:
+    """Tell of each body (row) whether one of ``pairs`` (n, 2) may be fast, as `fast_of` says, for it moves quickly.
 
-    Most often none are in a crowd. Of fewer pairs than colliders it takes as long to ask them.
+    They are those that can meet within the ``span``. There are no rows where nobody does, as in most crowds. Of fewer
+    pairs than colliders it takes as long to ask them, so that everybody may.
     """
     collider, pose, motion, rows = world[Collider], world[ColliderPose], world[Motion], world.row_numbers(Collider)
     if len(pairs) < len(rows):
-        return len(pairs) > 0
-    found: bool = may_be_fast(
+        return np.ones(len(motion.asleep) if len(pairs) else 0, np.bool_)
+    quick: Booleans = np.zeros(len(motion.asleep), np.bool_)
+    some = find_quick(
         span, rows, collider.position, collider.bound_center, collider.bound_half,
         collider.bound_radius, pose.position, pose.body_row, center, world[RigidBody].inverse_mass,
-        motion.linear, motion.angular,
+        motion.linear, motion.angular, quick,
     )  # fmt: skip
-    return found
+    return quick if some else quick[:0]
+
+
+def of_quick(world: World, pairs: Integers, quick: Booleans) -> Integers:
+    """Return those of ``pairs`` (n, 2) of collider rows of which a body is ``quick``, or none where nobody is."""
+    if not len(quick):
+        return pairs[:0]
+    found: Integers = np.empty((len(pairs) + 1, 2), np.int64)  # the last is written over
+    return found[: take_quick(pairs, world[ColliderPose].body_row, quick, found)]
 
 
 def fast_of(

@@ -18,17 +18,17 @@ from carom.systems.looked import Looked
 from carom.systems.progress import Progress
 
 
-def without_passing(world: World, found: Found, span: float, center: Floats) -> tuple[Found, Integers]:
+def without_passing(world: World, found: Found, span: float, center: Floats, quick: Booleans) -> tuple[Found, Integers]:
     """Return what is found without what only seems to close within ``span`` seconds, and who is to be looked after.
 
-    Asked are pairs (n, 2) of two that can both be pushed and come far for their size, their centres at ``center``. They
-    are looked after where they meet otherwise than contacts say, followed straight on, where only a few may meet, and a
-    few times in a step. Of many only those are looked at who seem to meet.
+    Asked are pairs (n, 2) of two that can both be pushed and come far for their size, their centres at ``center``; one
+    of them is ``quick``. They are looked after where they meet otherwise than contacts say, followed straight on, where
+    only a few may meet, and a few times in a step. Of many only those are looked at who seem to meet.
     """
     pose, motion, pairs = world[ColliderPose], world[Motion], np.empty((len(found.row_a), 2), np.int64)
     count = find_nearing(
-        span, found.row_a, found.row_b, found.depth, found.point, pose.body_row, center, motion.linear, motion.angular,
-        pairs,
+        span, found.row_a, found.row_b, found.depth, found.point, pose.body_row, quick, center, motion.linear,
+        motion.angular, pairs,
     )  # fmt: skip
     free = fast_of(world, pairs[:count], span, center, free=True)
     if max(len(free[0]), world[Progress].detections) <= FEW_MEETING:

@@ -17,7 +17,7 @@ from carom.systems.continuous import fast_of
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.broad import overlapping
-from carom.systems.kernels.fast_pairs import may_be_fast
+from carom.systems.kernels.fast_pairs import find_quick
 from carom.systems.simulation import Simulation
 
 SHAPES: dict[str, Any] = {
@@ -132,11 +132,12 @@ def test_who_is_fast_does_not_hang_on_how_far_all_have_gone() -> None:
 @pytest.mark.parametrize("shape", ["plate", "bullet", "wedge", "arm"])
 @pytest.mark.parametrize("seed", range(20))
 def test_where_none_may_be_fast_none_are(seed: int, shape: str) -> None:
-    """Pairs are gone through where the fastest and the smallest of all might be fast, and else they need not be.
+    """Pairs are gone through where the fastest and the smallest of all might be fast, and there those of quick bodies.
 
     A wedge is far from the origin of its shape, an arm far from that of its body, about which both turn; bullets fly.
     """
     random, answers, found, far = np.random.default_rng(seed), set(), 0, np.array([8.0, 0.0, 0.0])
+    parted = False  # whether some were quick, and others not
     wedge = {"convex": {"points": far + SHAPES["hull"]["convex"]["points"]}}
     form = wedge if shape == "wedge" else SHAPES["plate"]
     off, spin = far if shape == "arm" else 0.0, 0.0 if shape == "bullet" else 10.0
@@ -157,13 +158,17 @@ def test_where_none_may_be_fast_none_are(seed: int, shape: str) -> None:
             center = world[Flight].detected_center
             fast = [pair for free in (False, True) for pair in fast_of(world, pairs, span, center, free=free)[0]]
             collider, pose, motion = world[Collider], world[ColliderPose], world[Motion]
-            some = may_be_fast(
+            quick = np.zeros(len(motion.asleep), np.bool_)
+            some = find_quick(
                 span, world.row_numbers(Collider), collider.position, collider.bound_center, collider.bound_half,
                 collider.bound_radius, pose.position, pose.body_row, center, world[RigidBody].inverse_mass,
-                motion.linear, motion.angular,
+                motion.linear, motion.angular, quick,
             )  # fmt: skip
         assert some or not len(fast)
+        assert all(quick[pose.body_row[pair]].any() for pair in fast)
         answers.add(some)
+        parted |= bool(some and not quick[pose.body_row[:12]].all())
         found += len(fast)
     assert found > 0
     assert answers == {False, True}
+    assert parted

@@ -12,7 +12,7 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake
 from carom.systems.constants import CROWDED
-from carom.systems.continuous import Fast, some_may_be_fast
+from carom.systems.continuous import Fast, of_quick, quick_ones
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.apart import NOBODY, Apart
 from carom.systems.detection.bounds import reach_within, reaches_of
@@ -84,13 +84,13 @@ def detect(world: World, left: float, soon: float) -> None:
             pose.moved[:] |= moved  # nothing has since it was placed just now, but since the step before
             continue
         found, free, center = find(world, pairs), NOBODY, world[Flight].detected_center
-        fast = some_may_be_fast(world, pairs, left, center)
-        if fast:
-            found, free = without_passing(world, found, left, center)
+        quick = quick_ones(world, pairs, left, center)
+        if len(quick):
+            found, free = without_passing(world, found, left, center, quick)
         if not rouse(world, found):
             break
         reach_within(world, left)
-    world[Fast].find(world, pairs if fast else NOBODY, free, found, left)
+    world[Fast].find(world, of_quick(world, pairs, quick), free, found, left)
     store(world, without_seams(world, world[Fast].trusted(found)))
 
 

@@ -68,7 +68,7 @@ def _meet_nobody_new(world: World, leaving: Integers, left: float) -> bool:
     if len(fast_of(world, pairs, left, flight.center)[0]):
         return False
     found = measure_pairs(world, pairs, reaches_of(world, pairs, ways))
-    found, _ = without_passing(world, found, left, flight.center)
+    found, _ = without_passing(world, found, left, flight.center, np.ones(len(flight.reach), np.bool_))
     return _are_known(world, without_seams(world, found))
 
 

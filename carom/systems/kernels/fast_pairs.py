@@ -76,14 +76,16 @@ def extent_of(c, bound_half, bound_radius):
     return max(LEAST_FAST, min(bound_half[c, 0], bound_half[c, 1], bound_half[c, 2]) + bound_radius[c])
 
 
-@kernel()
-def may_be_fast(
+@kernel("quick")
+def find_quick(
     span, rows, local_position, bound_center, bound_half, bound_radius, position, body_row, center, inverse_mass,
-    linear, angular,
+    linear, angular, quick,
 ):  # fmt: skip
-    """Tell whether somebody may be fast within ``span`` seconds, if the fastest and the smallest of all were one.
+    """Mark the bodies of which each pair that is fast within ``span`` seconds has one; tell whether there are any.
 
-    So it would reach as far from its centre, too, as the farthest part of any and the largest are together.
+    There are none where the fastest and the smallest of all, were they one, would not be: it would reach as far from
+    its centre, too, as the farthest part of any and the largest are together. Else those are quick who would be half of
+    such a pair.
     """
     smallest, speed, spin, away, off, half, around = NEVER, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for c in rows:
@@ -98,7 +100,30 @@ def may_be_fast(
         speed, spin = max(speed, squared(i, linear)), max(spin, squared(i, angular))
     spin, lever = sqrt(spin), sqrt(away) + sqrt(off) + sqrt(half) + around
     way = (2.0 * sqrt(speed) + 4.0 * spin * lever) * span  # either turns, and moves what is out there with it
-    return way * (1.0 + spin * span) > FAST * smallest
+    if way * (1.0 + spin * span) <= FAST * smallest:
+        return False
+    for c in rows:
+        i = body_row[c]
+        if i >= 0:
+            own = sqrt(squared(i, linear)) + sqrt(squared(i, angular)) * (3.0 * lever + way)
+            quick[i] = span * own > 0.5 * FAST * smallest
+    return True
+
+
+@kernel("found")
+def take_quick(pairs, body_row, quick, found):
+    """Write the pairs of collider rows of which a body is ``quick``; return how many."""
+    count = 0
+    for p in range(len(pairs)):
+        found[count, 0], found[count, 1] = pairs[p, 0], pairs[p, 1]
+        count += is_one_quick(body_row[pairs[p, 0]], body_row[pairs[p, 1]], quick)
+    return count
+
+
+@woven
+def is_one_quick(i, o, quick):
+    """Tell whether body i or o is ``quick``; none is not."""
+    return (i >= 0 and quick[i]) or (o >= 0 and quick[o])
 
 
 @woven

@@ -6,7 +6,7 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.bodies import length_of
-from carom.systems.kernels.fast_pairs import NEVER, between
+from carom.systems.kernels.fast_pairs import NEVER, between, is_one_quick
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.trust import closing_of
 
@@ -23,14 +23,17 @@ def nearing_of(c, i, o, point, center, linear, angular):
 
 
 @kernel("pairs")
-def find_nearing(span, row_a, row_b, depth, point, body_row, center, linear, angular, pairs):
-    """Write the pairs that do not touch and may within ``span`` seconds; return how many."""
+def find_nearing(span, row_a, row_b, depth, point, body_row, quick, center, linear, angular, pairs):
+    """Write the pairs with a ``quick`` body that do not touch and may within ``span`` seconds; return how many."""
     count, c = 0, 0
     while c < len(row_a):
         a, b, gap, first = row_a[c], row_b[c], NEVER, c
         while c < len(row_a) and row_a[c] == a and row_b[c] == b:
             gap, c = min(gap, -depth[c]), c + 1
-        if 0.0 < gap < span * nearing_of(first, body_row[a], body_row[b], point, center, linear, angular):
+        i, o = body_row[a], body_row[b]
+        if not is_one_quick(i, o, quick):  # most often
+            continue
+        if 0.0 < gap < span * nearing_of(first, i, o, point, center, linear, angular):
             pairs[count, 0], pairs[count, 1] = a, b
             count += 1
     return count

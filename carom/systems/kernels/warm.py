@@ -96,7 +96,7 @@ def compile_measuring() -> None:
         find_balls(world, pairs, np.ones(len(pairs)))
         world[Motion].linear[:] = 1.0
         detection_holds(world, 1.0)  # with everybody leaving
-        without_passing(world, found, 1.0, world[Flight].center)
+        without_passing(world, found, 1.0, world[Flight].center, np.ones(world.capacity, np.bool_))
         seeming(world, found, 1.0, world[Flight].center)
         without_seeming(world, found, 1.0, world[Flight].center, pairs[-1:], np.ones((1, NUMBERS)))
         apart = world[Apart]
