@@ -159,7 +159,7 @@ def of_quick(world: World, pairs: Integers, quick: Booleans) -> Integers:
     """Return those of ``pairs`` (n, 2) of collider rows of which a body is ``quick``, or none where nobody is."""
     if not len(quick):
         return pairs[:0]
-    found: Integers = np.empty((len(pairs) + 1, 2), np.int64)  # the last is written over
+    found: Integers = np.empty((len(pairs), 2), np.int64)
     return found[: take_quick(pairs, world[ColliderPose].body_row, quick, found)]
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from carom.ecs import Collider, Transform
+from carom.ecs import Collider, Transform, state_hash
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
 from carom.ecs.table import Table
+from carom.systems.detection import contacts
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.recycling import measure_what_moved
@@ -47,6 +48,34 @@ def test_what_stands_is_not_measured_again(pair: tuple[Simulation, int]) -> None
     contact = simulation.world[Contact]
     assert contact.feature[: contact.count].tolist() == features.tolist()
     assert contact.count == 4
+
+
+def test_what_stays_is_completed_where_it_is_placed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A wall that is built up settles to the same bits as where it is found of all contacts at once what follows."""
+
+    def wall() -> list[bytes]:
+        simulation = Simulation(sleeping=False)
+        simulation.add(collider={"plane": {}})
+        told: list[bytes] = []
+        for k in range(6):
+            place = {"position": (1.01 * (k % 2), 0.5 + 1.01 * (k // 2), 0.0)}
+            simulation.add(collider=BOX, body={}, transform=place)
+            simulation.step(40)
+            contact = simulation.world[Contact]
+            for column in (contact.offset_a, contact.offset_b, contact.share):
+                told.append(column[: contact.count].tobytes())
+            told.append(state_hash(simulation.world).encode())
+        return told
+
+    passes: list[int] = []
+    found = contacts.complete
+    monkeypatch.setattr(contacts, "complete", lambda *given, **known: passes.append(1) or found(*given, **known))
+    told = wall()
+    assert 6 < len(passes) < 120  # of 240 steps
+    passes.clear()
+    monkeypatch.setattr(contacts, "Complete", type(None))  # then none is
+    assert wall() == told
+    assert len(passes) >= 240
 
 
 def test_recycled_contacts_go_with_their_shapes(pair: tuple[Simulation, int]) -> None:

@@ -48,6 +48,16 @@ def woken(integrator: str) -> Simulation:
     return simulation
 
 
+def test_no_law_is_asked_where_there_is_none() -> None:
+    """Once there is one, all are, in each substep."""
+    simulation, calls = stacks(0.0), []
+    for _ in range(2):
+        simulation.step()
+        calls.append([simulation.world[Timings][f"apply_{name}"].last_calls for name in ("wind", "lift", "springs")])
+        simulation.force("wind", velocity=(1.0, 0.0, 0.0))
+    assert calls == [[0, 0, 0], [4, 4, 4]]
+
+
 @pytest.mark.parametrize("integrator", ["euler", "semi_implicit", "verlet"])
 @pytest.mark.parametrize("make", [tumbling, woken])
 def test_the_same_comes_out(make: Callable[[str], Simulation], integrator: str) -> None:

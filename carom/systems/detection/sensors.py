@@ -8,9 +8,9 @@ from carom.ecs import Collider, ColliderPose, Transform, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.spatial import quaternion
+from carom.systems.detection.apart import NOBODY
 from carom.systems.detection.broad import BroadPhase
 
-NOBODY: Integers = np.empty((0, 2), np.int64)
 NO_POSITIONS, NO_ROTATIONS = np.empty((0, 2, 3)), np.empty((0, 2, 4))
 
 

@@ -13,6 +13,7 @@ from carom.systems.forces.standing import Standing
 from carom.systems.kernels.springs import add_springs
 
 
+# Standing is what the phase of laws is asked by.
 @system(reads=(Transform, Motion, RigidBody, Standing), writes=(Spring,), adds=(Force,))
 def apply_springs(world: World, dt: float) -> None:
     """Add what springs and their dampers pull, equal and opposite, with its torque about the centres of mass."""

@@ -115,8 +115,9 @@ def take_quick(pairs, body_row, quick, found):
     """Write the pairs of collider rows of which a body is ``quick``; return how many."""
     count = 0
     for p in range(len(pairs)):
-        found[count, 0], found[count, 1] = pairs[p, 0], pairs[p, 1]
-        count += is_one_quick(body_row[pairs[p, 0]], body_row[pairs[p, 1]], quick)
+        if is_one_quick(body_row[pairs[p, 0]], body_row[pairs[p, 1]], quick):
+            found[count, 0], found[count, 1] = pairs[p, 0], pairs[p, 1]
+            count += 1
     return count
 
 
