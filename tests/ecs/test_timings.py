@@ -64,6 +64,19 @@ def test_every_system_is_timed(ticking: list[int]) -> None:
     assert timings["solve"] == pytest.approx((0.012, 4, 0.012, 4))
 
 
+def test_a_phase_within_another_is_timed_once(ticking: list[int]) -> None:
+    """What its systems take is not counted for who comes after it, also where it ends before its last repeat."""
+    world = World()
+    inner = Phase("inner", busy(ticking, "inside", 2), repeat=lambda world: 3, when=lambda world: ticking[0] < 4)
+    Schedule(Phase("outer", busy(ticking, "before", 1), inner, busy(ticking, "behind", 8))).run(world, 0.1)
+    assert dict(world[Timings]) == {
+        "before": pytest.approx((0.001, 1, 0.001, 1)),
+        "inside": pytest.approx((0.004, 2, 0.004, 2)),
+        "behind": pytest.approx((0.008, 1, 0.008, 1)),
+        COMMANDS: pytest.approx((0.0, 1, 0.0, 1)),
+    }
+
+
 def test_another_schedule_keeps_the_times_of_those_it_has(ticking: list[int]) -> None:
     """Those it has not are gone from the timings, new ones begin."""
     world = World()
