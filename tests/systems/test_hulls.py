@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import combinations_with_replacement
 
 import numpy as np
@@ -10,6 +11,7 @@ from hulls import HULLS, PACKED, Measured, Placed, corners, extent, many_poses, 
 from pairs import degrees_between
 
 from carom.ecs.column import Floats
+from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial import quaternion
 from carom.systems.shapes.convex import Convex
 from carom.systems.shapes.geometry import hull_of
@@ -198,6 +200,14 @@ def test_faces_of_noisy_hulls(noise: float) -> None:
         for loop, normal in zip(faces.loops, faces.normals, strict=True):
             heights = (vertices * np.array(normal)).sum(axis=1)
             assert heights.max() - heights[list(loop)].min() < 1e-4
+
+
+def test_a_hull_with_a_point_beyond_all_others_is_refused() -> None:
+    """Of the bow of a ship that lies 2 million km off nothing is left but faces of one corner each."""
+    bow, sides = (7.0, 2.0**31, 0.0), [(x, y, z) for x in (-4.0, 4.0) for y in (0.0, 1.6) for z in (-1.5, 1.5)]
+    told = "points: points that nearly coincide leave the faces of the hull in doubt"
+    with pytest.raises(DeclarationError, match=f"^{re.escape(told)}$"):
+        hull_faces(hull_of(np.array([*sides, bow, (7.0, 1.6, 0.0)])))
 
 
 def test_coplanar_triangles_are_one_face() -> None:

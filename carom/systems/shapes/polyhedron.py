@@ -27,8 +27,8 @@ class Polyhedron(NamedTuple):
     edges: list[tuple[int, int, int, int]]
 
     def closes(self) -> bool:
-        """Tell whether the faces close a volume: one to either side of every edge, and Euler's formula."""
-        closed = all(right >= 0 for _, _, _, right in self.edges)
+        """Tell whether faces of three corners or more close a volume: one to either side of edges, Euler's formula."""
+        closed = all(right >= 0 for *_, right in self.edges) and all(len(loop) > 2 for loop in self.loops)
         return closed and len(self.vertices) - len(self.edges) + len(self.loops) == 2
 
 
