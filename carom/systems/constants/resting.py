@@ -41,6 +41,13 @@ CRUSHED, CRUSHED_PART = 0.02, 0.3
 # of light links with a heavy end, which a sweep solves in part only, tear themselves apart.
 JOINT_RATE, JOINT_HARDNESS = 0.7, 0.85
 
+# Squared angle by which a body turns in a substep, times how much more its end yields by turning than by moving, from
+# which on what a joint of it is off by goes no faster than so much (m/s, rad/s), and beyond which only so much of the
+# impulse of the substep before counts as makes it that. It is 0.001 of a cube hung by its edge that turns at 5 rad/s.
+# Larger: chains of small bodies on long arms gain energy without end. Smaller: they come apart, and arms that motors
+# drive swing past their limits.
+WHIRLS, JOINT_SPEED, STALE = 0.5, 5.0, 32.0
+
 # m/s, rad/s. What reaches the limit of a joint more slowly does not bounce. Larger: soft bounces end too early.
 # Smaller: what lies at its limit trembles.
 BOUNCE_SPEED = 0.01

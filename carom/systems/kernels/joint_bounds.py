@@ -7,6 +7,7 @@ from carom.systems.constants import BOUNCE_SPEED
 from carom.systems.kernels import joint_groups as of
 from carom.systems.kernels.joint_groups import slot
 from carom.systems.kernels.joint_motion import given, speed_of
+from carom.systems.kernels.joint_whirling import going_back
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import TINY
 from carom.systems.kernels.lanes import choose, larger, load, smaller, spread, store
@@ -67,7 +68,7 @@ def limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes
     sign = choose(above - below, spread(-1.0), spread(1.0))
     gap = smaller(above, below)
     opening, held = sign * speed_of(s, r, a, b, lanes), sign * before
-    wanted = choose(gap, -gap / h, -gap * rate)
+    wanted = choose(gap, -gap / h, going_back(r, -gap * rate, lanes))
     if relaxing:
         came = -(sign * load(lanes, q + of.SPEED))
         bounces = choose(held, choose(came - BOUNCE_SPEED, came * load(lanes, p + of.BOUNCE), zero), zero)

@@ -20,6 +20,7 @@ from carom.systems.kernels.joint_groups import (
 )
 from carom.systems.kernels.joint_motion import added, moved, parting
 from carom.systems.kernels.joint_points import WAYS, finish_point, hold_point, moved_point, three_of
+from carom.systems.kernels.joint_whirling import going_back, heed_whirling
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import WIDTH, address, gather, load, planes, scatter, spread, store
@@ -48,7 +49,7 @@ def solve_joints(
     if begins:
         write_velocities(rows, linear, angular, velocity)
         for g in range(groups):
-            start_warm(g, row[g], kinds[g], index_a, index_b, lanes, bodies)
+            start_warm(g, row[g], kinds[g], h, index_a, index_b, lanes, bodies)
     for _ in range(sweeps):
         for n in range(groups):
             g = groups - 1 - n if relaxing else n
@@ -60,10 +61,11 @@ def solve_joints(
 
 
 @woven
-def start_warm(g, r, kind, index_a, index_b, lanes, bodies):
-    """Apply the impulses of a group in the substep before."""
+def start_warm(g, r, kind, h, index_a, index_b, lanes, bodies):
+    """Apply the impulses of a group in the substep before, as far as they last."""
     slots = slots_of(kind)
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    heed_whirling(g, r, kind, h, a, b, index_a, index_b, lanes, bodies)
     if slots == WAYS:
         a, b = moved_point(r, three_of(r, lanes, of.HOLD), a, b, lanes)
     else:
@@ -139,7 +141,7 @@ def hold(slots, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scr
         q = slot(r, s)
         speed = dot(three(lanes, q + of.AXIS), along if s < 3 else turning)
         off = load(lanes, q + of.PLACE) - load(lanes, q + of.AT)
-        rest = -(load(lanes, q + of.HELD) * (speed + rate * off))
+        rest = -(load(lanes, q + of.HELD) * (speed + going_back(r, rate * off, lanes)))
         for k in range(s):
             rest = rest - load(lanes, factor(r, slots, s, k)) * load(scratch, k)
         store(scratch, s, rest)

@@ -54,6 +54,16 @@ def moved_one(mass, inverse, arm, sign, push, twist, v, lanes):
 
 
 @woven
+def turning_of(arm, inverse):
+    """Return how fast a point at the end of an arm yields by turning alone: the lower half of a matrix."""
+    x, y, z = arm
+    zero = spread(0.0)
+    of_x, of_y, of_z = (zero, z, -y), (-z, zero, x), (y, -x, zero)  # r x e
+    by_x, by_y, by_z = about(inverse, zero, z, -y), about(inverse, -z, zero, x), about(inverse, y, -x, zero)
+    return dot(of_x, by_x), dot(of_y, by_x), dot(of_y, by_y), dot(of_z, by_x), dot(of_z, by_y), dot(of_z, by_z)
+
+
+@woven
 def speed_of(s, r, a, b, lanes):
     """Return how fast b goes along or about way s."""
     along, turning = parting(r, a, b, lanes)

@@ -9,8 +9,10 @@ from __future__ import annotations
 from carom.systems.constants import IMMOVABLE
 from carom.systems.kernels import joint_groups as of
 from carom.systems.kernels.joint_groups import factor, slot
+from carom.systems.kernels.joint_motion import turning_of
+from carom.systems.kernels.joint_whirling import going_back
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import about, dot, three
+from carom.systems.kernels.lane_vectors import about, three
 from carom.systems.kernels.lanes import choose, gather, load, spread, store
 from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT
 from carom.systems.kernels.spatial import cross
@@ -54,16 +56,6 @@ def find_yielding_of_point(g, r, weigh, index_a, index_b, lanes, bodies):
 
 
 @woven
-def turning_of(arm, inverse):
-    """Return how fast a point at the end of an arm yields by turning alone: the lower half of a matrix."""
-    x, y, z = arm
-    zero = spread(0.0)
-    of_x, of_y, of_z = (zero, z, -y), (-z, zero, x), (y, -x, zero)  # r x e
-    by_x, by_y, by_z = about(inverse, zero, z, -y), about(inverse, -z, zero, x), about(inverse, y, -x, zero)
-    return dot(of_x, by_x), dot(of_y, by_x), dot(of_y, by_y), dot(of_z, by_x), dot(of_z, by_y), dot(of_z, by_z)
-
-
-@woven
 def pivot(whole, left):
     """Return a pivot and its inverse, both 0 where it is rounding."""
     solid = choose(left - whole * IMMOVABLE, spread(1.0), spread(0.0))
@@ -75,7 +67,9 @@ def hold_point(r, rate, hardness, a, b, lanes):
     """Solve all three ways at once; return the push on b at its anchor."""
     px, py, pz = parting_of_point(r, a, b, lanes)
     x, y, z = three_of(r, lanes, of.PLACE)
-    x, y, z = -(px + rate * x), -(py + rate * y), -(pz + rate * z)
+    x = -(px + going_back(r, rate * x, lanes))
+    y = -(py + going_back(r, rate * y, lanes))
+    z = -(pz + going_back(r, rate * z, lanes))
     o = factor(r, WAYS, 0, 0)
     low_yx, low_zx, low_zy = load(lanes, o + 1), load(lanes, o + 3), load(lanes, o + 4)
     y = y - low_yx * x
