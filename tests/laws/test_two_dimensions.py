@@ -9,8 +9,10 @@ import pytest
 
 from carom.ecs import Motion, RigidBody, Transform
 from carom.ecs.spatial import quaternion
-from carom.systems.energy import angular_momentum, momentum
+from carom.systems.energy import angular_momentum, momentum, total_energy
 from carom.systems.simulation import Simulation
+
+UP, OUT = (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def flat(**settings: Any) -> Simulation:
@@ -80,3 +82,41 @@ def test_in_two_dimensions_impacts_keep_momentum_and_angular_momentum() -> None:
     assert simulation.world[Motion].linear[0, 0] < 0.0
     np.testing.assert_allclose(momentum(simulation.world), linear, rtol=1e-12, atol=1e-12)
     assert angular_momentum(simulation.world)[2] == pytest.approx(angular[2], rel=1e-11)
+
+
+@pytest.mark.parametrize("kind", ["ball", "hinge", "limited hinge", "slider", "fixed"])
+def test_joints_hold_a_flat_world_together_as_one_with_depth(kind: str) -> None:
+    """Three bodies that fly and turn in the plane, whether the plane is all there is or not; no energy is gained.
+
+    Axes of joints turn with bodies and are off the plane by rounding, along which nobody can move where it is.
+    """
+    words = {"hinge": {"axis": OUT}, "limited hinge": {"axis": OUT, "limits": (-0.3, 0.4)}, "slider": {"axis": UP}}
+    random = np.random.default_rng(5)
+    linear, angular = random.normal(size=(3, 2)), random.normal(size=3)
+    worlds = []
+    for dimensions in (2, 3):
+        simulation = Simulation(dimensions=dimensions, gravity=(0.0, 0.0, 0.0), sleeping=False)
+        for k in range(3):
+            simulation.add(
+                name=f"link{k}",
+                body={"mass": 1.0 + k, "inertia": (0.04, 0.05, 0.06)},
+                transform={"position": (float(k), 0.0, 0.0)},
+                motion={"linear": (*5.0 * linear[k], 0.0), "angular": (0.0, 0.0, angular[k])},
+            )
+            if k:
+                ends = {"a": f"link{k - 1}", "b": f"link{k}", "at": (k - 0.5, 0.0, 0.0)}
+                simulation.add(joint={kind.split()[-1]: words.get(kind, {}) | ends})
+        worlds.append(simulation)
+    flat, deep = worlds
+    flat.step()
+    deep.step()
+    energy = total_energy(flat.world)
+    for _ in range(60):
+        flat.step()
+        deep.step()
+        assert total_energy(flat.world) <= 1.02 * energy
+    for k in range(3):
+        at, there = flat[f"link{k}"], deep[f"link{k}"]
+        assert at.transform.position == pytest.approx(there.transform.position, abs=1e-9)
+        assert at.transform.rotation == pytest.approx(there.transform.rotation, abs=1e-9)
+        assert (at.transform.position[2], at.motion.linear[2], *at.motion.angular[:2]) == (0.0, 0.0, 0.0, 0.0)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.ecs.components.joint import SLOTS
-from carom.systems.constants import IMMOVABLE
+from carom.systems.constants import HELD, IMMOVABLE
 from carom.systems.kernels import joint_groups as of
 from carom.systems.kernels.joint_groups import bound, factor, slot
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import about, dot, keep, three
-from carom.systems.kernels.lanes import choose, gather, load, spread, store
+from carom.systems.kernels.lanes import choose, gather, larger, load, spread, store
 from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT
 from carom.systems.kernels.spatial import cross
 
@@ -25,7 +25,8 @@ def find_yielding(slots, g, r, bounded, index_a, index_b, lanes, bodies, scratch
     """Factor the matrix of how fast locked ways yield to unit impulses, and find what others give while those hold.
 
     L D L^T (Golub and Van Loan, Matrix Computations, 4.1), of which ways that are not locked have rows of the identity.
-    A pivot that is rounding is one that nothing moves along: it gets no impulse.
+    A pivot that is rounding is one that nothing moves along: it gets no impulse. So is one of a way that locks of the
+    bodies forbid, whose axis is off that of the world by rounding.
     """
     mass_a, mass_b = gather(bodies[MASS_AND_FELT], index_a, g), gather(bodies[MASS_AND_FELT], index_b, g)
     inverse_a, inverse_b = gather(bodies[INVERSE], index_a, g), gather(bodies[INVERSE], index_b, g)
@@ -63,7 +64,8 @@ def find_yielding(slots, g, r, bounded, index_a, index_b, lanes, bodies, scratch
         for k in range(j):
             low = load(lanes, factor(r, slots, j, k))
             pivot = pivot - low * low * load(scratch, DIAGONAL + k)
-        solid = choose(pivot - whole * IMMOVABLE, held, spread(0.0))
+        least = larger(whole * IMMOVABLE, least_of(j, slots, scratch))
+        solid = choose(pivot - least, held, spread(0.0))
         store(scratch, DIAGONAL + j, pivot * solid)
         inverse = solid / choose(solid, pivot, spread(1.0))
         store(lanes, factor(r, slots, j, j), inverse)
@@ -76,15 +78,25 @@ def find_yielding(slots, g, r, bounded, index_a, index_b, lanes, bodies, scratch
             store(lanes, factor(r, slots, i, j), low * inverse * load(lanes, slot(r, i) + of.HELD))
     if bounded:
         for s in range(slots):
-            give = load(scratch, triangle(s, s))
-            store(lanes, bound(r, slots, s) + of.ALONE, give)
+            give, least = load(scratch, triangle(s, s)), least_of(s, slots, scratch)
+            store(lanes, bound(r, slots, s) + of.ALONE, choose(give - least, give, spread(0.0)))
             for j in range(slots):
                 rest = load(scratch, triangle(max(s, j), min(s, j))) * load(lanes, slot(r, j) + of.HELD)
                 for k in range(j):
                     rest = rest - load(lanes, factor(r, slots, j, k)) * load(scratch, COLUMN + k)
                 store(scratch, COLUMN + j, rest)
                 give = give - rest * rest * load(lanes, factor(r, slots, j, j))
-            store(lanes, bound(r, slots, s) + of.GIVE, give)
+            store(lanes, bound(r, slots, s) + of.GIVE, choose(give - least, give, spread(0.0)))
+
+
+@woven
+def least_of(s, slots, scratch):
+    """Return how fast way s would yield by rounding alone, of what all ways along axes, or about them, do together."""
+    first = s // 3 * 3
+    total = spread(0.0)
+    for k in range(first, min(first + 3, slots)):
+        total = total + load(scratch, triangle(k, k))
+    return HELD * total
 
 
 @woven
