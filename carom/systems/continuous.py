@@ -26,6 +26,7 @@ from carom.systems.kernels.fast_pairs import (
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.trust import find_agreeing, spend_trust
 from carom.systems.looked import NO_PAIRS, NOWHERE, FastPairs, Land, Looked
+from carom.systems.progress import Progress
 
 
 class Fast(Resource):
@@ -120,9 +121,17 @@ class Fast(Resource):
         times = np.empty(len(of.pairs))
         foresee_meetings(
             span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular,
-            world[Flight].felt, *of.looked, *self.land, of.asked, of.left, times,
+            accelerations(world), *of.looked, *self.land, of.asked, of.left, times,
         )  # fmt: skip
         return times
+
+
+def accelerations(world: World) -> Floats:
+    """Return by how much forces accelerate bodies (rows, 3); before a step knows them, those of the last substep.
+
+    What they felt then is not what snapshots hold.
+    """
+    return world[Flight].felt if world[Progress].substep else world[Motion].linear_acceleration
 
 
 def look_at(world: World, fast: Integers, center: Floats, looked: Looked) -> Land:

@@ -6,9 +6,8 @@ import numpy as np
 
 from carom.ecs import ColliderPose, Motion, Transform, World
 from carom.ecs.column import Booleans, Floats, Integers
-from carom.ecs.components.flight import Flight
 from carom.systems.constants import FEW_MEETING, MEET
-from carom.systems.continuous import fast_of, look_at
+from carom.systems.continuous import accelerations, fast_of, look_at
 from carom.systems.detection.narrow import Found
 from carom.systems.kernels.fast_pairs import NEVER, find_far
 from carom.systems.kernels.meeting import foresee_meetings
@@ -60,7 +59,7 @@ def without_seeming(
     times, agrees = np.empty(len(free)), np.empty(len(free), np.bool_)
     land = look_at(world, free.copy(), center, looked)  # of meshes the sides change places
     foresee_meetings(
-        span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, world[Flight].felt,
+        span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, accelerations(world),
         *looked, *land, np.ones(len(free), np.bool_), np.zeros(len(free)), times,
     )  # fmt: skip
     find_agreeing(

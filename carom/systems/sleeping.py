@@ -182,7 +182,7 @@ def place_frozen(world: World, rows: Integers) -> None:
     flight.start_position[rows], flight.start_rotation[rows] = transform.position[rows], transform.rotation[rows]
     for center in (flight.center, flight.start_center, flight.detected_center):
         center[rows] = centers_of_mass(world, rows)
-    reach_within(world, 0.0)
+    reach_within(world, 0.0, np.union1d(world[Awake].now(world), rows))  # the same also where they sleep already
 
 
 def _among(rows: Integers, mask: Booleans) -> Booleans:

@@ -152,6 +152,29 @@ def test_a_snapshot_of_sleepers_goes_on_the_same_way() -> None:
         assert _drop(other) == dropped
 
 
+@pytest.mark.parametrize("speed", [0.3, 0.6, 0.9, 1.2])
+def test_who_sleeps_in_a_snapshot_is_found_from_as_far_as_before(speed: float) -> None:
+    """A ball rolls up to a box that sleeps; from a snapshot of before, in another world, it wakes in the same step."""
+    simulation = Simulation()
+    simulation.add(collider={"plane": {}})
+    simulation.add(name="box", collider=BOX, body={}, transform={"position": (0.0, 0.5, 0.0)})
+    ball = simulation.add(collider=BALL, body={}, transform={"position": (-2.5, 0.5, 0.0)})
+    while not simulation["box"].motion.asleep:
+        simulation.step()
+    simulation[ball].motion.linear[0] = speed
+    simulation.step(10)
+    assert simulation["box"].motion.asleep
+    snapshot, frames = take_snapshot(simulation.world), []
+    while simulation["box"].motion.asleep:
+        simulation.step()
+        frames.append(state_hash(simulation.world))
+    other = Simulation()
+    restore_snapshot(other.world, snapshot)
+    for frame in frames:
+        other.step()
+        assert state_hash(other.world) == frame
+
+
 def _write(name: str, kind: type, column: str, value: object) -> Callable[[Simulation], None]:
     def write(simulation: Simulation) -> None:
         world = simulation.world

@@ -24,15 +24,18 @@ def place_colliders(world: World, dt: float) -> None:
     reach_within(world, dt)
 
 
-def reach_within(world: World, dt: float) -> None:
-    """Place every collider and bound what it can reach within the next ``dt`` seconds; who is carried goes along."""
+def reach_within(world: World, dt: float, rows: Integers | None = None) -> None:
+    """Place every collider and bound what it can reach within the next ``dt`` seconds; who is carried goes along.
+
+    How far bodies reach is found anew of these rows, by default of those that are awake.
+    """
     compose(world)
     transform, motion, body, flight = world[Transform], world[Motion], world[RigidBody], world[Flight]
     stream = world[Stream]
     pull = hypot(*world[Settings].gravity)
     foresee_reach(
-        world[Awake].now(world), dt, pull, transform.position, transform.rotation, motion.linear,
-        body.center_of_mass, body.inertia, body.inverse_mass, motion.linear_acceleration,
+        world[Awake].now(world) if rows is None else rows, dt, pull, transform.position, transform.rotation,
+        motion.linear, body.center_of_mass, body.inertia, body.inverse_mass, motion.linear_acceleration,
         flight.reach, flight.detected_center, stream.motion, stream.gone,
     )  # fmt: skip
     stream.passes = dt * hypot(*stream.motion[0].tolist())
