@@ -47,7 +47,7 @@ class Apart(Resource):
             self.pairs, self.until = pairs, np.empty(len(pairs))
             keep_apart(*before, self.pairs, self.until)
         near, near_reaches = np.empty_like(pairs), np.empty_like(reaches)
-        count = leave_apart(pairs, reaches, self.until, self.way, near, near_reaches)
+        count = leave_apart(pairs, reaches, self.until, self.way, collider.shape, near, near_reaches)
         self._left = len(pairs) - count
         return near[:count], near_reaches[:count]
 

@@ -7,8 +7,9 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APART_MARGIN
+from carom.systems.constants import APART_MARGIN, REACH_KEPT
 from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.narrow import is_ball
 
 
 @kernel("seen", "way")
@@ -34,17 +35,18 @@ def add_ways(rows, bound_center, bound_half, bound_radius, position, rotation, s
 
 
 @kernel("near", "near_reaches")
-def leave_apart(pairs, reaches, until, way, near, near_reaches):
+def leave_apart(pairs, reaches, until, way, shape, near, near_reaches):
     """Write the pairs that may be within their reaches (m), and these; return how many they are.
 
-    The others have ``until`` their ways make up that much less what they reach. Who these are is past foreseeing, so
-    that no branch hangs on it.
+    The others have ``until`` their ways make up that much less what they reach, of balls what contacts leave at
+    (REACH_KEPT). Who these are is past foreseeing, so that no branch hangs on it.
     """
     count = 0
     for p in range(len(pairs)):
         i, j = pairs[p, 0], pairs[p, 1]
         near[count, 0], near[count, 1], near_reaches[count] = i, j, reaches[p]
-        count += 0 if until[p] - way[i] - way[j] > reaches[p] else 1
+        leaves = REACH_KEPT if is_ball(i, shape) or is_ball(j, shape) else 1.0
+        count += 0 if until[p] - way[i] - way[j] > leaves * reaches[p] else 1
     return count
 
 
