@@ -16,7 +16,9 @@ from carom.systems.detection.answered import Answered, uncounted
 from carom.systems.detection.apart import Apart
 from carom.systems.detection.bounds import reaches_of
 from carom.systems.detection.narrow import measure_pairs
-from carom.systems.kernels.apart import add_ways
+from carom.systems.kernels.apart import add_ways, leave_apart
+from carom.systems.shapes.box import Box
+from carom.systems.shapes.sphere import Sphere
 from carom.systems.simulation import Simulation
 
 HULL = {"convex": {"points": [(0.2, 0.0, 0.0), (-0.1, 0.0, 0.2), (-0.1, 0.0, -0.2), (0.0, 0.3, 0.0)]}}
@@ -138,3 +140,14 @@ def test_no_point_goes_farther_than_the_way_of_its_collider() -> None:
     again = way.copy()
     add_ways(np.arange(n), np.zeros((n, 3)), half, np.zeros(n), places[1], turns[1], seen, way)
     assert np.array_equal(way, again)
+
+
+def test_balls_are_left_out_only_where_their_contacts_leave() -> None:
+    """What of a table stays hangs on how far it is, and not on whether that was known: balls stay a quarter farther."""
+    boxes, balls = (0, 1), (0, 2)
+    pairs, shape = np.array([boxes, balls]), np.array([Box.number, Box.number, Sphere.number])
+    way, reaches = np.array([0.1, 0.2, 0.2]), np.array([0.04, 0.04])
+    for gap, left in ((0.039, [boxes, balls]), (0.041, [balls]), (0.049, [balls]), (0.051, [])):
+        near, near_reaches = np.empty_like(pairs), np.empty(2)
+        count = leave_apart(pairs, reaches, np.full(2, gap + 0.3), way, shape, near, near_reaches)
+        assert near[:count].tolist() == [list(pair) for pair in left]
