@@ -86,7 +86,7 @@ def test_in_two_dimensions_impacts_keep_momentum_and_angular_momentum() -> None:
 
 @pytest.mark.parametrize("kind", ["ball", "hinge", "limited hinge", "slider", "fixed"])
 def test_joints_hold_a_flat_world_together_as_one_with_depth(kind: str) -> None:
-    """Three bodies that fly and turn in the plane, whether the plane is all there is or not; no energy is gained.
+    """Three bodies that fly and turn in the plane, whether the plane is all there is or not.
 
     Axes of joints turn with bodies and are off the plane by rounding, along which nobody can move where it is.
     """
@@ -107,16 +107,15 @@ def test_joints_hold_a_flat_world_together_as_one_with_depth(kind: str) -> None:
                 ends = {"a": f"link{k - 1}", "b": f"link{k}", "at": (k - 0.5, 0.0, 0.0)}
                 simulation.add(joint={kind.split()[-1]: words.get(kind, {}) | ends})
         worlds.append(simulation)
-    flat, deep = worlds
-    flat.step()
-    deep.step()
-    energy = total_energy(flat.world)
+    plane, space = worlds
+    plane.step()
+    energy = total_energy(plane.world)
     for _ in range(60):
-        flat.step()
-        deep.step()
-        assert total_energy(flat.world) <= 1.02 * energy
+        plane.step()
+        assert total_energy(plane.world) <= 1.02 * energy  # as much may be in what pulls bodies back to their joints
+    space.step(61)
     for k in range(3):
-        at, there = flat[f"link{k}"], deep[f"link{k}"]
+        at, there = plane[f"link{k}"], space[f"link{k}"]
         assert at.transform.position == pytest.approx(there.transform.position, abs=1e-9)
         assert at.transform.rotation == pytest.approx(there.transform.rotation, abs=1e-9)
         assert (at.transform.position[2], at.motion.linear[2], *at.motion.angular[:2]) == (0.0, 0.0, 0.0, 0.0)

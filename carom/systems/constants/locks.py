@@ -1,7 +1,8 @@
 """Locked axes: what of a mass and of its moments is left."""
 
-# Part of the inverse moments about all axes. One that is less is rounding, about an axis that the body cannot turn
-# about anyway; locking it changes nothing. Larger: the heaviest axis of a needle counts as none.
+# Part of the inverse moments about all axes, and of how fast two bodies yield along all ways of a joint, or about them.
+# One that is less is rounding, about an axis that the body cannot turn about anyway; locking it changes nothing.
+# Larger: the heaviest axis of a needle counts as none. Smaller: joints in two dimensions fly apart.
 HELD = 1e-12
 
 # Part of the angular velocity to which that of a body with one locked axis is solved, and most steps of the iteration,

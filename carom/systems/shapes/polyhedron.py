@@ -27,7 +27,10 @@ class Polyhedron(NamedTuple):
     edges: list[tuple[int, int, int, int]]
 
     def closes(self) -> bool:
-        """Tell whether faces of three corners or more close a volume: one to either side of edges, Euler's formula."""
+        """Tell whether the faces close a volume: one to either side of every edge, and Euler's formula.
+
+        A face of fewer than three corners has no side, and both may hold without it.
+        """
         closed = all(right >= 0 for *_, right in self.edges) and all(len(loop) > 2 for loop in self.loops)
         return closed and len(self.vertices) - len(self.edges) + len(self.loops) == 2
 
