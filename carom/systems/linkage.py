@@ -72,19 +72,19 @@ class Linkage(Resource):
         self.measured = self.weighed = self.marked = False
         self.groups, lanes = group_joints(
             self.rows, body_a, body_b, body.inverse_mass, nobody,
-            joint.along, joint.about, joint.mode, joint.lower, joint.driven, joint.friction,
-            self.kinds, self.index_a, self.index_b, self.first, self.place, self.row,
+            joint.along, joint.about, joint.mode, joint.lower,
+            joint.driven, joint.stiffness, joint.damping, joint.friction,
+            self.kinds, self.asks, self.index_a, self.index_b, self.first, self.place, self.row,
         )  # fmt: skip
         if len(self.lanes) < lanes:
             self.lanes = aligned(2 * lanes, WIDTH)
         fill_joints(
-            self.groups, self.kinds, self.index_a, self.index_b, self.first, self.place, self.row, nobody,
+            self.groups, self.kinds, self.asks, self.index_a, self.index_b, self.first, self.place, self.row, nobody,
             body.center_of_mass, ties.row_a[here], ties.row_b[here], transform.position, transform.rotation,
             joint.anchor_a, joint.anchor_b, joint.frame_a, joint.frame_b,
-            joint.mode, joint.lower, joint.upper, joint.restitution, joint.driven, joint.stiffness, joint.damping,
+            joint.mode, joint.lower, joint.upper, joint.restitution, joint.stiffness, joint.damping,
             joint.target, joint.speed, joint.most, joint.friction,
-            joint.impulse, joint.drive_impulse, joint.friction_impulse, joint.position, joint.velocity,
-            self.asks, self.lanes,
+            joint.impulse, joint.drive_impulse, joint.friction_impulse, joint.position, joint.velocity, self.lanes,
         )  # fmt: skip
 
     def mark(self, world: World, h: float) -> None:

@@ -102,8 +102,12 @@ def test_a_spring_that_is_too_stiff_for_the_step_only_settles() -> None:
     assert stretch[-1] < 1e-9
 
 
-def test_a_rope_that_hangs_slack_is_not_felt() -> None:
-    """A ball below its knot falls as if there were no rope, to the last bit, until the rope is taut; then it hangs."""
+@pytest.mark.parametrize("beside", [False, True])
+def test_a_rope_that_hangs_slack_is_not_felt(beside: bool) -> None:
+    """A ball below its knot falls as if there were no rope, to the last bit, until the rope is taut; then it hangs.
+
+    So it does where another hangs on a spring.
+    """
     places = []
     for rope in (False, True):
         simulation = Simulation(dt=1 / 240, sleeping=False)
@@ -112,6 +116,10 @@ def test_a_rope_that_hangs_slack_is_not_felt() -> None:
         if rope:
             words = {"b": "ball", "anchor_a": (0.0, 0.0, 0.0), "anchor_b": (0.0, 0.0, 0.0), "length": 1.0}
             joint = simulation.add(joint={"rope": words})
+        if beside:
+            simulation.add(name="other", collider=BALL, body={"mass": 1.0}, transform={"position": (9.0, -0.5, 0.0)})
+            spring = {"b": "other", "anchor_a": (9.0, 0.0, 0.0), "stiffness": 50.0, "damping": 1.0}
+            simulation.add(joint={"spring": spring})
         simulation.step(60)
         places.append(simulation["ball"].transform.position.tolist())
     assert places[0] == places[1]

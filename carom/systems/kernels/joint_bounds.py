@@ -52,7 +52,7 @@ def drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodi
         give + load(lanes, p + of.YIELDS) / (soft * h)
     )
     most = load(lanes, p + of.MOST) * h
-    after = larger(-most, smaller(most, after)) * load(lanes, p + of.IS_DRIVEN)
+    after = larger(-most, smaller(most, after))
     if relaxing:
         after = choose(stiff, before, after)
     store(lanes, p + of.DRIVE, after)
@@ -74,7 +74,6 @@ def limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes
         bounces = choose(held, choose(came - BOUNCE_SPEED, came * load(lanes, p + of.BOUNCE), zero), zero)
         wanted = choose(bounces, bounces, wanted)
     after = larger(zero, held + (wanted - opening) * per(giving(p, hardness, lanes)))
-    limited = load(lanes, p + of.IS_LIMITED)
-    j = choose(limited, sign * after - before, zero)
+    j = sign * after - before
     store(lanes, q + of.HOLD, before + j)
     return given(s, g, r, j, a, b, index_a, index_b, lanes, bodies)

@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
-from carom.ecs.components.joint import LIMITED, LOCKED
+from carom.ecs.components.joint import LOCKED
 from carom.systems.kernels import joint_groups as of
 from carom.systems.kernels.joint_groups import bound, end_of, slot, slots_of
 from carom.systems.kernels.kernel import inlined, kernel
@@ -13,12 +13,12 @@ from carom.systems.kernels.lanes import WIDTH, address, spread, store
 from carom.systems.kernels.spatial import product, turn
 
 
-@kernel("asks", "lanes")
+@kernel("lanes")
 def fill_joints(
-    groups, kinds, index_a, index_b, first, place, row, nobody, center_of_mass,
+    groups, kinds, asks, index_a, index_b, first, place, row, nobody, center_of_mass,
     row_a, row_b, position_of, rotation_of, anchor_a, anchor_b, frame_a, frame_b, mode, lower, upper, restitution,
-    driven, stiffness, damping, target, speed, most, friction, impulse, drive_impulse, friction_impulse,
-    position, velocity, asks, lanes,
+    stiffness, damping, target, speed, most, friction, impulse, drive_impulse, friction_impulse,
+    position, velocity, lanes,
 ):  # fmt: skip
     """Write what joints hold into the lanes of their groups; of what stands, anchors and frames are in the world.
 
@@ -31,7 +31,6 @@ def fill_joints(
             store(rows, r + k, spread(0.0))
         for s in range(slots if bounded else 0):
             store(rows, bound(r, slots, s) + of.DAMPING, spread(1.0))  # divides also where nobody is
-        asks[g] = 0
         for lane in range(WIDTH):
             lanes[r + of.FRAME_A + 3, lane] = lanes[r + of.FRAME_B + 3, lane] = 1.0
             i = first[g, lane]
@@ -55,8 +54,8 @@ def fill_joints(
                     lanes[q + of.HELD, lane], lanes[q + of.AT, lane] = 1.0, lower[i, s]
                 lanes[q + of.HOLD, lane], lanes[q + of.SPEED, lane] = impulse[i, s], velocity[i, s]
                 if bounded:
-                    asks[g] |= write_bounds(
-                        bound(r, slots, s), lane, i, s, mode, lower, upper, restitution, driven, stiffness, damping,
+                    write_bounds(
+                        bound(r, slots, s), lane, i, s, asks[g], lower, upper, restitution, stiffness, damping,
                         target, speed, most, friction, drive_impulse, friction_impulse, lanes,
                     )  # fmt: skip
 
@@ -81,25 +80,18 @@ def write_side(lever, frame, lane, i, stands, row, center_of_mass, position, rot
 
 @inlined
 def write_bounds(
-    q, lane, i, s, mode, lower, upper, restitution, driven, stiffness, damping, target, speed, most, friction,
+    q, lane, i, s, asks, lower, upper, restitution, stiffness, damping, target, speed, most, friction,
     drive_impulse, friction_impulse, lanes,
 ):  # fmt: skip
-    """Write what bounds a way; return what it asks for."""
-    asks = 0
-    if mode[i, s] == LIMITED:
-        asks |= of.LIMIT_BIT << s
-        lanes[q + of.IS_LIMITED, lane], lanes[q + of.BOUNCE, lane] = 1.0, restitution[i]
+    """Write what bounds a way, of that which the group asks for."""
+    if asks & of.LIMIT_BIT << s:
         lanes[q + of.LOWER, lane], lanes[q + of.UPPER, lane] = lower[i, s], upper[i, s]
-    rigid = damping[i, s] == np.inf
-    if driven[i, s] and (damping[i, s] > 0.0 or stiffness[i, s] > 0.0):
-        asks |= of.DRIVE_BIT << s
-        lanes[q + of.IS_DRIVEN, lane] = 1.0
-        if not rigid:
+        lanes[q + of.BOUNCE, lane] = restitution[i]
+    if asks & of.DRIVE_BIT << s:
+        if damping[i, s] < np.inf:  # else it is rigid
             lanes[q + of.STIFFNESS, lane], lanes[q + of.DAMPING, lane] = stiffness[i, s], damping[i, s]
             lanes[q + of.YIELDS, lane] = 1.0
         lanes[q + of.TARGET, lane], lanes[q + of.WANTED, lane] = target[i, s], speed[i, s]
         lanes[q + of.MOST, lane], lanes[q + of.DRIVE, lane] = most[i, s], drive_impulse[i, s]
-    if friction[i, s] > 0.0:
-        asks |= of.FRICTION_BIT << s
+    if asks & of.FRICTION_BIT << s:
         lanes[q + of.RUBS, lane], lanes[q + of.RUB, lane] = friction[i, s], friction_impulse[i, s]
-    return asks

@@ -1,4 +1,4 @@
-"""Groups of joints: up to eight of one kind that share no moving body, so that they can be solved side by side."""
+"""Groups of joints: up to eight that are alike and share no moving body, so that they can be solved side by side."""
 
 from __future__ import annotations
 
@@ -20,17 +20,16 @@ LEVER_A, LEVER_B, FRAME_A, FRAME_B, ARM_A, ARM_B, BACK, FIRST = 0, 3, 6, 10, 14,
 # is, and the impulse that holds it, of the substep and summed over the step.
 AXIS, PLACE, SPEED, AT, HELD, HOLD, SUM, SLOT_ROWS = 0, 3, 4, 5, 6, 7, 8, 9
 # Then the triangle of D and L of the locked ways' L D L^T (the inverse of D on the diagonal), and in a group with
-# limits, drives or friction rows of each way: whether it has limits, which, and with which restitution; whether it is
-# driven, how stiffly and damped, 0 where it yields to nothing, where to and how fast, and the most force; friction; how
-# fast it gives way to a unit impulse while what is locked holds, and while nothing does; impulses of drive and
-# friction, and their sums.
-IS_LIMITED, LOWER, UPPER, BOUNCE, IS_DRIVEN, STIFFNESS, DAMPING, YIELDS, TARGET, WANTED, MOST = range(11)
-RUBS, GIVE, ALONE, DRIVE, DRIVE_SUM, RUB, RUB_SUM, BOUND_ROWS = range(11, 19)
+# limits, drives or friction rows of each way: its limits, and their restitution; how stiffly and damped it is driven, 0
+# where it yields to nothing, where to and how fast, and the most force; friction; how fast it gives way to a unit
+# impulse while what is locked holds, and while nothing does; impulses of drive and friction, and their sums.
+LOWER, UPPER, BOUNCE, STIFFNESS, DAMPING, YIELDS, TARGET, WANTED, MOST = range(9)
+RUBS, GIVE, ALONE, DRIVE, DRIVE_SUM, RUB, RUB_SUM, BOUND_ROWS = range(9, 17)
 # Behind the triangle of points, which need not ask the bodies then: their inverse masses and upper halves of inertias.
 MASS_A, MASS_B, INVERSE_A, INVERSE_B, INERT_ROWS = 0, 3, 6, 12, 18
 
-# What a group asks for: a bit for each way with a limit, then with a drive, then with friction.
-LIMIT_BIT, DRIVE_BIT, FRICTION_BIT = 1, 1 << SLOTS, 1 << 2 * SLOTS
+# What all joints of a group ask for: a bit for each way with a limit, then with a drive, then with friction.
+LIMIT_BIT, DRIVE_BIT, FRICTION_BIT, MOST_ASKED = 1, 1 << SLOTS, 1 << 2 * SLOTS, 1 << 3 * SLOTS
 
 
 @woven
@@ -87,10 +86,24 @@ def kind_of(i, along, about, mode, lower, driven, friction):
     return (CONES if about[i] == SWING_TWIST else FRAMES) + shift
 
 
-@kernel("kinds", "index_a", "index_b", "first", "place", "row", makes_arrays=True)
+@inlined
+def asks_of(i, mode, driven, stiffness, damping, friction):
+    """Return what joint i asks for beside what it locks."""
+    asks = 0
+    for s in range(SLOTS):
+        if mode[i, s] == LIMITED:
+            asks |= LIMIT_BIT << s
+        if driven[i, s] and (damping[i, s] > 0.0 or stiffness[i, s] > 0.0):
+            asks |= DRIVE_BIT << s
+        if friction[i, s] > 0.0:
+            asks |= FRICTION_BIT << s
+    return asks
+
+
+@kernel("kinds", "asks", "index_a", "index_b", "first", "place", "row", makes_arrays=True)
 def group_joints(
-    joints, body_a, body_b, inverse_mass, nobody, along, about, mode, lower, driven, friction,
-    kinds, index_a, index_b, first, place, row,
+    joints, body_a, body_b, inverse_mass, nobody, along, about, mode, lower, driven, stiffness, damping, friction,
+    kinds, asks, index_a, index_b, first, place, row,
 ):  # fmt: skip
     """Put joints (rows) into groups that, one after the other, do what the joints would in the order of their rows.
 
@@ -100,36 +113,24 @@ def group_joints(
     ``place`` where it is among ``joints``.
     """
     count = len(joints)
-    reached, level = np.zeros(len(inverse_mass), np.int64), np.empty(count, np.int64)
-    kind = np.empty(count, np.int64)
-    levels = 0
+    reached, like = np.zeros(len(inverse_mass), np.int64), np.empty(count, np.int64)
     for n in range(count):
         i, a, b = joints[n], body_a[n], body_b[n]
-        kind[n] = kind_of(i, along, about, mode, lower, driven, friction)
         moving_a, moving_b = a >= 0 and inverse_mass[a] > 0.0, b >= 0 and inverse_mass[b] > 0.0
-        level[n] = max(reached[a] if moving_a else 0, reached[b] if moving_b else 0)
+        level = max(reached[a] if moving_a else 0, reached[b] if moving_b else 0)
         if moving_a:
-            reached[a] = level[n] + 1
+            reached[a] = level + 1
         if moving_b:
-            reached[b] = level[n] + 1
-        levels = max(levels, level[n] + 1)
-    begin = np.zeros(2 * KINDS * levels + 1, np.int64)
-    for n in range(count):
-        begin[2 * KINDS * level[n] + kind[n] + 1] += 1
-    for k in range(1, len(begin)):
-        begin[k] += begin[k - 1]
-    order = np.empty(count, np.int64)
-    for n in range(count):
-        k = 2 * KINDS * level[n] + kind[n]
-        order[begin[k]] = n
-        begin[k] += 1
+            reached[b] = level + 1
+        kind = kind_of(i, along, about, mode, lower, driven, friction)
+        asked = asks_of(i, mode, driven, stiffness, damping, friction)
+        like[n] = (level * 2 * KINDS + kind) * MOST_ASKED + asked
     group, lane, rows, last = -1, WIDTH, 0, -1
-    for k in range(count):
-        n = order[k]
-        if lane == WIDTH or 2 * KINDS * level[n] + kind[n] != last:
-            group, lane, last = group + 1, 0, 2 * KINDS * level[n] + kind[n]
-            kinds[group], row[group] = kind[n], rows
-            rows = end_of(rows, kind[n])
+    for n in np.argsort(like, kind="mergesort"):
+        if lane == WIDTH or like[n] != last:
+            group, lane, last = group + 1, 0, like[n]
+            kinds[group], asks[group], row[group] = last // MOST_ASKED % (2 * KINDS), last % MOST_ASKED, rows
+            rows = end_of(rows, kinds[group])
             for other in range(WIDTH):
                 index_a[group, other], index_b[group, other], first[group, other] = nobody, nobody, -1
         index_a[group, lane] = body_a[n] if body_a[n] >= 0 else nobody

@@ -85,31 +85,39 @@ def start_warm(g, r, kind, h, index_a, index_b, lanes, bodies):
 
 @woven
 def solve(g, r, kind, asks, relaxing, h, rate, hardness, index_a, index_b, lanes, bodies, scratch):
-    """Solve a group once: what is locked, then what bounds the other ways, and what is locked again."""
+    """Solve a group once: what is locked, and again after each of what bounds the other ways.
+
+    Until then an impulse at the end of an arm has turned bodies far more than it moves them: the next would see that.
+    """
     slots = slots_of(kind)
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-    if slots == 1:
-        a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-    elif slots == WAYS:
+    if slots == WAYS:
         push = hold_point(r, rate, hardness, a, b, lanes)
         a, b = moved_point(r, push, a, b, lanes)
     else:
-        a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-    if kind >= KINDS and asks:
-        for s in range(slots):
-            p = bound(r, slots, s)
-            if asks & FRICTION_BIT << s:
+        a, b = lock(slots, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+    for s in range(slots if asks else 0):
+        p = bound(r, slots, s)
+        for bit in (FRICTION_BIT, DRIVE_BIT, LIMIT_BIT):
+            if not asks & bit << s:
+                continue
+            if bit == FRICTION_BIT:
                 a, b = rub(s, g, r, p, hardness, h, a, b, index_a, index_b, lanes, bodies)
-            if asks & DRIVE_BIT << s:
+            elif bit == DRIVE_BIT:
                 a, b = drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodies)
-            if asks & LIMIT_BIT << s:
+            else:
                 a, b = limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes, bodies)
-        if slots == 1:
-            a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-        else:
-            a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+            a, b = lock(slots, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
+
+
+@woven
+def lock(slots, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch):
+    """Solve what is locked."""
+    if slots == 1:
+        return hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+    return hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
 
 
 @woven
