@@ -6,9 +6,9 @@ from __future__ import annotations
 from carom.systems.kernels import joint_groups as of
 from carom.systems.kernels.accounting import gained, given
 from carom.systems.kernels.joint_groups import KINDS, bound, slot, slots_of
-from carom.systems.kernels.joint_motion import added, moved
+from carom.systems.kernels.joint_motion import added, borne, moved
 from carom.systems.kernels.kernel import kernel
-from carom.systems.kernels.lanes import address, gather, planes, spread, store
+from carom.systems.kernels.lanes import address, gather, load, planes, spread, store
 
 HELD, DROVE, RUBBED, ENTRIES = 0, 1, 2, 3
 
@@ -29,11 +29,15 @@ def find_joint_work(groups, kinds, row, index_a, index_b, lanes, bodies, earlier
         for entry in range(ENTRIES):
             push, twist = nothing, nothing
             for s in range(slots if entry == HELD or kinds[g] >= KINDS else 0):
-                q = slot(r, s)
+                q, p = slot(r, s), bound(r, slots, s)
                 if entry == HELD:
                     j = gained(q + of.HOLD, lanes, earlier)
+                    locks = load(lanes, q + of.HELD) * j
+                    push, twist = added(s, q, locks, push, twist, lanes)
+                    if kinds[g] >= KINDS:
+                        push, twist = borne(p, j - locks, push, twist, lanes)
                 else:
-                    j = gained(bound(r, slots, s) + (of.DRIVE if entry == DROVE else of.RUB), lanes, earlier)
-                push, twist = added(s, q, j, push, twist, lanes)
+                    j = gained(p + (of.DRIVE if entry == DROVE else of.RUB), lanes, earlier)
+                    push, twist = borne(p, j, push, twist, lanes)
             a, b = moved(g, r, push, twist, rest, rest, index_a, index_b, lanes, bodies)
             store(work, ENTRIES * g + entry, given(p_a, a) + given(p_b, b))

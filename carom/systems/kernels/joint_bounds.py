@@ -20,24 +20,17 @@ def per(give):
 
 
 @woven
-def giving(p, hardness, lanes):
-    """Return how fast a way gives way to a unit impulse, while what is locked holds with ``hardness``."""
-    alone = load(lanes, p + of.ALONE)
-    return alone - hardness * (alone - load(lanes, p + of.GIVE))
-
-
-@woven
-def rub(s, g, r, p, hardness, h, a, b, index_a, index_b, lanes, bodies):
+def rub(s, g, r, p, h, a, b, index_a, index_b, lanes, bodies):
     """Let friction stop a way, as far as it can."""
     before, most = load(lanes, p + of.RUB), load(lanes, p + of.RUBS) * h
-    after = before - speed_of(s, r, a, b, lanes) * per(giving(p, hardness, lanes))
+    after = before - speed_of(s, r, a, b, lanes) * per(load(lanes, p + of.GIVE))
     after = larger(-most, smaller(most, after))
     store(lanes, p + of.RUB, after)
-    return given(s, g, r, after - before, a, b, index_a, index_b, lanes, bodies)
+    return given(g, r, p, after - before, a, b, index_a, index_b, lanes, bodies)
 
 
 @woven
-def drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodies):
+def drive(s, g, r, p, relaxing, h, a, b, index_a, index_b, lanes, bodies):
     """Let spring and damper, or the motor, act on a way, stepped implicitly: stable however stiff they are.
 
     Their impulse is -h (k (x + h v' - target) + c (v' - speed)) for the velocity v' after it, the most force at most
@@ -47,7 +40,7 @@ def drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodi
     soft = larger(damping + stiff * h, spread(TINY))  # 0 in lanes without a joint
     off = load(lanes, slot(r, s) + of.PLACE) - load(lanes, p + of.TARGET)
     wanted = (damping * load(lanes, p + of.WANTED) - stiff * off) / soft
-    give = giving(p, hardness, lanes)
+    give = load(lanes, p + of.GIVE)
     after = (give * before - (speed_of(s, r, a, b, lanes) - wanted)) * per(
         give + load(lanes, p + of.YIELDS) / (soft * h)
     )
@@ -56,11 +49,11 @@ def drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodi
     if relaxing:
         after = choose(stiff, before, after)
     store(lanes, p + of.DRIVE, after)
-    return given(s, g, r, after - before, a, b, index_a, index_b, lanes, bodies)
+    return given(g, r, p, after - before, a, b, index_a, index_b, lanes, bodies)
 
 
 @woven
-def limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes, bodies):
+def limit(s, g, r, p, relaxing, rate, h, a, b, index_a, index_b, lanes, bodies):
     """Let no way go past the limit that is nearer, within the substep; bounce what has reached it."""
     q, zero = slot(r, s), spread(0.0)
     place, before = load(lanes, q + of.PLACE), load(lanes, q + of.HOLD)
@@ -73,7 +66,7 @@ def limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes
         came = -(sign * load(lanes, q + of.SPEED))
         bounces = choose(held, choose(came - BOUNCE_SPEED, came * load(lanes, p + of.BOUNCE), zero), zero)
         wanted = choose(bounces, bounces, wanted)
-    after = larger(zero, held + (wanted - opening) * per(giving(p, hardness, lanes)))
+    after = larger(zero, held + (wanted - opening) * per(load(lanes, p + of.GIVE)))
     j = sign * after - before
     store(lanes, q + of.HOLD, before + j)
-    return given(s, g, r, j, a, b, index_a, index_b, lanes, bodies)
+    return given(g, r, p, j, a, b, index_a, index_b, lanes, bodies)

@@ -21,10 +21,11 @@ LEVER_A, LEVER_B, FRAME_A, FRAME_B, ARM_A, ARM_B, BACK, FIRST = 0, 3, 6, 10, 14,
 AXIS, PLACE, SPEED, AT, HELD, HOLD, SUM, SLOT_ROWS = 0, 3, 4, 5, 6, 7, 8, 9
 # Then the triangle of D and L of the locked ways' L D L^T (the inverse of D on the diagonal), and in a group with
 # limits, drives or friction rows of each way: its limits, and their restitution; how stiffly and damped it is driven, 0
-# where it yields to nothing, where to and how fast, and the most force; friction; how fast it gives way to a unit
-# impulse while what is locked holds, and while nothing does; impulses of drive and friction, and their sums.
-LOWER, UPPER, BOUNCE, STIFFNESS, DAMPING, YIELDS, TARGET, WANTED, MOST = range(9)
-RUBS, GIVE, ALONE, DRIVE, DRIVE_SUM, RUB, RUB_SUM, BOUND_ROWS = range(9, 17)
+# where it yields to nothing, where to and how fast, and the most force; friction; a unit impulse on it, with what that
+# asks of the locks, as a push and a twist, and how fast it gives way to that; impulses of drive and friction, and their
+# sums.
+LOWER, UPPER, BOUNCE, STIFFNESS, DAMPING, YIELDS, TARGET, WANTED, MOST, RUBS = range(10)
+PUSH, TWIST, GIVE, DRIVE, DRIVE_SUM, RUB, RUB_SUM, BOUND_ROWS = 10, 13, 16, 17, 18, 19, 20, 21
 # Behind the triangle of points, which need not ask the bodies then: their inverse masses and upper halves of inertias.
 MASS_A, MASS_B, INVERSE_A, INVERSE_B, INERT_ROWS = 0, 3, 6, 12, 18
 

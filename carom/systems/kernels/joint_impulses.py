@@ -18,7 +18,7 @@ from carom.systems.kernels.joint_groups import (
     slot,
     slots_of,
 )
-from carom.systems.kernels.joint_motion import added, moved, parting
+from carom.systems.kernels.joint_motion import added, borne, moved, parting
 from carom.systems.kernels.joint_points import WAYS, finish_point, hold_point, moved_point, three_of
 from carom.systems.kernels.joint_whirling import going_back, heed_whirling
 from carom.systems.kernels.kernel import kernel, woven
@@ -75,8 +75,10 @@ def start_warm(g, r, kind, h, index_a, index_b, lanes, bodies):
             q = slot(r, s)
             j = load(lanes, q + of.HOLD)
             if kind >= KINDS:
-                p = bound(r, slots, s)
-                j = j + load(lanes, p + of.DRIVE) + load(lanes, p + of.RUB)
+                p, locks = bound(r, slots, s), load(lanes, q + of.HELD) * j
+                bounds = j - locks + load(lanes, p + of.DRIVE) + load(lanes, p + of.RUB)
+                push, twist = borne(p, bounds, push, twist, lanes)
+                j = locks
             push, twist = added(s, q, j, push, twist, lanes)
         a, b = moved(g, r, push, twist, a, b, index_a, index_b, lanes, bodies)
     scatter(bodies[VELOCITY], index_a, g, a)
@@ -85,39 +87,29 @@ def start_warm(g, r, kind, h, index_a, index_b, lanes, bodies):
 
 @woven
 def solve(g, r, kind, asks, relaxing, h, rate, hardness, index_a, index_b, lanes, bodies, scratch):
-    """Solve a group once: what is locked, and again after each of what bounds the other ways.
+    """Solve a group once: what is locked, then what bounds the other ways and asks of the locks what it needs.
 
-    Until then an impulse at the end of an arm has turned bodies far more than it moves them: the next would see that.
+    Where locks only took notice later, an impulse at the end of an arm would turn bodies far more than it moves them.
     """
     slots = slots_of(kind)
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-    if slots == WAYS:
+    if slots == 1:
+        a, b = hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+    elif slots == WAYS:
         push = hold_point(r, rate, hardness, a, b, lanes)
         a, b = moved_point(r, push, a, b, lanes)
     else:
-        a, b = lock(slots, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+        a, b = hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
     for s in range(slots if asks else 0):
         p = bound(r, slots, s)
-        for bit in (FRICTION_BIT, DRIVE_BIT, LIMIT_BIT):
-            if not asks & bit << s:
-                continue
-            if bit == FRICTION_BIT:
-                a, b = rub(s, g, r, p, hardness, h, a, b, index_a, index_b, lanes, bodies)
-            elif bit == DRIVE_BIT:
-                a, b = drive(s, g, r, p, relaxing, hardness, h, a, b, index_a, index_b, lanes, bodies)
-            else:
-                a, b = limit(s, g, r, p, relaxing, rate, hardness, h, a, b, index_a, index_b, lanes, bodies)
-            a, b = lock(slots, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
+        if asks & FRICTION_BIT << s:
+            a, b = rub(s, g, r, p, h, a, b, index_a, index_b, lanes, bodies)
+        if asks & DRIVE_BIT << s:
+            a, b = drive(s, g, r, p, relaxing, h, a, b, index_a, index_b, lanes, bodies)
+        if asks & LIMIT_BIT << s:
+            a, b = limit(s, g, r, p, relaxing, rate, h, a, b, index_a, index_b, lanes, bodies)
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
-
-
-@woven
-def lock(slots, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch):
-    """Solve what is locked."""
-    if slots == 1:
-        return hold(1, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
-    return hold(6, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scratch)
 
 
 @woven

@@ -44,17 +44,20 @@ def hand_joints_over(
                 q = slot(r, s)
                 impulse[i, s], position[i, s] = lanes[q + of.HOLD, lane], lanes[q + of.PLACE, lane]
                 velocity[i, s] = lanes[q + of.SPEED, lane]
-                whole = lanes[q + of.SUM, lane]
+                whole = lanes[q + of.SUM, lane] / dt
                 lanes[q + of.SUM, lane] = 0.0
                 if bounded:
+                    p, limits = bound(r, slots, s), 0.0
                     if mode[i, s] == LIMITED:
                         limit[i, s] = -1 if whole > 0.0 else 1 if whole < 0.0 else 0
-                    p = bound(r, slots, s)
+                        whole, limits = 0.0, whole
                     drive_impulse[i, s], friction_impulse[i, s] = lanes[p + of.DRIVE, lane], lanes[p + of.RUB, lane]
-                    effort[i, s] += lanes[p + of.DRIVE_SUM, lane] / dt
-                    whole += lanes[p + of.DRIVE_SUM, lane] + lanes[p + of.RUB_SUM, lane]
+                    driven, rubs = lanes[p + of.DRIVE_SUM, lane] / dt, lanes[p + of.RUB_SUM, lane] / dt
+                    effort[i, s] += driven
+                    for k in range(3):
+                        force[i, k] += (limits + driven + rubs) * lanes[p + of.PUSH + k, lane]
+                        torque[i, k] += (limits + driven + rubs) * lanes[p + of.TWIST + k, lane]
                     lanes[p + of.DRIVE_SUM, lane], lanes[p + of.RUB_SUM, lane] = 0.0, 0.0
-                whole /= dt
                 for k in range(3):
                     if s < 3:
                         force[i, k] += whole * lanes[q + of.AXIS + k, lane]

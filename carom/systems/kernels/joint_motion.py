@@ -71,8 +71,19 @@ def speed_of(s, r, a, b, lanes):
 
 
 @woven
-def given(s, g, r, j, a, b, index_a, index_b, lanes, bodies):
-    """Return the velocities after an impulse along or about one way."""
+def borne(p, j, push, twist, lanes):
+    """Return the push and the twist with an impulse of what bounds a way more, and what that asks of the locks."""
+    x, y, z = three(lanes, p + of.PUSH)
+    u, v, w = three(lanes, p + of.TWIST)
+    return (
+        (push[0] + j * x, push[1] + j * y, push[2] + j * z),
+        (twist[0] + j * u, twist[1] + j * v, twist[2] + j * w),
+    )
+
+
+@woven
+def given(g, r, p, j, a, b, index_a, index_b, lanes, bodies):
+    """Return the velocities after an impulse of what bounds a way."""
     zero = spread(0.0)
-    push, twist = added(s, slot(r, s), j, (zero, zero, zero), (zero, zero, zero), lanes)
+    push, twist = borne(p, j, (zero, zero, zero), (zero, zero, zero), lanes)
     return moved(g, r, push, twist, a, b, index_a, index_b, lanes, bodies)

@@ -7,6 +7,7 @@ from carom.ecs.components.joint import SLOTS
 from carom.systems.constants import HELD, IMMOVABLE
 from carom.systems.kernels import joint_groups as of
 from carom.systems.kernels.joint_groups import bound, factor, slot
+from carom.systems.kernels.joint_motion import added
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import about, dot, keep, three
 from carom.systems.kernels.lanes import choose, gather, larger, load, spread, store
@@ -79,7 +80,6 @@ def find_yielding(slots, g, r, bounded, index_a, index_b, lanes, bodies, scratch
     if bounded:
         for s in range(slots):
             give, least = load(scratch, triangle(s, s)), least_of(s, slots, scratch)
-            store(lanes, bound(r, slots, s) + of.ALONE, choose(give - least, give, spread(0.0)))
             for j in range(slots):
                 rest = load(scratch, triangle(max(s, j), min(s, j))) * load(lanes, slot(r, j) + of.HELD)
                 for k in range(j):
@@ -87,6 +87,24 @@ def find_yielding(slots, g, r, bounded, index_a, index_b, lanes, bodies, scratch
                 store(scratch, COLUMN + j, rest)
                 give = give - rest * rest * load(lanes, factor(r, slots, j, j))
             store(lanes, bound(r, slots, s) + of.GIVE, choose(give - least, give, spread(0.0)))
+            find_direction(slots, s, r, lanes, scratch)
+
+
+@woven
+def find_direction(slots, s, r, lanes, scratch):
+    """Write a unit impulse on way s with what it asks of the locks, so that nothing moves along these."""
+    free, zero = spread(1.0) - load(lanes, slot(r, s) + of.HELD), spread(0.0)
+    push, twist = added(s, slot(r, s), free, (zero, zero, zero), (zero, zero, zero), lanes)
+    for n in range(slots):
+        j = slots - 1 - n
+        asked = load(scratch, COLUMN + j) * load(lanes, factor(r, slots, j, j))
+        for k in range(j + 1, slots):
+            asked = asked - load(lanes, factor(r, slots, k, j)) * load(scratch, COLUMN + k)
+        store(scratch, COLUMN + j, asked)
+        push, twist = added(j, slot(r, j), -(free * asked), push, twist, lanes)
+    p = bound(r, slots, s)
+    keep(lanes, p + of.PUSH, push[0], push[1], push[2])
+    keep(lanes, p + of.TWIST, twist[0], twist[1], twist[2])
 
 
 @woven
