@@ -129,6 +129,32 @@ def test_a_rope_that_hangs_slack_is_not_felt(beside: bool) -> None:
     assert simulation[joint].joint.position[0] == pytest.approx(1.0, abs=1e-4)
 
 
+@pytest.mark.parametrize("aside", [0.0, 0.5])
+@pytest.mark.parametrize("also", [(), ("rotation_x",), ("rotation_z",)])
+def test_a_generic_joint_turns_on_beyond_a_quarter_turn(also: tuple[str, ...], aside: float) -> None:
+    """A box turns twice about the second of three axes, through where the first and the third are one.
+
+    It gains no energy there, and loses less than a ten-thousandth.
+    """
+    simulation = Simulation(dt=1 / 60, gravity=(0.0, 0.0, 0.0), sleeping=False)
+    spin = (0.0, aside, -3.0)
+    motion = {"linear": tuple(np.cross(spin, (0.3, 0.0, 0.0)).tolist()), "angular": spin}
+    collider = {"box": {"size": (0.4, 0.2, 0.1)}}
+    simulation.add(name="box", collider=collider, body={"mass": 1}, motion=motion, transform={"position": (0.3, 0, 0)})
+    frame = {"b": "box", "at": (0.0, 0.0, 0.0), "axis": (1.0, 0.0, 0.0), "second_axis": (0.0, 1.0, 0.0)}
+    joint = simulation.add(joint={"generic": frame | dict.fromkeys(("rotation_y", *also), "free")})
+    simulation.step()
+    energies = [energy(simulation)]
+    for _ in range(239):
+        simulation.step()
+        energies.append(energy(simulation))
+        assert simulation[joint].joint.gap < 1e-4
+    assert max(energies) < (1.0 + 1e-6) * energies[0]
+    assert energies[-1] > 0.9999 * energies[0]
+    angle = simulation[joint].joint.position[4]
+    assert angle == pytest.approx(12.0, rel=1e-3) if not (aside and "rotation_z" in also) else angle > 12.0
+
+
 def test_a_turned_world_swings_alike() -> None:
     """A double pendulum and the same turned by any rotation end in the same pose, turned."""
     ends = []

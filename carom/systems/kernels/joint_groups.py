@@ -14,8 +14,9 @@ from carom.systems.kernels.lanes import WIDTH
 LINES, POINTS, FRAMES, CONES, KINDS = 0, 1, 2, 3, 4
 
 # Rows of eight numbers that a group has, a lane each joint: levers from the centres of mass and frames, as the bodies
-# see them; then where they are: from either centre to the anchor of b; and how fast they may go back there.
-LEVER_A, LEVER_B, FRAME_A, FRAME_B, ARM_A, ARM_B, BACK, FIRST = 0, 3, 6, 10, 14, 17, 20, 21
+# see them; then where they are: from either centre to the anchor of b; how fast they may go back there; and the cosine
+# of the second angle, by which the axes of the others are less than their rates where these are locked.
+LEVER_A, LEVER_B, FRAME_A, FRAME_B, ARM_A, ARM_B, BACK, LEVEL, FIRST = 0, 3, 6, 10, 14, 17, 20, 21, 22
 # Rows of each way that may be held: its axis, where b is along it and how fast it goes, where it is locked, 1 where it
 # is, and the impulse that holds it, of the substep and summed over the step.
 AXIS, PLACE, SPEED, AT, HELD, HOLD, SUM, SLOT_ROWS = 0, 3, 4, 5, 6, 7, 8, 9

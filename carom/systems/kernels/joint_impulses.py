@@ -141,6 +141,8 @@ def hold(slots, g, r, rate, hardness, a, b, index_a, index_b, lanes, bodies, scr
         q = slot(r, s)
         speed = dot(three(lanes, q + of.AXIS), along if s < 3 else turning)
         off = load(lanes, q + of.PLACE) - load(lanes, q + of.AT)
+        if s in (3, 5):
+            off = off * load(lanes, r + of.LEVEL)
         rest = -(load(lanes, q + of.HELD) * (speed + going_back(r, rate * off, lanes)))
         for k in range(s):
             rest = rest - load(lanes, factor(r, slots, s, k)) * load(scratch, k)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import pi
+
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
@@ -12,7 +14,19 @@ from carom.systems.kernels.joint_yielding import SCRATCH_ROWS, find_yielding
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.lane_angles import arc_tangent, nearest_turn
 from carom.systems.kernels.lane_vectors import TINY, dot, keep, three
-from carom.systems.kernels.lanes import WIDTH, address, choose, gather, larger, load, planes, root, spread, store
+from carom.systems.kernels.lanes import (
+    WIDTH,
+    address,
+    choose,
+    gather,
+    larger,
+    load,
+    planes,
+    root,
+    smaller,
+    spread,
+    store,
+)
 from carom.systems.kernels.packing import POSE
 from carom.systems.kernels.spatial import product, turn
 
@@ -105,24 +119,57 @@ def axes_of(x, y, z, w):
 def place_angles(r, lanes, x, y, z, qx, qy, qz, qw):
     """Measure turns as angles about x, then y, then z; an axis here is that whose angular velocity is the angle's rate.
 
-    They are the basis dual to x of a, y between the turns and z of b (Goldstein, Classical Mechanics, 4.9); within a
-    quarter turn about y, where x and z would be one.
+    They are the basis dual to x of a, y between the turns and z of b (Goldstein, Classical Mechanics, 4.9). Unless y is
+    locked, it is that of the two ways to turn there which goes on where angles were before, also beyond a quarter turn
+    about y, at which x and z are one. Their axes grow without end there: of those that are locked then, less is taken.
     """
     u, v, w = axes_of(qx, qy, qz, qw)
     level = root(u[0] * u[0] + v[0] * v[0])  # cosine of the second angle
-    store_angle(r, 3, lanes, arc_tangent(-w[1], w[2]))
-    store_angle(r, 4, lanes, arc_tangent(w[0], level))
-    store_angle(r, 5, lanes, arc_tangent(-v[0], u[0]))
-    inverse = 1.0 / larger(level, spread(1e-6))
+    first, second, third = arc_tangent(-w[1], w[2]), arc_tangent(w[0], level), arc_tangent(-v[0], u[0])
+    near = way_to(r, lanes, first, second, third)
+    bends = spread(1.0) - load(lanes, slot(r, 4) + of.HELD)
+    over = choose(near - way_to(r, lanes, first + pi, pi - second, third + pi), bends, spread(0.0))
+    store_angle(r, 3, lanes, choose(over, first + pi, first))
+    store_angle(r, 4, lanes, choose(over, pi - second, second))
+    store_angle(r, 5, lanes, choose(over, third + pi, third))
+    level = choose(over, -level, level)
+    inverse = choose(over, spread(-1.0), spread(1.0)) / larger(larger(level, -level), spread(1e-6))
     s, c, tangent = -w[1] * inverse, w[2] * inverse, w[0] * inverse
-    keep_turned(r, 3, lanes, x, y, z, spread(1.0), tangent * s, -(tangent * c))
+    level, sine = choose(bends, level, spread(1.0)), bends * w[0]
+    (of_x, by_x), (of_z, by_z) = lengths_of(r, 3, lanes, level, sine), lengths_of(r, 5, lanes, level, sine)
+    keep_turned(r, 3, lanes, x, y, z, of_x, of_x * (tangent * s) - by_x * c, -(of_x * (tangent * c)) - by_x * s)
     keep_turned(r, 4, lanes, x, y, z, spread(0.0), c, s)
-    keep_turned(r, 5, lanes, x, y, z, spread(0.0), -(s * inverse), c * inverse)
+    keep_turned(r, 5, lanes, x, y, z, spread(0.0), -(of_z * (s * inverse)) - by_z * c, of_z * (c * inverse) - by_z * s)
+    store(lanes, r + of.LEVEL, level)
+
+
+@woven
+def lengths_of(r, s, lanes, level, sine):
+    """Return how much of the axis of way s, and of that about which the second turn is, is to be taken.
+
+    A lock of way s by the angle e off holds sin(e) cos(second) at 0, as what it is off by is noise where the cosine is.
+    """
+    q, one = slot(r, s), spread(1.0)
+    off = larger(-one, smaller(one, load(lanes, q + of.PLACE) - load(lanes, q + of.AT)))
+    held = load(lanes, q + of.HELD)
+    return choose(held, level, one), held * (sine * off)
+
+
+@woven
+def way_to(r, lanes, first, second, third):
+    """Return how far three angles are from those of before, but for whole turns, altogether."""
+    total = spread(0.0)
+    for s, angle in ((3, first), (4, second), (5, third)):
+        before = load(lanes, slot(r, s) + of.PLACE)
+        off = nearest_turn(angle, before) - before
+        total = total + larger(off, -off)
+    return total
 
 
 @woven
 def place_cone(r, lanes, x, y, z, qx, qy, qz, qw):
     """Measure the twist about x, and the angle between both x axes."""
+    store(lanes, r + of.LEVEL, spread(1.0))
     off, along = root(qy * qy + qz * qz), root(qx * qx + qw * qw)
     store_angle(r, 3, lanes, 2.0 * arc_tangent(qx, qw))
     store(lanes, slot(r, 4) + of.PLACE, 2.0 * arc_tangent(off, along))
