@@ -44,7 +44,9 @@ class Joint(Component):
     break_force: Floats = column(unit="N", doc="mean force of a step beyond which it breaks", default=inf)
     break_torque: Floats = column(unit="N m", doc="mean torque of a step beyond which it breaks", default=inf)
     collide: Booleans = column(unit="1", doc="whether the two bodies touch each other", dtype="bool")
-    impulse: Floats = column(SLOTS, unit="N s, N m s", doc="of locks, but for what bounds ask of them, and limits")
+    impulse: Floats = column(
+        SLOTS, unit="N s, N m s", doc="of locks and limits in the last substep; what bounds ask of locks is theirs"
+    )
     drive_impulse: Floats = column(SLOTS, unit="N s, N m s", doc="of springs, dampers and motors in the last substep")
     friction_impulse: Floats = column(SLOTS, unit="N s, N m s", doc="of friction in the last substep")
     position: Floats = column(SLOTS, unit="m, rad", doc="where b is against a; angles go on beyond a whole turn")
