@@ -183,6 +183,16 @@ def test_only_state_is_held() -> None:
     assert roles == {"state", "input"}
 
 
+def test_without_tolerance_every_bit_counts_elsewhere_too() -> None:
+    """Also of columns that are not compared by their numbers."""
+    here, elsewhere = this_machine(), replace(this_machine(), processor="another")
+    golden = StateGolden(elsewhere, 1, {"contact.depth": "0a", "transform.position": "01"}, {})
+    actual = StateGolden(here, 1, {"contact.depth": "0b", "transform.position": "01"}, {})
+    assert state_fault(actual, golden, 1e-6) is None
+    fault = state_fault(actual, golden, 0.0)
+    assert fault and fault.what == "poses and velocities agree, but not contact.depth"
+
+
 @pytest.mark.parametrize(
     ("held", "is_now", "what"),
     [

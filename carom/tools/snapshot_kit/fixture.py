@@ -39,7 +39,8 @@ class CaromSnapshot:
         """Fail when the state, or the picture by ``camera``, is not that of golden ``name``.
 
         A world from a file is photographed by its own camera unless one is stated, a simulation not at all.
-        ``tolerance`` (m, m/s, rad/s) holds on other machines than the one that wrote the golden; ``size`` is in px.
+        ``tolerance`` (m, m/s, rad/s) holds on other machines than the one that wrote the golden; with 0 every bit of
+        the state counts there too. ``size`` is in px.
         """
         __tracebackhide__ = True
         from carom.tools.filming import shot_of

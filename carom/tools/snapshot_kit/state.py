@@ -97,11 +97,11 @@ def state_fault(actual: StateGolden, golden: StateGolden, tolerance: float) -> S
     """Return what differs in the physical state, or None.
 
     Where the machine is the one that wrote the golden every bit counts; elsewhere poses, velocities and floats of games
-    may differ by ``tolerance`` (m, m/s, rad/s, or what their unit is).
+    may differ by ``tolerance`` (m, m/s, rad/s, or what their unit is). With none, every bit counts there too.
     """
     if actual.frame != golden.frame:
         return StateFault(f"the world is in frame {actual.frame}, the golden in {golden.frame}")
-    exact = actual.machine == golden.machine
+    exact = not tolerance or actual.machine == golden.machine
     found = list(_differing(actual.keys, golden.keys, 0.0 if exact else tolerance))
     if found:
         others = len({fault.entity for fault in found}) - 1
