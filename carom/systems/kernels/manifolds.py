@@ -123,6 +123,9 @@ def prepare(g, r, points, asks, rests, index_a, index_b, lanes, bodies):
         store(lanes, q + of.MASS, inverse_or_none(held, yields))
         x, y = load(lanes, q + of.AT), load(lanes, q + of.AT + 1)
         store(lanes, q + of.AWAY, root(x * x + y * y) if asks >= TWISTING else zero)
+    swerve_a, swerve_b = swerving(s_a, q_a, z_a, masses_a, inertia_a), swerving(s_b, q_b, z_b, masses_b, inertia_b)
+    for k in range(len(swerve_a)):  # and `VEER`
+        store(lanes, r + of.SWERVE + k, swerve_a[k] + swerve_b[k])
     give_a, give_b = give_way(s_a, q_a, z_a, masses_a, inertia_a), give_way(s_b, q_b, z_b, masses_b, inertia_b)
     ktt, ktu, kuu = give_a[0] + give_b[0], give_a[1] + give_b[1], give_a[2] + give_b[2]
     # Where one direction is locked, the other is as good as any.
@@ -165,6 +168,23 @@ def scaled(masses, x):
 def in_frame(t, u, n, by_t, by_u, by_n):
     """Return a symmetric tensor in the frame: (tt, tu, uu, tn, un, nn)."""
     return dot(t, by_t), dot(u, by_t), dot(u, by_u), dot(n, by_t), dot(n, by_u), dot(n, by_n)
+
+
+@woven
+def swerving(s, q, z, masses, inertia):
+    """Return how one body slips along the tangents and spins about the normal, (t, u, n) each, and spins, (n) each.
+
+    The former by an impulse along the normal at the middle and by twists about the tangents, the latter by impulses
+    along these. The levers of those three impulses are q t - s u, z u - q n and s n - z t.
+    """
+    tt, tu, uu, tn, un, nn = inertia
+    by_t, by_u, by_n = q * tt - s * tu, q * tu - s * uu, q * tn - s * un
+    return (
+        masses[3] + (z * by_u - q * by_n), masses[4] + (s * by_n - z * by_t), by_n,
+        z * tu - q * tn, s * tn - z * tt, tn,
+        z * uu - q * un, s * un - z * tu, un,
+        z * un - q * nn, s * nn - z * tn,
+    )  # fmt: skip
 
 
 @woven

@@ -28,7 +28,7 @@ from carom.systems.kernels.lanes import (
 from carom.systems.kernels.levers import frame_of, parting_at, parting_of
 from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
 from carom.systems.kernels.resting_balls import parted_by, press_balls, press_balls_warm
-from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, rub
+from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, roll, rub, slip, swerved
 from carom.systems.kernels.softness import aimed_at, leaving
 from carom.systems.kernels.stirring import KEPT_ROWS, NEVER, are_stirred, put_aside, put_back, some_stir, stir
 
@@ -164,23 +164,32 @@ def sum_impulses(r, points, lanes):
 def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lanes, bodies, scratch):
     """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling.
 
+    All but rolling is found in the frames of manifolds, and what bodies move by is added up once.
     Return by how much that changes how fast bodies part, and more than 0 where no point has pressed before: friction
     turns bodies, against which points cannot press before the next sweep. Balls need none for that.
     """
     if asks == BALLS:
         return press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies), spread(0.0)
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    parting, slipping = parting_of(r, lanes, a, b), slip(r, lanes, a, b)
     # Loops over a known number of points are unrolled.
     if points == 1:
-        a, b, total, twisting, push = press_points(1, r, per_second, rate, hardness, a, b, lanes, scratch)
+        total, twisting, push, by_t, by_u = press_points(1, r, per_second, rate, hardness, parting, lanes, scratch)
     elif points == 2:
-        a, b, total, twisting, push = press_points(2, r, per_second, rate, hardness, a, b, lanes, scratch)
+        total, twisting, push, by_t, by_u = press_points(2, r, per_second, rate, hardness, parting, lanes, scratch)
     elif points == 3:
-        a, b, total, twisting, push = press_points(3, r, per_second, rate, hardness, a, b, lanes, scratch)
+        total, twisting, push, by_t, by_u = press_points(3, r, per_second, rate, hardness, parting, lanes, scratch)
     else:
-        a, b, total, twisting, push = press_points(4, r, per_second, rate, hardness, a, b, lanes, scratch)
-    if asks >= RUBBING:
-        a, b = rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies)
+        total, twisting, push, by_t, by_u = press_points(4, r, per_second, rate, hardness, parting, lanes, scratch)
+    if asks == ROLLING:
+        a, b = pressed(r, lanes, a, b, push, by_t, by_u)
+        a, b = roll(g, r, total, twisting, a, b, index_a, index_b, lanes, bodies)
+    elif asks >= RUBBING:
+        slipping = swerved(r, lanes, slipping, push, by_t, by_u)
+        along, across, by_n, _ = rub(r, asks, slipping, total, twisting, lanes)
+        a, b = struck(r, lanes, a, b, along, across, push, by_t, by_u, by_n)
+    else:
+        a, b = pressed(r, lanes, a, b, push, by_t, by_u)
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
     # One point cannot hold up what turns over it.
@@ -188,15 +197,15 @@ def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lane
 
 
 @woven
-def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
-    """Solve the points of a group.
+def press_points(points, r, per_second, rate, hardness, parting, lanes, scratch):
+    """Solve the points of a group, of which bodies are ``parting`` so (`parting_of`).
 
-    Return the velocities of both bodies, the sum of the impulses, that of each times its distance from the middle, and
-    what they changed by.
+    Return the sum of the impulses, that of each times its distance from the middle, by how much the sum has changed,
+    and the twists about the tangents that come with it.
     Each point has a target, the impulse that is `aimed_at`; others move it, and the bodies learn of all at once. What
     all need alike comes first, then one after the other what it lacks.
     """
-    parting, zero = parting_of(r, lanes, a, b), spread(0.0)
+    zero = spread(0.0)
     slow = leaving(points, rate, hardness, parting)
     for p in range(points):
         q, x = r + MANIFOLD_ROWS + POINT_ROWS * p, SCRATCH_ROWS * p
@@ -208,13 +217,14 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
         store(scratch, x + STIFF, stiff)
     if points > 1:
         share_out(points, r, lanes, scratch)
-    for _ in range(POINT_SWEEPS if points > 1 else 1):
+    sweeps = POINT_SWEEPS if points > 1 else 1
+    for sweep in range(sweeps):
         for p in range(points):
             after = larger(zero, load(scratch, SCRATCH_ROWS * p + TARGET))
             j = after - load(scratch, SCRATCH_ROWS * p + IMPULSE)
             store(scratch, SCRATCH_ROWS * p + IMPULSE, after)
             for o in range(points):
-                if o != p:
+                if o > p or (o < p and sweep < sweeps - 1):  # nobody asks for what those before lack in the end
                     x = SCRATCH_ROWS * o
                     coupling = load(scratch, x + STIFF) * load(lanes, couplings(r, points) + pair(max(p, o), min(p, o)))
                     store(scratch, x + TARGET, load(scratch, x + TARGET) - coupling * j)
@@ -227,8 +237,7 @@ def press_points(points, r, per_second, rate, hardness, a, b, lanes, scratch):
         if points > 1:  # else it is the middle
             twisting = twisting + after * load(lanes, q + of.AWAY)
             by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
-    a, b = pressed(r, lanes, a, b, push, by_t, by_u)
-    return a, b, total, twisting, push
+    return total, twisting, push, by_t, by_u
 
 
 @woven

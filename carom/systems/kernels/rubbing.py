@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import ROLL_SWEEPS, ROLLING_SOLVED
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.impulses import rolled, rubbed, spun
+from carom.systems.kernels.impulses import rolled, struck
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import TINY, dot, keep, spanned, three
 from carom.systems.kernels.lanes import choose, larger, load, root, smaller, some, spread, store
@@ -16,15 +16,16 @@ IDLE, RESTING, BALLS, RUBBING, TWISTING, ROLLING = 0, 1, 2, 3, 4, 5
 
 
 @woven
-def rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies):
-    """Solve friction of a group at the middles of its manifolds; return the velocities of both bodies.
+def rub(r, asks, slipping, total, twisting, lanes):
+    """Solve friction of a group at the middles of its manifolds, which are ``slipping`` (`slip`).
 
-    ``total`` is the sum of the impulses of each, ``twisting`` that of each times its distance from the middle.
-    Friction that slides twists the less: both share one cone (Goyal, Ruina and Papadopoulos, Wear 143, 307, 1991, as an
-    ellipsoid).
+    Return by how much its impulses along the tangents and its twist about the normal change, and what more than 0
+    slides by. ``total`` is the sum of the impulses of each, ``twisting`` that of each times its distance from the
+    middle. Friction that slides twists the less: both share one cone (Goyal, Ruina and Papadopoulos, Wear 143, 307,
+    1991, as an ellipsoid).
     """
-    (first, second, n), friction, zero = frame_of(r, lanes), load(lanes, r + of.FRICTION), spread(0.0)
-    most = friction * total
+    (first, second, _), friction, zero = frame_of(r, lanes), load(lanes, r + of.FRICTION), spread(0.0)
+    (t, u, spin), most = slipping, friction * total
     most_twist, most_spin, per_twist, before, hold = zero, zero, zero, zero, zero
     if asks >= TWISTING:
         most_twist, most_spin = friction * twisting, load(lanes, r + of.SPINNING) * total
@@ -33,33 +34,50 @@ def rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies):
     give, give_both, give_across = three(lanes, r + of.GIVE)
     f = three(lanes, r + of.RUB)
     along, across = dot(first, f), dot(second, f)
-    for _ in range(ROLL_SWEEPS if asks == ROLLING else 1):
-        t, u, spin = slip(r, lanes, a, b)
-        new_along = along - (give * t + give_both * u)
-        new_across = across - (give_both * t + give_across * u)
-        wanted = before - hold * spin
-        part = wanted * per_twist
-        size = root(new_along * new_along + new_across * new_across + part * part)
-        share = choose(size - most, most / larger(size, spread(TINY)), spread(1.0))
-        new_along, new_across = new_along * share, new_across * share
-        t, u = new_along - along, new_across - across
-        a, b = rubbed(r, lanes, a, b, t, u)
-        along, across = new_along, new_across
-        if asks < TWISTING:
-            break
-        s = (b[4] - a[4], b[5] - a[5], b[6] - a[6])
-        spin = dot(n, s)
-        up_to = most_spin + choose(size - most, smaller(most_twist, larger(wanted, -wanted) * share), most_twist)
+    new_along = along - (give * t + give_both * u)
+    new_across = across - (give_both * t + give_across * u)
+    wanted = before - hold * spin
+    part = wanted * per_twist
+    size = root(new_along * new_along + new_across * new_across + part * part)
+    slides = size - most
+    share = choose(slides, most / larger(size, spread(TINY)), spread(1.0))
+    new_along, new_across, by_n = new_along * share, new_across * share, zero
+    f = spanned(new_along, first, new_across, second)
+    keep(lanes, r + of.RUB, f[0], f[1], f[2])
+    t, u = new_along - along, new_across - across
+    if asks >= TWISTING:
+        spin = spin + (load(lanes, r + of.VEER) * t + load(lanes, r + of.VEER + 1) * u)
+        up_to = most_spin + choose(slides, smaller(most_twist, larger(wanted, -wanted) * share), most_twist)
         after = smaller(larger(before - hold * spin, -up_to), up_to)
         store(lanes, r + of.SPUN, after)
-        j = after - before
-        a, b = spun(r, lanes, a, b, j)
-        before = after
-        if asks < ROLLING:
-            break
+        by_n = after - before
+    return t, u, by_n, slides
+
+
+@woven
+def swerved(r, lanes, slipping, push, by_t, by_u):
+    """Return what is ``slipping`` after an impulse along the normal at the middle, and twists across it."""
+    by = r + of.SWERVE
+    (n_t, n_u, n_n), (t_t, t_u, t_n), (u_t, u_u, u_n) = three(lanes, by), three(lanes, by + 3), three(lanes, by + 6)
+    return (
+        slipping[0] + (n_t * push + (t_t * by_t + u_t * by_u)),
+        slipping[1] + (n_u * push + (t_u * by_t + u_u * by_u)),
+        slipping[2] + (n_n * push + (t_n * by_t + u_n * by_u)),
+    )
+
+
+@woven
+def roll(g, r, total, twisting, a, b, index_a, index_b, lanes, bodies):
+    """Solve friction and rolling of a group by turns; return the velocities of both bodies."""
+    (_, _, n), zero, most = frame_of(r, lanes), spread(0.0), load(lanes, r + of.FRICTION) * total
+    for _ in range(ROLL_SWEEPS):
+        slipping = slip(r, lanes, a, b)
+        t, u, by_n, slides = rub(r, ROLLING, slipping, total, twisting, lanes)
+        a, b = struck(r, lanes, a, b, t, u, zero, zero, zero, by_n)
         # What slides does not roll.
-        most_roll = choose(size - most, zero, load(lanes, r + of.ROLLING) * total)
-        x, y, z = three(lanes, r + of.ROLLED)
+        most_roll = choose(slides, zero, load(lanes, r + of.ROLLING) * total)
+        s = (b[4] - a[4], b[5] - a[5], b[6] - a[6])
+        spin, (x, y, z) = dot(n, s), three(lanes, r + of.ROLLED)
         up, stiff = dot(n, (x, y, z)), load(lanes, r + of.ROLL)
         wx = x - up * n[0] - stiff * (s[0] - spin * n[0])
         wy = y - up * n[1] - stiff * (s[1] - spin * n[1])
@@ -74,8 +92,6 @@ def rub(g, r, asks, total, twisting, a, b, index_a, index_b, lanes, bodies):
         open_roll = x * x + y * y + z * z - ROLLING_SOLVED * most_roll * most_roll
         if not some(larger(open_rub, open_roll)):
             break
-    f = spanned(along, first, across, second)
-    keep(lanes, r + of.RUB, f[0], f[1], f[2])
     return a, b
 
 
