@@ -185,7 +185,7 @@ def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lane
         a, b = pressed(r, lanes, a, b, push, by_t, by_u)
         a, b = roll(g, r, total, twisting, a, b, index_a, index_b, lanes, bodies)
     elif asks >= RUBBING:
-        slipping = swerved(r, lanes, slipping, push, by_t, by_u)
+        slipping = swerved(r, points, lanes, slipping, push, by_t, by_u)
         along, across, by_n, _ = rub(r, asks, slipping, total, twisting, lanes)
         a, b = struck(r, lanes, a, b, along, across, push, by_t, by_u, by_n)
     else:

@@ -7,7 +7,7 @@ from carom.systems.constants import ROLL_SWEEPS, ROLLING_SOLVED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.impulses import rolled, struck
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import TINY, dot, keep, spanned, three
+from carom.systems.kernels.lane_vectors import TINY, dot, keep, plus, spanned, three, times
 from carom.systems.kernels.lanes import choose, larger, load, root, smaller, some, spread, store
 from carom.systems.kernels.levers import frame_of
 
@@ -55,15 +55,16 @@ def rub(r, asks, slipping, total, twisting, lanes):
 
 
 @woven
-def swerved(r, lanes, slipping, push, by_t, by_u):
-    """Return what is ``slipping`` after an impulse along the normal at the middle, and twists across it."""
-    by = r + of.SWERVE
-    (n_t, n_u, n_n), (t_t, t_u, t_n), (u_t, u_u, u_n) = three(lanes, by), three(lanes, by + 3), three(lanes, by + 6)
-    return (
-        slipping[0] + (n_t * push + (t_t * by_t + u_t * by_u)),
-        slipping[1] + (n_u * push + (t_u * by_t + u_u * by_u)),
-        slipping[2] + (n_n * push + (t_n * by_t + u_n * by_u)),
-    )
+def swerved(r, points, lanes, slipping, push, by_t, by_u):
+    """Return what is ``slipping`` after an impulse along the normal at the middle, and twists across it.
+
+    One point, which is the middle, has none of these.
+    """
+    by = times(push, three(lanes, r + of.SWERVE))
+    if points > 1:
+        twists = plus(times(by_t, three(lanes, r + of.SWERVE + 3)), times(by_u, three(lanes, r + of.SWERVE + 6)))
+        by = plus(by, twists)
+    return plus(slipping, by)
 
 
 @woven
