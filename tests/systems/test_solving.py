@@ -8,9 +8,13 @@ import numpy as np
 import pytest
 from heaps import bin_of_balls, hashes, stack_of_boxes
 
+from carom.ecs import RigidBody
+from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems import resting
 from carom.systems.constants import RELAX_SWEEPS
+from carom.systems.kernels.packing import ANGULAR, INVERSE, VELOCITY
+from carom.systems.resting import Resting, Stage
 from carom.systems.simulation import Simulation
 from carom.systems.solving import Solving, Sweep
 
@@ -68,6 +72,52 @@ def test_the_residual_of_one_point_is_how_fast_it_closes() -> None:
     simulation.step()
     assert solving.sweeps[0].residual < 1e-15
     assert solving.sweeps[0].open == 0
+
+
+LEANS = {"rotation": (0.0, 0.0, np.sin(0.2), np.cos(0.2))}
+
+
+@pytest.mark.parametrize("locked", [["rotation_y"], []])
+@pytest.mark.parametrize(
+    ("collider", "place"),
+    [
+        ({"box": {"size": (1.0, 1.0, 1.4)}}, {"position": (0.0, 0.5, 0.0)}),
+        ({"capsule": {"radius": 0.3, "length": 0.8}}, {"position": (0.0, 0.3 + 0.4 * np.cos(0.4), 0.0), **LEANS}),
+    ],
+)
+def test_what_sticks_neither_slips_nor_spins_after_one_sweep(collider: Any, place: Any, locked: list[str]) -> None:
+    """Friction is found in the frame of the manifold, before bodies are moved: as if they had been.
+
+    What cannot spin, or touches at one point, where nothing keeps it from that, does not slip; of the other the twist
+    that ends its spin comes last, and moves what is off the normal.
+    """
+    simulation = Simulation(dt=1 / 100, gravity=(0.0, -GRAVITY, 0.0), sleeping=False)
+    simulation.add(collider={"plane": {}}, material={"friction": 100.0})
+    turned = {"inertia": (0.3, 0.5, 0.6), "principal_axes": (0.1, 0.5, 0.3, np.sqrt(0.65))}
+    body = {"mass": 3.0, "center_of_mass": (0.2, -0.1, 0.3), "locked": locked, **turned}
+    motion = {"linear": (0.01, -0.01, 0.02), "angular": (0.03, 0.0 if locked else 0.04, -0.05)}
+    simulation.add(collider=collider, body=body, material={"friction": 100.0}, transform=place, motion=motion)
+    solver, contact = simulation.world[Resting], simulation.world[Contact]
+    (row,) = simulation.world.row_numbers(RigidBody)
+    found: list[Any] = []
+
+    def look(stage: Stage, number: int) -> None:
+        """Note how the surface slips at the middle of the points, and spins."""
+        if stage.name == "solve" and not found[1:]:
+            assert number == len(found)
+            middle = contact.point[: contact.count].mean(axis=0) - simulation.world[Flight].center[row]
+            velocity, angular = solver.bodies[VELOCITY, row, :3], solver.bodies[VELOCITY, row, ANGULAR : ANGULAR + 3]
+            slip = velocity + np.cross(angular, middle)
+            twisted = np.cross(solver.bodies[INVERSE, row, [1, 3, 4]], middle)  # by a unit twist about the normal
+            found.append((slip[[0, 2]], twisted[[0, 2]], float(angular[1])))
+
+    solver.hearers.append(look)
+    simulation.step()
+    (before, _, _), (slip, twisted, spin) = found
+    assert np.abs(before).min() > 1e-4
+    assert np.abs(slip).max() < 1e-15 or not (locked or contact.count == 1)
+    assert abs(spin) < 1e-15 or contact.count == 1
+    assert abs(slip[0] * twisted[1] - slip[1] * twisted[0]) < 1e-15
 
 
 @pytest.mark.parametrize("upper", [1.0, 3.0, 9.0])

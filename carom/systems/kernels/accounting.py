@@ -9,7 +9,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
-from carom.systems.kernels.impulses import pressed, rolled, rubbed, spun
+from carom.systems.kernels.impulses import pressed, rolled, struck
 from carom.systems.kernels.kernel import inlined, kernel, woven
 from carom.systems.kernels.lane_vectors import dot
 from carom.systems.kernels.lanes import address, gather, load, planes, spread, store
@@ -127,9 +127,8 @@ def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, ea
             a, b = struck_balls(r, lanes, rest_a, rest_b, zero, f)
         else:
             t, u, _ = frame_of(r, lanes)
-            a, b = rubbed(r, lanes, rest_a, rest_b, dot(t, f), dot(u, f))
-        if asks[g] >= TWISTING:
-            a, b = spun(r, lanes, a, b, gained(r + of.SPUN, lanes, earlier))
+            by_n = gained(r + of.SPUN, lanes, earlier) if asks[g] >= TWISTING else zero
+            a, b = struck(r, lanes, rest_a, rest_b, dot(t, f), dot(u, f), zero, zero, zero, by_n)
         if asks[g] == ROLLING:
             x, y, z = gained_three(r + of.ROLLED, lanes, earlier)
             a, b = rolled(g, index_a, index_b, bodies, a, b, x, y, z)

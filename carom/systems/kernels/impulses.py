@@ -33,14 +33,6 @@ def twisted(v, lanes, turn, t, u, n):
 
 
 @woven
-def spun(r, lanes, a, b, j):
-    """Return velocities of both bodies after a twist about the normal."""
-    ax, ay, az = three(lanes, r + of.TURN_A + 6)
-    bx, by, bz = three(lanes, r + of.TURN_B + 6)
-    return turned(a, -j * ax, -j * ay, -j * az), turned(b, j * bx, j * by, j * bz)
-
-
-@woven
 def pressed(r, lanes, a, b, j, by_t, by_u):
     """Return velocities of both bodies after an impulse along the normal at the middle, and twists across it."""
     nx, ny, nz = three(lanes, r + of.NORMAL)
@@ -57,17 +49,6 @@ def turned_across(v, lanes, turn, t, u):
     tx, ty, tz = three(lanes, turn)
     ux, uy, uz = three(lanes, turn + 3)
     return turned(v, t * tx + u * ux, t * ty + u * uy, t * tz + u * uz)
-
-
-@woven
-def rubbed(r, lanes, a, b, along, across):
-    """Return velocities of both bodies after an impulse along the tangents at the middle."""
-    t, u, _ = frame_of(r, lanes)
-    x, y, z = spanned(along, t, across, u)
-    a, b = pushed(a, three(lanes, r + of.MASS_A), -x, -y, -z), pushed(b, three(lanes, r + of.MASS_B), x, y, z)
-    (s_a, q_a, z_a), (s_b, q_b, z_b) = three(lanes, r + of.MIDDLE_A), three(lanes, r + of.MIDDLE_B)
-    a = twisted(a, lanes, r + of.TURN_A, z_a * across, -(z_a * along), q_a * along - s_a * across)
-    return a, twisted(b, lanes, r + of.TURN_B, -(z_b * across), z_b * along, s_b * across - q_b * along)
 
 
 @woven

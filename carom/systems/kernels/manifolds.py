@@ -14,7 +14,7 @@ from carom.systems.kernels.lane_vectors import TINY, about, dot, keep, three
 from carom.systems.kernels.lanes import choose, gather, larger, load, root, spread, store
 from carom.systems.kernels.levers import coupled, frame_of
 from carom.systems.kernels.packing import INVERSE, MASS_AND_FELT
-from carom.systems.kernels.rubbing import ROLLING, TWISTING
+from carom.systems.kernels.rubbing import ROLLING, RUBBING, TWISTING
 
 
 @kernel("start")
@@ -123,9 +123,10 @@ def prepare(g, r, points, asks, rests, index_a, index_b, lanes, bodies):
         store(lanes, q + of.MASS, inverse_or_none(held, yields))
         x, y = load(lanes, q + of.AT), load(lanes, q + of.AT + 1)
         store(lanes, q + of.AWAY, root(x * x + y * y) if asks >= TWISTING else zero)
-    swerve_a, swerve_b = swerving(s_a, q_a, z_a, masses_a, inertia_a), swerving(s_b, q_b, z_b, masses_b, inertia_b)
-    for k in range(len(swerve_a)):  # and `VEER`
-        store(lanes, r + of.SWERVE + k, swerve_a[k] + swerve_b[k])
+    if asks >= RUBBING:
+        swerve_a, swerve_b = swerving(s_a, q_a, z_a, masses_a, inertia_a), swerving(s_b, q_b, z_b, masses_b, inertia_b)
+        for k in range(len(swerve_a)):  # and `VEER`
+            store(lanes, r + of.SWERVE + k, swerve_a[k] + swerve_b[k])
     give_a, give_b = give_way(s_a, q_a, z_a, masses_a, inertia_a), give_way(s_b, q_b, z_b, masses_b, inertia_b)
     ktt, ktu, kuu = give_a[0] + give_b[0], give_a[1] + give_b[1], give_a[2] + give_b[2]
     # Where one direction is locked, the other is as good as any.
