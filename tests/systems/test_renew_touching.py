@@ -91,12 +91,15 @@ def test_who_touches_is_who_presses_lies_close_was_struck_or_sleeps(step: Step) 
     room = len(before) + len(points) + len(impacts)
     a, b, since = np.empty(room, np.int64), np.empty(room, np.int64), np.empty(room)
     begins, ends = np.empty(room, np.bool_), np.empty(len(before), np.bool_)
+    living = np.array(handles)  # behind whose end may be anything, such as who was there before
+    living[: len(world.handles())] = world.handles()
+    living = living[: len(world.handles())]
     found, new = renew_touching(
         len(points), *entities(of_points), *rows(of_points), impulse, depth,
         len(impacts), *entities([pair for pair, _ in impacts]), np.array([time for _, time in impacts]),
         np.empty(len(impacts), np.int64), np.empty(len(impacts), np.int64), np.empty(len(impacts)), NOW,
         len(before), *entities(before), np.array([step.before[pair] for pair in before]),
-        world.handles(), world.slots.row_shift, np.arange(BODIES), asleep, a, b, since, begins, ends,
+        living, world.slots.row_shift, np.arange(BODIES), asleep, a, b, since, begins, ends,
     )  # fmt: skip
     number = {handle: body for body, handle in enumerate(handles)}
     told = [((number[int(a[n])], number[int(b[n])]), float(since[n]), bool(begins[n])) for n in range(found)]

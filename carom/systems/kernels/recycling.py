@@ -179,7 +179,7 @@ def first_of_pair(o, old_count, x, y, a, b, handles, row_shift):
 @woven
 def is_pair(o, count, x, y, a, b, handles):
     """Tell whether the o-th of ``count`` contacts or pairs is of the rows x and y."""
-    return o < count and a[o] == handles[x] and b[o] == handles[y]
+    return o < count and is_at(x, a[o], handles) and is_at(y, b[o], handles)
 
 
 @woven

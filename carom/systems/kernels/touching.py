@@ -155,7 +155,7 @@ def renew_touching(
         x, y = (struck_a[s], struck_b[s]) if strikes else (row_a[c], row_b[c])
         presses, deepest, living = strikes, -inf, True
         if c < points and row_a[c] == x and row_b[c] == y:  # then all of its contacts are of the same two
-            living = contact_a[c] == handles[x] and contact_b[c] == handles[y]
+            living = is_at(x, contact_a[c], handles) and is_at(y, contact_b[c], handles)
         while c < points and row_a[c] == x and row_b[c] == y:
             presses |= impulse[c] > 0.0
             deepest = max(deepest, depth[c])
