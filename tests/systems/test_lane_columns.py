@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
+import numba
 import numpy as np
 import pytest
 
@@ -17,7 +18,7 @@ from carom.systems.kernels.lane_columns import (
     take_one,
     take_three,
 )
-from carom.systems.kernels.lanes import WIDTH
+from carom.systems.kernels.lanes import WIDTH, address, load, store
 
 
 @kernel("one", "three", "four", makes_arrays=True)
@@ -52,3 +53,17 @@ def test_rows_are_taken_and_given_back_wherever_they_are(rows: list[int]) -> Non
     np.testing.assert_allclose(found[0], expected[0], rtol=0.0, atol=1e-14)
     np.testing.assert_array_equal(found[1], expected[1])
     np.testing.assert_array_equal(found[2], expected[2])
+
+
+@pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="only the JIT has a stack of its own")
+def test_lanes_put_aside_lie_in_one_line_each() -> None:
+    """The stack of what handles lanes begins with a line of the cache, by which LLVM places what it puts aside."""
+
+    @numba.njit
+    def copy(rows):
+        store(address(rows), 1, load(address(rows), 0))
+
+    rows = np.arange(16.0).reshape(2, 8)
+    copy(rows)
+    np.testing.assert_array_equal(rows[1], rows[0])
+    assert "alignstack=64" in copy.inspect_llvm(copy.signatures[0])
