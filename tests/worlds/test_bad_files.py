@@ -43,6 +43,10 @@ def test_meshes_that_cannot_be_used(tmp_path: Path) -> None:
     load_text("carom: 1\nentities: [{body: {}, collider: {convex: {file: open.obj}}}]\n", "w.yaml", tmp_path)
 
 
+#: A ship whose bow lies 2 million km off.
+FAR_BOW = [[x, y, z] for x in (-4, 4) for y in (0, 1.6) for z in (-1.5, 1.5)] + [[7, 2**31, 0], [7, 1.6, 0]]
+
+
 def test_shapes_from_files_and_images(tmp_path: Path) -> None:
     """Whatever is wrong with the words of a mesh, hull or height field, or with what they name, is told where it stands."""
     (tmp_path / "words.png").write_text("hello")
@@ -58,6 +62,9 @@ def test_shapes_from_files_and_images(tmp_path: Path) -> None:
         "convex: {}": ".convex: must state one source; received none; accepted: points or file",
         "convex: {points: [[0, 0, 0], [1, 0, 0], [0, 1]]}": (
             ".convex.points.2: must be a list of 3 numbers; received [0, 1]; accepted: numbers in m"
+        ),
+        f"convex: {{points: {FAR_BOW}}}": (
+            ".convex.points: rounding leaves the faces of the hull in doubt, of 10 corners over 2.15e+09 m, the nearest 1.6 m apart; leave out those that nearly coincide, or that lie far off"
         ),
         "height_field: {heights: [[0, 1], [0]], spacing: 1}": (
             ".height_field.heights: must be rows of as many numbers each, received rows of 1, 2"

@@ -14,6 +14,7 @@ from carom.ecs.errors import DeclarationError
 from carom.systems.shapes.geometry import hull_of
 from carom.systems.shapes.hull_faces import with_faces
 from carom.systems.shapes.model_files import Axis, Unit, load_hull
+from carom.systems.shapes.polyhedron import hull_faces
 from carom.systems.shapes.triangles import Triangles
 
 
@@ -37,8 +38,25 @@ class Convex(Triangles):
     ) -> Self:
         """Return the hull of ``points`` (n, 3), m, or of the vertices of a file, read by `load_hull`.
 
-        ``faces`` (f, 3) are the triangles of a hull whose vertices the points are; by default they are found.
+        ``faces`` (f, 3) are the triangles of a hull whose vertices the points are; by default they are found. Raises
+        DeclarationError where there is no hull, or where it has no `hull_faces` by which to touch.
         """
+        shape = cls.seen(points=points, faces=faces, file=file, scale=scale, unit=unit, up=up)
+        hull_faces(shape.geometry)
+        return shape
+
+    @classmethod
+    def seen(
+        cls,
+        *,
+        points: npt.ArrayLike | None = None,
+        faces: npt.ArrayLike | None = None,
+        file: str | Path | None = None,
+        scale: float = 1.0,
+        unit: Unit = "m",
+        up: Axis = "y",
+    ) -> Self:
+        """Return what `stated` does, which need not touch."""
         if (points is None) is (file is None):
             raise DeclarationError("convex: must state one source, points or file")
         if file is not None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 from typing import NamedTuple
+from weakref import WeakKeyDictionary
 
 from carom.ecs.errors import DeclarationError
 from carom.ecs.spatial.scalars import Vector, cross
@@ -46,12 +48,21 @@ def from_loops(vertices: list[Vector], loops: list[Loop]) -> Polyhedron:
     return Polyhedron(kept, named, [_scaled(*_span(kept, loop)) for loop in named], edges)
 
 
-def hull_faces(geometry: Geometry) -> Polyhedron:
-    """Return the polyhedron of a hull's vertices, all of a plane joined to one face.
+_KNOWN: WeakKeyDictionary[Geometry, Polyhedron] = WeakKeyDictionary()
 
-    Qhull is asked again, since trimesh drops slivers and leaves gaps there. Raises DeclarationError where rounding has
-    left no faces to tell.
+
+def hull_faces(geometry: Geometry) -> Polyhedron:
+    """Return the polyhedron of a hull's vertices, all of a plane joined to one face, found once.
+
+    Raises DeclarationError where rounding has left no faces to tell.
     """
+    if geometry not in _KNOWN:
+        _KNOWN[geometry] = _faces_of_hull(geometry)
+    return _KNOWN[geometry]
+
+
+def _faces_of_hull(geometry: Geometry) -> Polyhedron:
+    """Ask Qhull again, since trimesh drops slivers and leaves gaps there."""
     from scipy.spatial import ConvexHull
 
     places: list[Vector] = [(x, y, z) for x, y, z in geometry.vertices.tolist()]
@@ -64,7 +75,11 @@ def hull_faces(geometry: Geometry) -> Polyhedron:
         found = from_loops(places, _joined(vertices, triangles, FACE_FLAT * times * width))
         if found.closes():
             return found
-    raise DeclarationError(f"{geometry.source}: points that nearly coincide leave the faces of the hull in doubt")
+    nearest = min(math.dist(a, b) for a, b in combinations(places, 2))
+    raise DeclarationError(
+        f"{geometry.source}: rounding leaves the faces of the hull in doubt, of {len(places)} corners over "
+        f"{width:.3g} m, the nearest {nearest:.3g} m apart; leave out those that nearly coincide, or that lie far off"
+    )
 
 
 def _wound_alike(vertices: list[Vector], triangles: list[Loop]) -> list[Loop]:
