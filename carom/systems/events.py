@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from math import floor
+from sys import maxsize
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -36,8 +37,11 @@ class Event(NamedTuple):
         return [Event(self.at + number * every, self.action.again(number)) for number in range(times)]
 
     def frame(self, dt: float) -> int:
-        """Return the frame whose step contains the time; a time between two steps is the start of the later one."""
-        return 1 + floor(self.at / dt * (1.0 + 1e-12) + 1e-9)
+        """Return the frame whose step contains the time; a time between two steps is the start of the later one.
+
+        Where no number says which, it is one that no world comes to.
+        """
+        return 1 + floor(min(self.at / dt * (1.0 + 1e-12) + 1e-9, maxsize))
 
 
 class Events(Resource):

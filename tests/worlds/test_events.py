@@ -62,6 +62,13 @@ def test_it_is_done_at_the_start_of_the_step_that_contains_its_time(at: str, fir
     assert simulation["ball"].motion.linear.tolist() == [2.0, 0.0, 0.0]
 
 
+def test_a_time_beyond_all_counts_of_frames_never_comes() -> None:
+    """Divided by the step it has no number."""
+    simulation = load("at: 1e308 s, impulse: {entities: [ball], linear: [4 N s, 0, 0]}").simulation
+    simulation.step(5)
+    assert simulation["ball"].motion.linear.tolist() == [0.0, 0.0, 0.0]
+
+
 def test_an_impulse_off_the_centre_turns() -> None:
     """J / m and r x J / I, I = 2/5 m r^2; an angular impulse adds to it; the list of forces names its source."""
     words = "at: 0 s, impulse: {entities: [ball], linear: [0, 4, 0], angular: [0.02, 0, 0], at: [0.1, 0, 0]}"

@@ -71,6 +71,10 @@ def warnings(text: str, folder: Path | None = None) -> list[str]:
                 "w.yaml:7:3: expect.2: comes after the end of the run, 1 s",
             ],
         ),
+        (
+            BALL + "events: [{at: 1e308 s, despawn: [a]}]\n",
+            ["w.yaml:4:11: events.0.at: comes after the end of the run, 5 s"],
+        ),
     ],
 )
 def test_what_is_doubtful_is_told(text: str, told: list[str]) -> None:
