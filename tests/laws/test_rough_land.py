@@ -8,6 +8,10 @@ import numpy as np
 import pytest
 
 from carom.ecs import Motion, RigidBody, Transform
+from carom.ecs.spatial import quaternion
+from carom.systems.shapes.box import Box
+from carom.systems.shapes.convex import Convex
+from carom.systems.shapes.geometry import hull_of
 from carom.systems.simulation import Simulation
 
 POINTS = np.random.default_rng(1).normal(size=(12, 3))
@@ -62,3 +66,45 @@ def test_large_boxes_fall_asleep_on_small_bumps() -> None:
     simulation.step(300)
     rows = simulation.world.row_numbers(RigidBody)
     assert simulation.world[Motion].asleep[rows].all()
+
+
+@pytest.mark.parametrize("steep", [0.6, 1.5])
+def test_bodies_come_to_rest_at_the_bottom_of_an_icy_valley(steep: float) -> None:
+    """Boxes, hulls and flat hulls thrown in lie on both of its sides after 10 s, with no corner between these.
+
+    Until then corners swing in by up to 5 cm in a step: what was farther off than its contacts reach.
+    """
+    points = np.random.default_rng(1).normal(size=(12, 3))
+    shapes = [
+        Box((0.9, 0.7, 0.8)),
+        Convex(hull_of(0.5 * points / np.linalg.norm(points, axis=1)[:, None])),
+        Convex(hull_of(points * [0.3, 0.1, 0.3])),
+    ]
+    simulation, random = Simulation(checked=False), np.random.default_rng(0)
+    heights = np.tile(steep * np.abs(np.arange(-4.0, 5.0)), (41, 1))
+    simulation.add(collider={"height_field": {"heights": heights, "spacing": 1.0}}, material={"friction": 0.0})
+    bodies = [
+        simulation.add(
+            collider={"shape": shapes[k % 3]}, body={"mass": 1.0}, material={"friction": 0.0},
+            transform={"position": (0.1, 1.5, 4.0 * k - 16.0), "rotation": random_turn(random)},
+        )
+        for k in range(9)
+    ]  # fmt: skip
+    transform, motion = simulation.world[Transform], simulation.world[Motion]
+    rows = [simulation.world.row(body) for body in bodies]
+    down = np.array([(steep, -1.0, 0.0), (-steep, -1.0, 0.0)]) / np.hypot(1.0, steep)
+    deepest = np.zeros((600, 9))
+    for frame in range(600):
+        simulation.step()
+        for k, row in enumerate(rows):
+            turn = transform.rotation[row]
+            lowest = shapes[k % 3].support(quaternion.rotate(quaternion.conjugate(turn), down))
+            deepest[frame, k] = (down * (transform.position[row] + quaternion.rotate(turn, lowest))).sum(axis=1).max()
+    assert deepest.max() < 0.06
+    assert deepest[-1].max() < 5e-4
+    assert np.abs(motion.linear[rows]).max() < 1e-4
+
+
+def random_turn(random: np.random.Generator) -> tuple[float, ...]:
+    """Return a rotation, any as likely as any other."""
+    return tuple(quaternion.normalise(random.normal(size=4)).tolist())

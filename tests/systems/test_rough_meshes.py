@@ -37,12 +37,15 @@ def test_both_ends_of_a_ridge_within_the_area_bear(gap: float) -> None:
     assert set(np.sign(found.point[:, 0]).round().astype(int)) == {-1, 0, 1}
 
 
-@pytest.mark.parametrize("shape", [Box((1.0, 1.0, 1.0)), Cone(0.5, 1.0)], ids=["box", "cone"])
-@pytest.mark.parametrize("deep", [1e-5, 1e-4, 1e-3, 4e-3])
+@pytest.mark.parametrize(
+    ("shape", "steep"),
+    [(Box((1.0, 1.0, 1.0)), 0.3), (Cone(0.5, 1.0), 0.3), (Cone(0.5, 1.0), 1.0)],
+    ids=["box", "cone", "cone in a gorge"],
+)
+@pytest.mark.parametrize("deep", [1e-5, 1e-3, 4e-3, 2e-2, 0.2])
 @pytest.mark.parametrize("aside", [-0.9, -0.4, 0.0, 0.4, 0.9])
-def test_a_corner_in_the_bottom_of_a_valley_is_borne(shape: Shape, deep: float, aside: float) -> None:
+def test_a_corner_in_the_bottom_of_a_valley_is_borne(shape: Shape, steep: float, deep: float, aside: float) -> None:
     """In it, and sunk in: somewhere beneath the wedge over neither side it is still as deep as the nearer side says."""
-    steep = 0.3
     land = laid(folded(2.0 * steep, 0.0, 2.0 * steep, spacing=2.0), shape, 1, turn=LEVEL)
     turn = quaternion.normalise(np.array([0.3, 0.1, 0.25, 1.0]) if isinstance(shape, Box) else np.array([1.0, 0, 0, 0]))
     tip = lowest(shape, turn)
@@ -53,6 +56,19 @@ def test_a_corner_in_the_bottom_of_a_valley_is_borne(shape: Shape, deep: float, 
     assert len(found.depth)
     assert found.depth.max() == pytest.approx(deep, rel=1e-6)
     assert np.abs(found.point - place).max() < deep
+
+
+@pytest.mark.parametrize("aside", [-0.015, -0.005, 0.0, 0.005, 0.015])
+def test_a_corner_over_one_side_of_a_valley_may_be_over_the_other_the_next_moment(aside: float) -> None:
+    """Within reach of both, it is so far from either plane; a flat seam has but one of both."""
+    turn = quaternion.normalise(np.array([0.3, 0.1, 0.25, 1.0]))
+    tip, high, reach = lowest(Box((1.0, 1.0, 1.0)), turn), 0.01, 0.03
+    for steep in (0.3, 0.0):
+        land = laid(folded(2.0 * steep, 0.0, 2.0 * steep, spacing=2.0), Box((1.0, 1.0, 1.0)), 1, turn=LEVEL)
+        place = np.array([aside, steep * abs(aside) + high, 0.3])
+        (found,) = land.measure((place - tip)[None], turn[None], reach)
+        gaps = (place[1] - steep * aside * np.array([-1.0, 1.0])) / np.hypot(1.0, steep)
+        assert np.sort(-found.depth) == pytest.approx(np.sort(gaps) if steep else [high], abs=1e-12)
 
 
 def lowest(shape: Shape, turn: Floats) -> Floats:

@@ -29,9 +29,8 @@ SAME_PLACE = 1e-3
 # noise changes the choice.
 BETTER = 1e-3
 
-# Part of a body's width by which what lies in the ground may be beyond a flat or hollow edge of a triangle and still be
-# over it. Larger: a ledge narrower than that holds bodies up beyond its end. Smaller: corners in the bottom of valleys
-# that have sunk in by more fall between their sides.
+# Part of a body's width up to which what is beneath the bottom of a valley is in the ground, without looking. Larger: a
+# ledge narrower than that holds bodies up beyond its end; smaller: it is looked for more often.
 SUNK = 1e-2
 
 # Part of SAME_PLACE by which a point within a manifold is to be lower than what the others span to be one of it too.

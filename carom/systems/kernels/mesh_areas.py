@@ -5,9 +5,10 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import BIAS, OVER_EDGE
+from carom.systems.constants import BIAS, OVER_EDGE, SAME_NORMAL
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.mesh_points import add_point
+from carom.systems.kernels.mesh_surface import behind_of
 from carom.systems.kernels.mesh_tree import TRIANGLE
 from carom.systems.kernels.spatial import cross
 
@@ -54,28 +55,64 @@ def cut(polygon, tag, here, there, count, x, y, z, offset, bit):
     return kept
 
 
+@inlined
+def beyond_bottom(v, loop_vertex, begin, stop, triangles, links, vertices, t, edge, x, y, z, reach, sunk, close, near):
+    """Return how far (m) corners of a face that still count are beyond the edge of a triangle in which a valley ends.
+
+    Those over its other side, within ``reach`` of the edge and of the triangle's plane, may be over this one the next
+    moment, unless both have one manifold. Those beneath are in a wedge that is over neither side; who is there by more
+    than ``sunk`` (m) may have come out beyond a thin part, and is looked for among the ``near`` triangles that are
+    ``close``. ``x`` is the way out of the triangle, along which it is measured.
+    """
+    a, w = TRIANGLE * t, 3 * links[8 * t + 3 + edge]
+    i, j = a + 3 * edge, a + 3 * ((edge + 1) % 3)
+    nx, ny, nz = triangles[a + 9], triangles[a + 10], triangles[a + 11]
+    ux, uy, uz = triangles[i] - triangles[j], triangles[i + 1] - triangles[j + 1], triangles[i + 2] - triangles[j + 2]
+    rx, ry, rz = vertices[w] - triangles[i], vertices[w + 1] - triangles[i + 1], vertices[w + 2] - triangles[i + 2]
+    mx, my, mz = cross(ux, uy, uz, rx, ry, rz)
+    bent = nx * mx + ny * my + nz * mz < SAME_NORMAL * sqrt(mx * mx + my * my + mz * mz)
+    ox, oy, oz = cross(ux, uy, uz, mx, my, mz)  # the ways out of the other side, over its three edges
+    px, py, pz = cross(rx, ry, rz, mx, my, mz)
+    length, farthest = sqrt(ux * ux + uy * uy + uz * uz), 0.0
+    for k in range(begin, stop):
+        c = 3 * loop_vertex[k]
+        qx, qy, qz = v[c] - triangles[i], v[c + 1] - triangles[i + 1], v[c + 2] - triangles[i + 2]
+        gap, out = nx * qx + ny * qy + nz * qz, x * qx + y * qy + z * qz
+        if out <= farthest:
+            continue
+        back, aside = ox * qx + oy * qy + oz * qz, px * qx + py * qy + pz * qz
+        if gap >= 0.0:
+            beyond = (ox + px) * (qx - rx) + (oy + py) * (qy - ry) + (oz + pz) * (qz - rz)
+            if bent and max(gap, out) <= reach and back <= 0.0 and aside <= 0.0 and beyond >= 0.0:
+                farthest = out
+            continue
+        along = -(ux * qx + uy * qy + uz * qz) / length
+        if back <= 0.0 or along < gap or along > length - gap:
+            continue
+        if max(-gap, out) <= sunk or behind_of(triangles, links, close, near, v[c], v[c + 1], v[c + 2], 1e300) >= 0:
+            farthest = out
+    return farthest
+
+
 @woven
 def points_over_triangle(
-    v, loop_vertex, begin, stop, triangles, links, t, radius, reach, sunk,
+    v, loop_vertex, begin, stop, triangles, links, vertices, t, radius, reach, sunk, close, near,
     polygon, tag, room, points, names, found,
 ):  # fmt: skip
     """Add the points of a solid's face (loop entries from ``begin`` on) that are over a triangle; return how many.
 
-    Those on the triangle's inactive edges are left out: the area goes on there. Of a face that is in the ground what is
-    as far beyond such an edge as that is deep, and no farther than ``sunk`` (m), counts as over it too: beneath the
-    bottom of a valley there is a wedge that is over neither of its sides.
+    Those on the triangle's inactive edges are left out: the area goes on there. Corners in a valley count as over both
+    of its sides (`beyond_bottom`).
     """
     a = TRIANGLE * t
     nx, ny, nz = triangles[a + 9], triangles[a + 10], triangles[a + 11]
     height = nx * triangles[a] + ny * triangles[a + 1] + nz * triangles[a + 2]
-    count, deep = stop - begin, 0.0
+    count = stop - begin
     for k in range(count):
         i = loop_vertex[begin + k]
         for d in range(3):
             polygon[3 * k + d] = v[3 * i + d]
         tag[2 * k], tag[2 * k + 1] = 0, i
-        deep = max(deep, height - nx * polygon[3 * k] - ny * polygon[3 * k + 1] - nz * polygon[3 * k + 2])
-    deep = min(deep, sunk)
     active, source = links[8 * t + 6], links[8 * t + 7]
     here, there = 0, room
     for k in range(3):
@@ -87,8 +124,13 @@ def points_over_triangle(
         scale = triangles[a + 12 + k]
         x, y, z = x * scale, y * scale, z * scale
         offset = x * triangles[i] + y * triangles[i + 1] + z * triangles[i + 2] + OVER_EDGE
-        offset += 0.0 if active & (1 << k) else deep
         beyond = corners_beyond(polygon, here, count, x, y, z, offset)
+        if beyond > 0 and not active & (1 << k):
+            far = radius + reach
+            offset += beyond_bottom(
+                v, loop_vertex, begin, stop, triangles, links, vertices, t, k, x, y, z, far, sunk, close, near
+            )
+            beyond = corners_beyond(polygon, here, count, x, y, z, offset)
         if beyond == count:
             return found
         if beyond > 0:

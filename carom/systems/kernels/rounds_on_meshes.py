@@ -120,7 +120,7 @@ def measure_rounds_on_meshes(
             if nx * triangles[a + 9] + ny * triangles[a + 10] + nz * triangles[a + 11] >= FLAT_COSINE:
                 end, _ = outline(core, SECOND, place, hulls, -nx, -ny, -nz, v, tag, plane)
                 touching = points_over_triangle(
-                    v, corners, 0, end, triangles, links, t, 0.0, reach, SUNK * width,
+                    v, corners, 0, end, triangles, links, vertices, t, 0.0, reach, SUNK * width, found, near,
                     polygon, tags, room, points, names, touching,
                 )  # fmt: skip
                 for i in range(before, touching):

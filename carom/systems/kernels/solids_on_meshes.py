@@ -126,8 +126,8 @@ def measure_solids_on_meshes(
                 # Where edges cross all but level with an area, all of that is as near, and not one end or the other.
                 if level >= 0 and facing >= max(cosine, FLAT_COSINE):
                     touching = points_over_triangle(
-                        v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links,
-                        t, radius, reach, SUNK * width, polygon, tag, room, points, names, touching,
+                        v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
+                        t, radius, reach, SUNK * width, found, near, polygon, tag, room, points, names, touching,
                     )  # fmt: skip
                 elif cosine >= FLAT_COSINE:
                     touching = points_over_face(
@@ -151,7 +151,7 @@ def measure_solids_on_meshes(
                 )  # fmt: skip
             elif p == SEGMENT:
                 touching = points_over_triangle(
-                    v, ends, 0, 2, triangles, links, t, radius, reach, SUNK * width,
+                    v, ends, 0, 2, triangles, links, vertices, t, radius, reach, SUNK * width, found, near,
                     polygon, tag, room, points, names, touching,
                 )  # fmt: skip
             else:
@@ -159,8 +159,8 @@ def measure_solids_on_meshes(
                     face, _ = face_towards(hulls, p, v, 0, end, planes, 0, -nx, -ny, -nz)
                 f = hulls.face_start[p] + face
                 touching = points_over_triangle(
-                    v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links,
-                    t, radius, reach, SUNK * width, polygon, tag, room, points, names, touching,
+                    v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
+                    t, radius, reach, SUNK * width, found, near, polygon, tag, room, points, names, touching,
                 )  # fmt: skip
             if kind == ASIDE:  # what is beneath the triangle's plane, yet in front of the mesh, is beyond a thin part
                 for k in range(touching - 1, before - 1, -1):
