@@ -58,6 +58,23 @@ def test_a_corner_in_the_bottom_of_a_valley_is_borne(shape: Shape, steep: float,
     assert np.abs(found.point - place).max() < deep
 
 
+@pytest.mark.parametrize("sides", [3, 4, 6])
+@pytest.mark.parametrize("deep", [1e-5, 1e-3, 2e-2, 0.2])
+def test_a_tip_beneath_the_bottom_of_a_pit_is_borne_by_all_its_sides(sides: int, deep: float) -> None:
+    """There it is over none of them, and as deep beneath each as that one's plane is above it."""
+    steep, angles = 1.5, np.arange(sides) * 2.0 * np.pi / sides
+    rim = 4.0 * np.stack([np.cos(angles), np.full(sides, steep), np.sin(angles)], axis=1)
+    faces = np.array([((k + 1) % sides, k, sides) for k in range(sides)])
+    tip = np.array([0.1 * deep, -deep, -0.05 * deep])
+    land = laid(Geometry(np.concatenate([rim, np.zeros((1, 3))]), faces, "pit"), Cone(0.2, 1.0), 1, turn=LEVEL)
+    upside_down = quaternion.normalise(np.array([1.0, 0.0, 0.0, 0.0]))
+    (found,) = land.measure(np.array([[tip[0], tip[1] + 0.5, tip[2]]]), upside_down[None], 1e-6)
+    across = np.cross(rim - np.roll(rim, -1, axis=0), -rim)
+    beneath = -(across / np.linalg.norm(across, axis=1)[:, None]) @ tip
+    deepest = np.sort(beneath)[-4:]  # a body has at most four manifolds with a mesh
+    assert np.sort(found.depth) == pytest.approx(deepest, rel=1e-9)
+
+
 @pytest.mark.parametrize("aside", [-0.015, -0.005, 0.0, 0.005, 0.015])
 def test_a_corner_over_one_side_of_a_valley_may_be_over_the_other_the_next_moment(aside: float) -> None:
     """Within reach of both, it is so far from either plane; a flat seam has but one of both."""

@@ -29,9 +29,10 @@ SAME_PLACE = 1e-3
 # noise changes the choice.
 BETTER = 1e-3
 
-# Part of a body's width up to which what is beneath the bottom of a valley is in the ground, without looking. Larger: a
-# ledge narrower than that holds bodies up beyond its end; smaller: it is looked for more often.
-SUNK = 1e-2
+# How many times as far as it is beneath a triangle's plane something may be beyond its edge, for it to be looked for
+# beneath the bottom of a valley: tangent of half the angle at which the sides meet there. Smaller: what has sunk into
+# narrow gorges falls on.
+GORGE = 6.0
 
 # Part of SAME_PLACE by which a point within a manifold is to be lower than what the others span to be one of it too.
 # Larger: bodies sink onto ridges that are left out, and rock; smaller: noise in vertices gives points of its own.

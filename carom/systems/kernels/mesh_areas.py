@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import BIAS, OVER_EDGE, SAME_NORMAL
+from carom.systems.constants import BIAS, GORGE, OVER_EDGE, SAME_NORMAL
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.mesh_points import add_point
-from carom.systems.kernels.mesh_surface import behind_of
+from carom.systems.kernels.mesh_surface import is_nearest_beneath
 from carom.systems.kernels.mesh_tree import TRIANGLE
 from carom.systems.kernels.spatial import cross
 
@@ -56,13 +56,13 @@ def cut(polygon, tag, here, there, count, x, y, z, offset, bit):
 
 
 @inlined
-def beyond_bottom(v, loop_vertex, begin, stop, triangles, links, vertices, t, edge, x, y, z, reach, sunk, close, near):
+def beyond_bottom(v, loop_vertex, begin, stop, triangles, links, vertices, t, edge, x, y, z, reach, close, near):
     """Return how far (m) corners of a face that still count are beyond the edge of a triangle in which a valley ends.
 
     Those over its other side, within ``reach`` of the edge and of the triangle's plane, may be over this one the next
-    moment, unless both have one manifold. Those beneath are in a wedge that is over neither side; who is there by more
-    than ``sunk`` (m) may have come out beyond a thin part, and is looked for among the ``near`` triangles that are
-    ``close``. ``x`` is the way out of the triangle, along which it is measured.
+    moment, unless both have one manifold. Those in the ground are over neither side in the wedge beneath: there no
+    other of the ``near`` triangles that are ``close`` is nearer. ``x`` is the way out of the triangle, along which it
+    is measured.
     """
     a, w = TRIANGLE * t, 3 * links[8 * t + 3 + edge]
     i, j = a + 3 * edge, a + 3 * ((edge + 1) % 3)
@@ -71,32 +71,28 @@ def beyond_bottom(v, loop_vertex, begin, stop, triangles, links, vertices, t, ed
     rx, ry, rz = vertices[w] - triangles[i], vertices[w + 1] - triangles[i + 1], vertices[w + 2] - triangles[i + 2]
     mx, my, mz = cross(ux, uy, uz, rx, ry, rz)
     bent = nx * mx + ny * my + nz * mz < SAME_NORMAL * sqrt(mx * mx + my * my + mz * mz)
-    ox, oy, oz = cross(ux, uy, uz, mx, my, mz)  # the ways out of the other side, over its three edges
+    ox, oy, oz = cross(ux, uy, uz, mx, my, mz)  # the ways out of the other side, over its edges
     px, py, pz = cross(rx, ry, rz, mx, my, mz)
-    length, farthest = sqrt(ux * ux + uy * uy + uz * uz), 0.0
+    farthest = 0.0
     for k in range(begin, stop):
         c = 3 * loop_vertex[k]
         qx, qy, qz = v[c] - triangles[i], v[c + 1] - triangles[i + 1], v[c + 2] - triangles[i + 2]
         gap, out = nx * qx + ny * qy + nz * qz, x * qx + y * qy + z * qz
-        if out <= farthest:
+        if out <= farthest or out > (reach if gap >= 0.0 else -GORGE * gap):
             continue
-        back, aside = ox * qx + oy * qy + oz * qz, px * qx + py * qy + pz * qz
-        if gap >= 0.0:
-            beyond = (ox + px) * (qx - rx) + (oy + py) * (qy - ry) + (oz + pz) * (qz - rz)
-            if bent and max(gap, out) <= reach and back <= 0.0 and aside <= 0.0 and beyond >= 0.0:
-                farthest = out
-            continue
-        along = -(ux * qx + uy * qy + uz * qz) / length
-        if back <= 0.0 or along < gap or along > length - gap:
-            continue
-        if max(-gap, out) <= sunk or behind_of(triangles, links, close, near, v[c], v[c + 1], v[c + 2], 1e300) >= 0:
+        if gap < 0.0:
+            counts = is_nearest_beneath(triangles, links, close, near, t, v[c], v[c + 1], v[c + 2])
+        else:
+            counts = bent and gap <= reach and ox * qx + oy * qy + oz * qz <= 0.0 and px * qx + py * qy + pz * qz <= 0.0
+            counts &= (ox + px) * (qx - rx) + (oy + py) * (qy - ry) + (oz + pz) * (qz - rz) >= 0.0
+        if counts:
             farthest = out
     return farthest
 
 
 @woven
 def points_over_triangle(
-    v, loop_vertex, begin, stop, triangles, links, vertices, t, radius, reach, sunk, close, near,
+    v, loop_vertex, begin, stop, triangles, links, vertices, t, radius, reach, close, near,
     polygon, tag, room, points, names, found,
 ):  # fmt: skip
     """Add the points of a solid's face (loop entries from ``begin`` on) that are over a triangle; return how many.
@@ -128,7 +124,7 @@ def points_over_triangle(
         if beyond > 0 and not active & (1 << k):
             far = radius + reach
             offset += beyond_bottom(
-                v, loop_vertex, begin, stop, triangles, links, vertices, t, k, x, y, z, far, sunk, close, near
+                v, loop_vertex, begin, stop, triangles, links, vertices, t, k, x, y, z, far, close, near
             )
             beyond = corners_beyond(polygon, here, count, x, y, z, offset)
         if beyond == count:

@@ -124,3 +124,19 @@ def behind_of(triangles, links, found, near, x, y, z, within):
         elif abs(above) > abs(side):
             side, behind = above, t
     return behind if side < 0.0 else -1
+
+
+@inlined
+def is_nearest_beneath(triangles, links, found, near, t, x, y, z):
+    """Tell whether a point is behind a mesh, of which no triangle is nearer to it than t, of those found."""
+    behind = behind_of(triangles, links, found, near, x, y, z, 1e300)
+    if behind < 0:
+        return False
+    return distance_to(triangles, t, x, y, z) <= distance_to(triangles, behind, x, y, z) + LEAST_PART
+
+
+@inlined
+def distance_to(triangles, t, x, y, z):
+    """Return how far (m) a point is from a triangle."""
+    cx, cy, cz, _ = nearest_on_triangle(triangles, t, x, y, z)
+    return sqrt((x - cx) * (x - cx) + (y - cy) * (y - cy) + (z - cz) * (z - cz))

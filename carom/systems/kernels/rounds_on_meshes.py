@@ -7,7 +7,7 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FLAT_COSINE, SAME_PLACE, SUNK
+from carom.systems.constants import FLAT_COSINE, SAME_PLACE
 from carom.systems.kernels.cores import (
     CORE,
     ELLIPSOID,
@@ -120,7 +120,7 @@ def measure_rounds_on_meshes(
             if nx * triangles[a + 9] + ny * triangles[a + 10] + nz * triangles[a + 11] >= FLAT_COSINE:
                 end, _ = outline(core, SECOND, place, hulls, -nx, -ny, -nz, v, tag, plane)
                 touching = points_over_triangle(
-                    v, corners, 0, end, triangles, links, vertices, t, 0.0, reach, SUNK * width, found, near,
+                    v, corners, 0, end, triangles, links, vertices, t, 0.0, reach, found, near,
                     polygon, tags, room, points, names, touching,
                 )  # fmt: skip
                 for i in range(before, touching):

@@ -7,7 +7,7 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FLAT_COSINE, SAME_PLACE, SUNK
+from carom.systems.constants import FLAT_COSINE, SAME_PLACE
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.hulls_narrow import most_of
 from carom.systems.kernels.mesh_areas import MOST_CORNERS, points_over_face, points_over_triangle
@@ -127,7 +127,7 @@ def measure_solids_on_meshes(
                 if level >= 0 and facing >= max(cosine, FLAT_COSINE):
                     touching = points_over_triangle(
                         v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
-                        t, radius, reach, SUNK * width, found, near, polygon, tag, room, points, names, touching,
+                        t, radius, reach, found, near, polygon, tag, room, points, names, touching,
                     )  # fmt: skip
                 elif cosine >= FLAT_COSINE:
                     touching = points_over_face(
@@ -151,7 +151,7 @@ def measure_solids_on_meshes(
                 )  # fmt: skip
             elif p == SEGMENT:
                 touching = points_over_triangle(
-                    v, ends, 0, 2, triangles, links, vertices, t, radius, reach, SUNK * width, found, near,
+                    v, ends, 0, 2, triangles, links, vertices, t, radius, reach, found, near,
                     polygon, tag, room, points, names, touching,
                 )  # fmt: skip
             else:
@@ -160,7 +160,7 @@ def measure_solids_on_meshes(
                 f = hulls.face_start[p] + face
                 touching = points_over_triangle(
                     v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
-                    t, radius, reach, SUNK * width, found, near, polygon, tag, room, points, names, touching,
+                    t, radius, reach, found, near, polygon, tag, room, points, names, touching,
                 )  # fmt: skip
             if kind == ASIDE:  # what is beneath the triangle's plane, yet in front of the mesh, is beyond a thin part
                 for k in range(touching - 1, before - 1, -1):
