@@ -58,6 +58,19 @@ def test_a_corner_in_the_bottom_of_a_valley_is_borne(shape: Shape, steep: float,
     assert np.abs(found.point - place).max() < deep
 
 
+@pytest.mark.parametrize("steep", [0.3, 0.6])
+@pytest.mark.parametrize("aside", [-1.5, -1.1, 1.1, 1.5])
+def test_a_tip_over_one_side_of_a_valley_is_borne_by_that_alone(steep: float, aside: float) -> None:
+    """Where it has sunk in so far that it is beneath the plane of the other side as well, that is not as near."""
+    deep, length = 0.1, np.hypot(1.0, steep)
+    place = np.array([aside * deep * steep / length, 0.0, 0.3])
+    place[1] = steep * abs(place[0]) - deep * length
+    assert place[1] + steep * abs(place[0]) < -0.01
+    land = laid(folded(2.0 * steep, 0.0, 2.0 * steep, spacing=2.0), Cone(0.5, 1.0), 1, turn=LEVEL)
+    (found,) = land.measure((place + np.array([0.0, 0.5, 0.0]))[None], np.array([[1.0, 0.0, 0.0, 0.0]]), 1e-4)
+    assert found.depth == pytest.approx([deep], rel=1e-9)
+
+
 @pytest.mark.parametrize("sides", [3, 4, 6])
 @pytest.mark.parametrize("deep", [1e-5, 1e-3, 2e-2, 0.2])
 def test_a_tip_beneath_the_bottom_of_a_pit_is_borne_by_all_its_sides(sides: int, deep: float) -> None:

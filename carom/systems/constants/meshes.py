@@ -30,8 +30,8 @@ SAME_PLACE = 1e-3
 BETTER = 1e-3
 
 # How many times as far as it is beneath a triangle's plane something may be beyond its edge, for it to be looked for
-# beneath the bottom of a valley: tangent of half the angle at which the sides meet there. Smaller: what has sunk into
-# narrow gorges falls on.
+# beneath the bottom of a valley: cotangent of half the angle between its sides, of 19 degrees. Smaller: what has sunk
+# into narrow gorges falls on.
 GORGE = 6.0
 
 # Part of SAME_PLACE by which a point within a manifold is to be lower than what the others span to be one of it too.
