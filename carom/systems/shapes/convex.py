@@ -46,21 +46,12 @@ class Convex(Triangles):
         return shape
 
     @classmethod
-    def seen(
-        cls,
-        *,
-        points: npt.ArrayLike | None = None,
-        faces: npt.ArrayLike | None = None,
-        file: str | Path | None = None,
-        scale: float = 1.0,
-        unit: Unit = "m",
-        up: Axis = "y",
-    ) -> Self:
+    def seen(cls, *_: Any, points: Any = None, faces: Any = None, file: Any = None, **reading: Any) -> Self:
         """Return what `stated` does, which need not touch."""
         if (points is None) is (file is None):
             raise DeclarationError("convex: must state one source, points or file")
         if file is not None:
-            return cls(load_hull(file, scale=scale, unit=unit, up=up))
+            return cls(load_hull(file, **reading))
         hull = hull_of(np.asarray(points, np.float64).reshape(-1, 3))
         return cls(hull if faces is None else with_faces(hull, faces))
 

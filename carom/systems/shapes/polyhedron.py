@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import combinations
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
@@ -63,7 +62,7 @@ def hull_faces(geometry: Geometry) -> Polyhedron:
 
 def _faces_of_hull(geometry: Geometry) -> Polyhedron:
     """Ask Qhull again, since trimesh drops slivers and leaves gaps there."""
-    from scipy.spatial import ConvexHull
+    from scipy.spatial import ConvexHull, KDTree
 
     places: list[Vector] = [(x, y, z) for x, y, z in geometry.vertices.tolist()]
     x, y, z = (math.fsum(axis) / len(places) for axis in zip(*places, strict=True))
@@ -75,7 +74,7 @@ def _faces_of_hull(geometry: Geometry) -> Polyhedron:
         found = from_loops(places, _joined(vertices, triangles, FACE_FLAT * times * width))
         if found.closes():
             return found
-    nearest = min(math.dist(a, b) for a, b in combinations(places, 2))
+    nearest = KDTree(places).query(places, k=2)[0][:, 1].min()
     raise DeclarationError(
         f"{geometry.source}: rounding leaves the faces of the hull in doubt, of {len(places)} corners over "
         f"{width:.3g} m, the nearest {nearest:.3g} m apart; leave out those that nearly coincide, or that lie far off"
