@@ -57,7 +57,7 @@ def test_rows_are_taken_and_given_back_wherever_they_are(rows: list[int]) -> Non
 
 @pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="only the JIT has a stack of its own")
 def test_lanes_put_aside_lie_in_one_line_each() -> None:
-    """The stack of what handles lanes begins with a line of the cache, by which LLVM places what it puts aside."""
+    """The stack of what uses lanes begins with a line of the cache, by which LLVM places what it puts aside."""
 
     @numba.njit
     def copy(rows):

@@ -77,7 +77,10 @@ WHOLE = ir.IntType(64)
 
 
 def _align_stack(builder):
-    """Let each lane that a function puts aside on its stack lie in one line of the cache, not across two."""
+    """Let each lane that a function puts aside on its stack lie in one line of the cache, not across two.
+
+    It is asked of functions that use lanes themselves; of those into which only others are woven nothing was gained.
+    """
     builder.function.attributes.add("nounwind")  # true of all of them, and llvmlite writes no alignment alone
     builder.function.attributes.alignstack = 8 * WIDTH
 
