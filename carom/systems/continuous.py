@@ -23,9 +23,10 @@ from carom.systems.kernels.fast_pairs import (
     place_fast,
     take_quick,
 )
+from carom.systems.kernels.left_out import when_near, write_left_out
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.trust import find_agreeing, spend_trust
-from carom.systems.looked import NO_PAIRS, NOWHERE, FastPairs, Land, Looked
+from carom.systems.looked import NO_PAIRS, NONE_LEFT_OUT, NOWHERE, FastPairs, Land, LeftOut, Looked
 from carom.systems.progress import Progress
 
 
@@ -37,7 +38,7 @@ class Fast(Resource):
     """
 
     def __init__(self) -> None:
-        self.all, self.land = NO_PAIRS, NOWHERE
+        self.all, self.land, self.left_out = NO_PAIRS, NOWHERE, NONE_LEFT_OUT
         self.trusts: Floats = np.zeros((0, 6))
         self._limited = False  # whether some of them are finite
 
@@ -46,26 +47,25 @@ class Fast(Resource):
         """The pairs (n, 2) of collider rows that are looked after, a mesh first."""
         return self.all.pairs[self.all.asked]
 
-    def find(self, world: World, pairs: Integers, free: Integers, found: Found, span: float) -> None:
-        """Find who of ``pairs`` (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them.
+    def find(
+        self, world: World, fast: Integers, numbers: Floats, free: Integers, found: Found, span: float
+    ) -> None:
+        """Find who of ``fast`` pairs (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them.
 
-        So are pairs of two that are ``free`` (m, 2), which `without_passing` tells.
+        They come with their ``numbers``. So are pairs of two that are ``free`` (m, 2), which `without_passing` tells.
         """
         pose, motion, center = world[ColliderPose], world[Motion], world[Flight].detected_center
         size = len(motion.asleep)
         if self._limited or len(self.trusts) != size:
             self.trusts, self._limited = np.tile([np.inf, *np.zeros(5)], (size, 1)), False
-        self.all = NO_PAIRS
-        if not (len(pairs) or len(free)):  # most often
+        self.all, self.left_out = NO_PAIRS, NONE_LEFT_OUT
+        if not (len(fast) or len(free)):  # most often
             return
-        fast, numbers = fast_of(world, pairs, span, center)
         if len(free):
             free, free_numbers = fast_of(world, free, span, center, free=True)
             fast, numbers = np.concatenate([fast, free]), np.concatenate([numbers, free_numbers])
             order = np.lexsort(fast.T[::-1])
             fast, numbers = fast[order], numbers[order]
-        if not len(fast):
-            return
         self.all = FastPairs.of(fast, Looked.room(numbers), motion.linear, motion.angular)
         given, reaches = fast.copy(), numbers.copy()
         self.land, self._limited = look_at(world, fast, center, self.all.looked), True
@@ -77,13 +77,22 @@ class Fast(Resource):
         )  # fmt: skip
         self.all.asked[:], self.all.left[agrees] = ~agrees, 0.0
 
-    def trusted(self, found: Found) -> Found:
+    def trusted(self, world: World, found: Found) -> Found:
         """Return what is found, but of pairs that are looked after only what is near: the rest is found on the way."""
         if not len(self.all.pairs):
             return found
         pairs = self.pairs
         far, numbers = np.empty(len(found.row_a), np.bool_), self.all.looked.numbers[self.all.asked]
         number = find_far(pairs, numbers, found.row_a, found.row_b, found.depth, far)
+        near = self.all.near[self.all.asked]
+        if number and near.any():
+            pairs, numbers, of_near = pairs[near], numbers[near], np.empty_like(far)
+            left_out = find_far(pairs, numbers, found.row_a, found.row_b, found.depth, of_near)
+            self.left_out = LeftOut.room(left_out)
+            write_left_out(
+                pairs, numbers, of_near, found.row_a, found.row_b, found.normal, found.depth, found.point,
+                world[ColliderPose].body_row, world[Flight].detected_center, world[Transform].rotation, *self.left_out,
+            )  # fmt: skip
         return found.without(far, number)
 
     def let_go(self, contact: Contact) -> None:
@@ -99,7 +108,10 @@ class Fast(Resource):
         """
         if not self.all.asked.any():
             return np.inf
-        time = float(self._times(world, world[Flight].center, span, found=found, first_only=True).min())
+        center, motion = world[Flight].center, world[Motion]
+        first = float(self._times(world, center, span, found=found, first_only=True).min())
+        near = when_near(span, *self.left_out, center, world[Transform].rotation, motion.linear, motion.angular)
+        time = min(first, near)
         return time if time < span else np.inf
 
     def look_on(self, world: World, elapsed: float, rest: float) -> float:
@@ -121,7 +133,7 @@ class Fast(Resource):
         times = np.empty(len(of.pairs))
         foresee_meetings(
             span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular,
-            accelerations(world), *of.looked, *self.land, of.asked, of.left, times,
+            accelerations(world), *of.looked, *self.land, of.asked, of.near, of.left, times,
         )  # fmt: skip
         return times
 

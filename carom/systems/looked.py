@@ -41,17 +41,39 @@ class Land(NamedTuple):
     room: Floats
 
 
+class LeftOut(NamedTuple):
+    """Contacts of pairs that are looked after, too far to be trusted, as `when_near` follows them.
+
+    Places (n, 2, 3) are in the frames of their ``bodies`` (n, 2).
+    """
+
+    bodies: Integers
+    normals: Floats
+    gaps: Floats
+    nears: Floats
+    places: Floats
+
+    @classmethod
+    def room(cls, count: int) -> LeftOut:
+        """Return room for so many, to be written."""
+        return cls(
+            np.empty((count, 2), np.int64), np.empty((count, 3)), *np.empty((2, count)), np.empty((count, 2, 3)),
+        )  # fmt: skip
+
+
 class FastPairs(NamedTuple):
     """Pairs (n, 2) of collider rows that are fast, a mesh first, and what is looked at of them.
 
     Those are ``asked`` whose contacts, followed straight on, do not say when they meet. ``left`` is how far (m) their
-    bodies may still move before what is known of their contacts is no longer trusted, 0 where nothing is known.
+    bodies may still move before what is known of their contacts is no longer trusted, 0 where nothing is known. Who has
+    been ``near`` since contacts were found is trusted anew in each substep.
     ``linear`` and ``angular`` are all velocities when they were found.
     """
 
     pairs: Integers
     looked: Looked
     asked: Booleans
+    near: Booleans
     left: Floats
     linear: Floats
     angular: Floats
@@ -60,10 +82,11 @@ class FastPairs(NamedTuple):
     def of(cls, pairs: Integers, looked: Looked, linear: Floats, angular: Floats) -> FastPairs:
         """Return pairs of whom nothing is known yet, as bodies move."""
         n = len(pairs)
-        return cls(pairs, looked, np.ones(n, np.bool_), np.zeros(n), np.array(linear), np.array(angular))
+        return cls(pairs, looked, *np.ones((2, n), np.bool_), np.zeros(n), np.array(linear), np.array(angular))
 
 
 NOWHERE = Land(np.empty(0, np.float32), np.empty(0, np.int32), np.empty(0), np.zeros((TRIANGLE_CORNERS, 3)))
+NONE_LEFT_OUT = LeftOut.room(0)
 NO_PAIRS = FastPairs.of(
     np.empty((0, 2), np.int64), Looked.room(np.empty((0, NUMBERS))), np.empty((0, 3)), np.empty((0, 3))
 )

@@ -60,7 +60,7 @@ def without_seeming(
     land = look_at(world, free.copy(), center, looked)  # of meshes the sides change places
     foresee_meetings(
         span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, accelerations(world),
-        *looked, *land, np.ones(len(free), np.bool_), np.zeros(len(free)), times,
+        *looked, *land, *np.ones((2, len(free)), np.bool_), np.zeros(len(free)), times,
     )  # fmt: skip
     find_agreeing(
         free, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,

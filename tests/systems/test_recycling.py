@@ -176,7 +176,7 @@ def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None, compl
     normal[of == 5] = quaternion.rotate(rotation[pairs[5, 1]], (0.0, 1.0, 0.0))
     point, depth = generator.normal(size=(count, 3)), 0.01 * generator.normal(size=count)
     body, center = np.arange(12) - 6, generator.normal(size=(6, 3))
-    contact.seat_depth[:], (contact.a[:], contact.b[:]) = depth, pairs[of].T
+    contact.seat_reach[:], contact.seat_depth[:], (contact.a[:], contact.b[:]) = 1.0, depth, pairs[of].T
     for side, sense, seat, lean in (
         (0, 0.5, contact.seat_a, contact.lean_a),
         (1, -0.5, contact.seat_b, contact.lean_b),
@@ -203,7 +203,8 @@ def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None, compl
         ALONE, pairs, np.ones(6), True, completes, count, np.arange(12), np.zeros(12, np.int32),
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         position, rotation, body, center, contact.a, contact.b,
-        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
+        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth,
+        contact.seat_reach, contact.form,
         moved, reaches, contact.row_a, contact.row_b, *table, *offsets, kept, ends,
     )  # fmt: skip
     assert ends.tolist() == [[same.sum(), 0 if astray is None else 1]]

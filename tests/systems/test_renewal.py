@@ -22,7 +22,7 @@ ROWS = 6
 HELD = (
     "resting", "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
 )  # fmt: skip
-SEATED = "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form"
+SEATED = "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "seat_reach", "form"
 SIMULATION = Simulation()
 SIMULATION.add_many(np.zeros((ROWS, 3)), collider={"sphere": {"radius": 0.5}})
 FAR = 10.0  # m between the places that points are drawn from; what is in one place is the same point

@@ -31,6 +31,7 @@ class Contact(Relation):
     lean_a: Floats = column(3, unit="1", doc="normal as it was found, frame of a")
     lean_b: Floats = column(3, unit="1", doc="normal as it was found, frame of b")
     seat_depth: Floats = column(unit="m", doc="overlap with which it was found")
+    seat_reach: Floats = column(unit="m", doc="gap up to which points of its pair were found then")
     form: Floats = column(unit="1", doc="what the two shapes were when it was found, as one number")
     by_fcl: Booleans = column(unit="1", doc="answered by FCL, not by a kernel", dtype="bool")
     friction: Floats = column(unit="1", doc="combined friction", role="derived")

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
-from carom.ecs.column import Booleans, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.sleeping_contact import SleepingContact
 from carom.systems.awake import Awake
 from carom.systems.constants import CROWDED
-from carom.systems.continuous import Fast, of_quick, quick_ones
+from carom.systems.continuous import Fast, fast_of, of_quick, quick_ones
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.apart import NOBODY, Apart
 from carom.systems.detection.bounds import reach_within, reaches_of
@@ -28,6 +28,7 @@ from carom.systems.grouping import group_contacts
 from carom.systems.kernels.contacts import complete_contacts
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.crushing import let_go_of_crushed
+from carom.systems.kernels.fast_pairs import reach_trusted
 from carom.systems.kernels.renewal import renew_contacts
 from carom.systems.kernels.rows import are_crowded
 from carom.systems.passing import without_passing
@@ -83,22 +84,28 @@ def detect(world: World, left: float, soon: float) -> None:
             reach_within(world, left)
             pose.moved[:] |= moved  # nothing has since it was placed just now, but since the step before
             continue
-        found, free, center = find(world, pairs), NOBODY, world[Flight].detected_center
+        center = world[Flight].detected_center
         quick = quick_ones(world, pairs, left, center)
+        fast = fast_of(world, of_quick(world, pairs, quick), left, center)
+        found, free = find(world, pairs, *fast), NOBODY
         if len(quick):
             found, free = without_passing(world, found, left, center, quick)
         if not rouse(world, found):
             break
         reach_within(world, left)
-    world[Fast].find(world, of_quick(world, pairs, quick), free, found, left)
-    store(world, without_seams(world, world[Fast].trusted(found)))
+    world[Fast].find(world, *fast, free, found, left)
+    store(world, without_seams(world, world[Fast].trusted(world, found)))
 
 
-def find(world: World, pairs: Integers) -> Found:
-    """Return the points at which ``pairs`` (n, 2) of collider rows touch or may within their reach."""
+def find(world: World, pairs: Integers, fast: Integers, numbers: Floats) -> Found:
+    """Return the points at which ``pairs`` (n, 2) of collider rows touch or may within their reach.
+
+    Of those that are ``fast`` (m, 2), with ``numbers``, all that would be trusted.
+    """
     if not len(pairs):
         return NOTHING
     reaches = reaches_of(world, pairs, world[Flight].reach)
+    reach_trusted(pairs, fast, numbers, reaches)
     return measure_what_moved(world, *world[Apart].without(world, pairs, reaches))
 
 
@@ -143,14 +150,15 @@ def complete(world: World, found: Found, old_count: int, *, known: bool) -> bool
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, world[Flight].detected_center, world[Transform].rotation,
-        world[RigidBody].inverse_mass,
+        world[Flight].reach, world[Motion].asleep, world[Stream].passes, world[RigidBody].inverse_mass,
         material.friction, material.restitution, material.rolling_friction, material.spinning_friction,
         material.friction_combine, material.restitution_combine, collider.surface_velocity,
         contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
         contact.body_a, contact.body_b, contact.offset_a, contact.offset_b, contact.share,
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,
         contact.other_position, contact.other_rotation,
-        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
+        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.seat_reach,
+        contact.form,
     )  # fmt: skip
     return any(changed.tolist())
 
@@ -168,6 +176,7 @@ def renew(world: World, crew: Integers, found: Found, old_count: int, changed: B
         found.old, contact.a, contact.b, contact.feature, contact.row_a, contact.row_b, contact.by_fcl,
         contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
         contact.warm_rolling, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic,
-        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.form,
+        contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.seat_reach,
+        contact.form,
     )  # fmt: skip
     return match

@@ -66,7 +66,7 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, pose.body_row, world[Flight].detected_center,
         contact.a, contact.b, contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b,
-        contact.seat_depth, contact.form,
+        contact.seat_depth, contact.seat_reach, contact.form,
         moved, moved_reaches, contact.row_a, contact.row_b, contact.normal, contact.depth, contact.point,
         contact.offset_a, contact.offset_b, contact.share, kept, ends,
     )  # fmt: skip

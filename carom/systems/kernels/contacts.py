@@ -10,7 +10,7 @@ from carom.systems.kernels.balls import BOX, HALF_SPACE
 from carom.systems.kernels.cores import CONE_SHAPE, CONVEX_SHAPE, CYLINDER_SHAPE, ELLIPSOID_SHAPE
 from carom.systems.kernels.crew import runs_of, shared
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent
+from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent, reach_of_pair
 from carom.systems.kernels.offsets import find_offsets
 from carom.systems.kernels.recycling import seat_pair, turned
 
@@ -37,16 +37,16 @@ def combined(x, y, rule_x, rule_y, default):
 @shared(
     "changed", "friction", "restitution", "rolling", "spinning", "surface", "row_a", "row_b", "body_a", "body_b",
     "offset_a", "offset_b", "share", "kind", "ball", "other", "sign", "radius", "extent",
-    "other_position", "other_rotation", "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form",
+    "other_position", "other_rotation", "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "seat_reach", "form",
 )  # fmt: skip
 def complete_contacts(
     crew, count, match, recycled_from, known, belts, changed, normal, depth, point, row_a, row_b,
     body_row, shape, size, geometry, bound_half, bound_radius, pose_position, pose_rotation, center, rotation,
-    inverse_mass, material_friction, material_restitution, material_rolling, material_spinning,
+    reach, asleep, passes, inverse_mass, material_friction, material_restitution, material_rolling, material_spinning,
     friction_rule, restitution_rule, surface_velocity,
     friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b, share,
     kind, ball, other, sign, radius, extent, other_position, other_rotation,
-    seat_a, seat_b, lean_a, lean_b, seat_depth, form,
+    seat_a, seat_b, lean_a, lean_b, seat_depth, seat_reach, form,
 ):  # fmt: skip
     """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
@@ -64,8 +64,9 @@ def complete_contacts(
             end += 1
         if recycled_from[first] < 0:
             seat_pair(
-                first, end, a, b, normal, depth, point, shape, size, geometry, pose_position, pose_rotation,
-                seat_a, seat_b, lean_a, lean_b, seat_depth, form,
+                first, end, a, b, reach_of_pair(a, b, body_row, reach, asleep, passes), normal, depth, point,
+                shape, size, geometry, pose_position, pose_rotation,
+                seat_a, seat_b, lean_a, lean_b, seat_depth, seat_reach, form,
             )  # fmt: skip
         on_a, on_b = body_row[a], body_row[b]
         belt = belts and (runs(a, surface_velocity) or runs(b, surface_velocity))

@@ -104,14 +104,15 @@ def meet(
     return time, 0.0
 
 
-@kernel("room", "left", "times", makes_arrays=True, within=True)
+@kernel("room", "near", "left", "times", makes_arrays=True, within=True)
 def foresee_meetings(
     span, first_only, found, center, turns, linear, angular, felt,
-    bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room, asked, left, times,
+    bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
+    asked, near, left, times,
 ):  # fmt: skip
     """Write when (s) each pair of ``bodies`` that is ``asked`` is to be detected anew as they move now.
 
-    NEVER if not in ``span``. Where contacts have been ``found`` where bodies are now, what is near is trusted for a way
+    NEVER if not in ``span``. Where contacts have been ``found``, who has been ``near`` ever since is trusted for a way
     that is written into ``left`` (m), but of meshes, of which some triangles may be near and others not. Else it is for
     what is left of that. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both
     shapes about the centres of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and
@@ -126,36 +127,37 @@ def foresee_meetings(
             times[p] = NEVER
             continue
         i, o, core = bodies[p, 0], bodies[p, 1], cores[p]
-        limit, soonest = sooner if first_only else span, NEVER
-        if not found and left[p] > 0.0:
+        limit, soonest, known, trusted = sooner if first_only else span, NEVER, found and near[p], 0.0
+        if not known and left[p] > 0.0:
             times[p] = 0.0
             if left[p] > MEET * numbers[p, 3]:
                 times[p] = time_of_way(left[p], most_of(p, i, o, limit, numbers, linear, angular, felt)[1], limit)
             sooner = min(sooner, times[p])
             continue
         if roots[p] < 0:
-            times[p], left[p] = meet(
-                p, i, o, limit, found, numbers, core, room, center, turns, linear, angular, felt,
+            times[p], trusted = meet(
+                p, i, o, limit, known, numbers, core, room, center, turns, linear, angular, felt,
                 local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
             )  # fmt: skip
-            sooner = min(sooner, times[p])
-            continue
-        put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
-        lx, ly, lz = center[o, 0] - position[0, 0], center[o, 1] - position[0, 1], center[o, 2] - position[0, 2]
-        lx, ly, lz = turned_back(rotation, 0, lx, ly, lz)
-        wide = numbers[p, 1] + core[CORE + AROUND] + numbers[p, 3]  # turning is in the reach, but of the mesh
-        wide += limit * (between(i, o, linear, linear) + length_of(i, angular) * numbers[p, 0])
-        count, touched = all_triangles(
-            roots[p], bounds, nodes, triangles,
-            lx - wide, ly - wide, lz - wide, lx + wide, ly + wide, lz + wide, touched,
-        )  # fmt: skip
-        for c in range(count):
-            for k in range(9):
-                room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * touched[c] + k]
-            time, _ = meet(
-                p, i, o, min(limit, soonest), found, numbers, core, room, center, turns, linear, angular, felt,
-                local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+            left[p] = trusted
+        else:
+            put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+            lx, ly, lz = center[o, 0] - position[0, 0], center[o, 1] - position[0, 1], center[o, 2] - position[0, 2]
+            lx, ly, lz = turned_back(rotation, 0, lx, ly, lz)
+            wide = numbers[p, 1] + core[CORE + AROUND] + numbers[p, 3]  # turning is in the reach, but of the mesh
+            wide += limit * (between(i, o, linear, linear) + length_of(i, angular) * numbers[p, 0])
+            count, touched = all_triangles(
+                roots[p], bounds, nodes, triangles,
+                lx - wide, ly - wide, lz - wide, lx + wide, ly + wide, lz + wide, touched,
             )  # fmt: skip
-            soonest = min(soonest, time)
-        times[p] = soonest
-        sooner = min(sooner, soonest)
+            for c in range(count):
+                for k in range(9):
+                    room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * touched[c] + k]
+                time, way = meet(
+                    p, i, o, min(limit, soonest), known, numbers, core, room, center, turns, linear, angular, felt,
+                    local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+                )  # fmt: skip
+                soonest, trusted = min(soonest, time), max(trusted, way)
+            times[p] = soonest
+        sooner = min(sooner, times[p])
+        near[p] = near[p] and (trusted > 0.0 or not found)

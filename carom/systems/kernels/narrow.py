@@ -18,16 +18,23 @@ SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE, PLANE_SHAPE = Sphere.number, Point.number,
 
 @kernel("reaches")
 def reach_of_pairs(pairs, body_row, reach, asleep, passes, reaches):
-    """Write how near (m) each pair must come to be a contact: what its two bodies reach within the step.
+    """Write how near (m) each pair must come to be a contact."""
+    for p in range(len(pairs)):
+        reaches[p] = reach_of_pair(pairs[p, 0], pairs[p, 1], body_row, reach, asleep, passes)
+
+
+@woven
+def reach_of_pair(a, b, body_row, reach, asleep, passes):
+    """Return how near (m) two colliders must come to be a contact: what their two bodies reach within the step.
 
     Who sleeps and what has no body ``passes`` by where all others go one way.
     """
-    for p in range(len(pairs)):
-        reaches[p] = 0.0
-        for side in range(2):
-            body = body_row[pairs[p, side]]
-            reaches[p] += reach[body] if body >= 0 else 0.0
-            reaches[p] += passes if body < 0 or asleep[body] else 0.0
+    together = 0.0
+    for c in (a, b):
+        body = body_row[c]
+        together += reach[body] if body >= 0 else 0.0
+        together += passes if body < 0 or asleep[body] else 0.0
+    return together
 
 
 @shared("side", "order", "first", "second", "counts", "places")

@@ -43,15 +43,16 @@ def form_of_pair(a, b, shape, size, geometry):
 def recycle_contacts(
     crew, pairs, reaches, known, completes, old_count, handles, row_shift,
     shape, size, geometry, bound_half, bound_radius, position, rotation, body_row, center,
-    a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, form,
+    a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, seat_reach, form,
     moved, moved_reaches, row_a, row_b, normal, depth, point, offset_a, offset_b, share, kept, ends,
 ):  # fmt: skip
     """Place the contacts of all pairs that have hardly moved where their shapes are now; write which pairs have moved.
 
     Moved has a pair of which one is a ball, which rolls, one of whose points has slipped or sunk by RECYCLED_SLIP of
     the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known`` to be
-    what they were: its contacts stay as they are. Those of balls are found up to where they leave (REACH_KEPT).
-    ``seat``, ``lean`` and ``seat_depth`` say where the points and the normal were found on the two shapes. Those placed
+    what they were, or that reaches farther by as much, so that it may have more: its contacts stay as they are. Those of balls are found up to where they leave (REACH_KEPT).
+    ``seat``, ``lean`` and ``seat_depth`` say where the points and the normal were found on the two shapes, ``seat_reach``
+    up to which gap. Those placed
     are ``kept``; with their offsets, where this ``completes`` them. Each thread has a row of ``ends``, where those and
     its pairs end: behind them are those of the next.
     """
@@ -74,6 +75,8 @@ def recycle_contacts(
         if not known and form[o] != form_of_pair(x, y, shape, size, geometry):
             continue
         slip = RECYCLED_SLIP * smaller_reach(x, y, bound_half, bound_radius)
+        if reaches[p] > seat_reach[o] + slip:
+            continue
         first, one, other, alike, stayed = o, a[o], b[o], True, True
         while o < old_count and a[o] == one and b[o] == other:
             alike &= o == first or is_alike(o, o - 1, lean_a)
@@ -223,18 +226,18 @@ def turned(i, c, column, rotation):
 
 @woven
 def seat_pair(
-    first, end, a, b, normal, depth, point, shape, size, geometry, position, rotation,
-    seat_a, seat_b, lean_a, lean_b, seat_depth, form,
+    first, end, a, b, reach, normal, depth, point, shape, size, geometry, position, rotation,
+    seat_a, seat_b, lean_a, lean_b, seat_depth, seat_reach, form,
 ):  # fmt: skip
     """Write where the points and the normals of a pair, contacts ``first`` to ``end``, are on the two shapes.
 
-    Those of balls are never recycled, and nowhere.
+    They are all up to its ``reach`` (m). Those of balls are never recycled, and nowhere.
     """
     if is_ball(a, shape) or is_ball(b, shape):
         for c in range(first, end):
             if form[c] == 0.0:  # as it most often was before
                 continue
-            seat_depth[c], form[c] = 0.0, 0.0
+            seat_depth[c], seat_reach[c], form[c] = 0.0, 0.0, 0.0
             for k in range(3):
                 seat_a[c, k], seat_b[c, k], lean_a[c, k], lean_b[c, k] = 0.0, 0.0, 0.0, 0.0
         return
@@ -249,7 +252,7 @@ def seat_pair(
             z = point[c, 2] + sense * nz - position[i, 2]
             seat[c, 0], seat[c, 1], seat[c, 2] = turn(qx, qy, qz, qw, x, y, z)
             lean[c, 0], lean[c, 1], lean[c, 2] = turn(qx, qy, qz, qw, nx, ny, nz)
-        seat_depth[c], form[c] = depth[c], number
+        seat_depth[c], seat_reach[c], form[c] = depth[c], reach, number
 
 
 @kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")

@@ -10,7 +10,7 @@ from carom.systems.kernels.crew import runs_of, shared, wait_for_all
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.recycling import first_of_pair, is_pair, smaller_reach
 
-CONTACT_NUMBERS = 28  # that a contact holds
+CONTACT_NUMBERS = 29  # that a contact holds
 
 
 @woven
@@ -44,7 +44,7 @@ def match_points(begin, end, o, until, near, feature, point, found_feature, foun
 @shared(
     "match", "taken", "changed", "a", "b", "feature", "row_a", "row_b", "by_fcl", "normal", "depth", "point", "resting",
     "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
-    "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "form",
+    "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "seat_reach", "form",
     makes_arrays=True,
 )  # fmt: skip
 def renew_contacts(
@@ -52,7 +52,7 @@ def renew_contacts(
     found_a, found_b, found_feature, found_normal, found_depth, found_point, found_by_fcl, recycled_from,
     a, b, feature, row_a, row_b, by_fcl, normal, depth, point, resting,
     warm_normal, warm_friction, warm_rolling, impulse, friction_impulse, strikes, plastic,
-    seat_a, seat_b, lean_a, lean_b, seat_depth, form,
+    seat_a, seat_b, lean_a, lean_b, seat_depth, seat_reach, form,
 ):  # fmt: skip
     """Replace the contacts by those found, keeping what a contact of the same colliders and feature held.
 
@@ -94,7 +94,7 @@ def renew_contacts(
     # What is another thread's, or changes places within a pair, is put aside before.
     columns = (
         resting, strikes, plastic, warm_normal, impulse, warm_friction, warm_rolling, friction_impulse,
-        seat_depth, form, seat_a, seat_b, lean_a, lean_b,
+        seat_depth, seat_reach, form, seat_a, seat_b, lean_a, lean_b,
     )  # fmt: skip
     moves = np.empty(max(0, count - begin), np.int64)
     moving, aside, last = 0, len(moves), -1
@@ -135,7 +135,7 @@ def renew_contacts(
 @woven
 def move(
     o, c, seated, resting, strikes, plastic, warm_normal, impulse, warm_friction, warm_rolling, friction_impulse,
-    seat_depth, form, seat_a, seat_b, lean_a, lean_b,
+    seat_depth, seat_reach, form, seat_a, seat_b, lean_a, lean_b,
 ):  # fmt: skip
     """Let contact c hold what contact o does, and be ``seated`` where that is."""
     resting[c], strikes[c], plastic[c], warm_normal[c], impulse[c] = (
@@ -144,7 +144,7 @@ def move(
     for column in (warm_friction, warm_rolling, friction_impulse):
         column[c, 0], column[c, 1], column[c, 2] = column[o, 0], column[o, 1], column[o, 2]
     if seated:
-        seat_depth[c], form[c] = seat_depth[o], form[o]
+        seat_depth[c], seat_reach[c], form[c] = seat_depth[o], seat_reach[o], form[o]
         for column in (seat_a, seat_b, lean_a, lean_b):
             column[c, 0], column[c, 1], column[c, 2] = column[o, 0], column[o, 1], column[o, 2]
 
@@ -152,7 +152,7 @@ def move(
 @woven
 def take(
     o, seated, kept, m, resting, strikes, plastic, warm_normal, impulse, warm_friction, warm_rolling, friction_impulse,
-    seat_depth, form, seat_a, seat_b, lean_a, lean_b,
+    seat_depth, seat_reach, form, seat_a, seat_b, lean_a, lean_b,
 ):  # fmt: skip
     """Write what contact o holds into a row of numbers, and where it is ``seated``."""
     kept[m, 0], kept[m, 1], kept[m, 2], kept[m, 3], kept[m, 4] = (
@@ -162,7 +162,7 @@ def take(
         kept[m, 5 + k], kept[m, 8 + k] = warm_friction[o, k], warm_rolling[o, k]
         kept[m, 11 + k] = friction_impulse[o, k]
     if seated:
-        kept[m, 14], kept[m, 15] = seat_depth[o], form[o]
+        kept[m, 14], kept[m, 15], kept[m, 28] = seat_depth[o], form[o], seat_reach[o]
         for k in range(3):
             kept[m, 16 + k], kept[m, 19 + k] = seat_a[o, k], seat_b[o, k]
             kept[m, 22 + k], kept[m, 25 + k] = lean_a[o, k], lean_b[o, k]
@@ -171,7 +171,7 @@ def take(
 @woven
 def give(
     c, seated, kept, m, resting, strikes, plastic, warm_normal, impulse, warm_friction, warm_rolling, friction_impulse,
-    seat_depth, form, seat_a, seat_b, lean_a, lean_b,
+    seat_depth, seat_reach, form, seat_a, seat_b, lean_a, lean_b,
 ):  # fmt: skip
     """Let contact c hold what `take` has written."""
     resting[c], strikes[c], plastic[c], warm_normal[c], impulse[c] = (
@@ -181,7 +181,7 @@ def give(
         warm_friction[c, k], warm_rolling[c, k] = kept[m, 5 + k], kept[m, 8 + k]
         friction_impulse[c, k] = kept[m, 11 + k]
     if seated:
-        seat_depth[c], form[c] = kept[m, 14], kept[m, 15]
+        seat_depth[c], form[c], seat_reach[c] = kept[m, 14], kept[m, 15], kept[m, 28]
         for k in range(3):
             seat_a[c, k], seat_b[c, k] = kept[m, 16 + k], kept[m, 19 + k]
             lean_a[c, k], lean_b[c, k] = kept[m, 22 + k], kept[m, 25 + k]

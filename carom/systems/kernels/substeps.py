@@ -16,6 +16,7 @@ from carom.systems.kernels.flight import predict_middle
 from carom.systems.kernels.impacts import DONE, fly
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.kicking import VERLET, kick_bodies
+from carom.systems.kernels.left_out import when_near
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.packing import pack_bodies
 from carom.systems.kernels.reach import find_leaving
@@ -27,7 +28,7 @@ from carom.systems.kernels.ticks import nanoseconds
 predict, pack, sort, touch = predict_middle.within, pack_bodies.within, sort_groups.within, write_touches.within
 kick, press, bend, close = kick_bodies.within, press_groups.within, bend_arcs.within, find_closing.within
 advance, finish, sink, tell = advance_bodies.within, finish_drift.within, sink_contacts.within, tell_depths.within
-leave, look, soar = find_leaving.within, foresee_meetings.within, fly.within
+leave, look, come, soar = find_leaving.within, foresee_meetings.within, when_near.within, fly.within
 
 #: The systems whose work is done here, in the order of the frame.
 LOOK_AHEAD, PREDICT, SORT, KICK, HOLD, DRIFT, SETTLE, RELAX, SYSTEMS = range(9)
@@ -40,7 +41,7 @@ HARD = (0.0, 1.0)
     "center", "time", "acceleration", "angular_acceleration", "decay", "angular_decay", "flow", "touching",
     "start_position", "start_rotation", "start_linear", "start_angular", "start_center", "turned",
     "normal", "depth", "point", "offset_a", "offset_b", "resting", "impulse", "friction_impulse", "strikes", "plastic",
-    "stream", "arc", "room", "left", "log", "log_pair", "spent",
+    "stream", "arc", "room", "near", "left", "log", "log_pair", "spent",
     makes_arrays=True,
 )  # fmt: skip
 def take_substeps(
@@ -56,7 +57,7 @@ def take_substeps(
     body_a, body_b, normal, depth, point, offset_a, offset_b, share_of_b, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
     strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-    asked, left, trusts, pull, arc, log_pair, log, spent,
+    asked, near, left, far_bodies, far_normals, gaps, nears, places, trusts, pull, arc, log_pair, log, spent,
 ):  # fmt: skip
     """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
 
@@ -136,10 +137,11 @@ def take_substeps(
             look(
                 h, True, True, center, rotation, linear, angular, felt,
                 fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-                asked, left, times,
+                asked, near, left, times,
             )  # fmt: skip
             for time_of_pair in times:
                 until = min(until, time_of_pair)
+            until = min(until, come(h, far_bodies, far_normals, gaps, nears, places, center, rotation, linear, angular))
             until = until if until < h else np.inf
         if count or len(watched) or until < h:
             for part in range(len(soon)):

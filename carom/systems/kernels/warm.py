@@ -54,7 +54,7 @@ def compile_measuring() -> None:
 
     import numpy as np
 
-    from carom.ecs import Collider, Motion
+    from carom.ecs import Collider, ColliderPose, Motion, Transform
     from carom.ecs.components.flight import Flight
     from carom.systems.detection.apart import Apart
     from carom.systems.detection.bounds import reach_within
@@ -67,8 +67,10 @@ def compile_measuring() -> None:
     from carom.systems.kernels.fast_pairs import NUMBERS, let_go
     from carom.systems.kernels.grid import lead_astray
     from carom.systems.kernels.lanes import WIDTH, aligned
+    from carom.systems.kernels.left_out import when_near, write_left_out
     from carom.systems.kernels.manifolds import part_masses
     from carom.systems.kernels.recycling import merge_contacts
+    from carom.systems.looked import LeftOut
     from carom.systems.passing import seeming, without_passing, without_seeming
     from carom.systems.shapes.geometry import hull_of
     from carom.systems.shapes.mesh import Mesh
@@ -109,6 +111,12 @@ def compile_measuring() -> None:
     let_go(pairs, count, found.row_a, found.row_b, far)
     far[0] = True
     found.without(far, 1)
+    left_out, center, motion, rotation = LeftOut.room(1), world[Flight].center, world[Motion], world[Transform].rotation
+    write_left_out(
+        pairs, np.ones((len(pairs), NUMBERS)), far, found.row_a, found.row_b, found.normal, found.depth, found.point,
+        world[ColliderPose].body_row, center, rotation, *left_out,
+    )  # fmt: skip
+    when_near(1.0, *left_out, center, rotation, motion.linear, motion.angular)
     none, place = np.zeros(1, np.int64), np.zeros((1, 3))  # manifolds that bodies have side by side
     part_masses(0, none, none, none, none, none, place, place[0, :1], none, none, none, aligned(1, WIDTH))
     reduce_points([(np.zeros(3), np.ones(3), 0.0)])  # of shapes that only FCL measures
