@@ -37,4 +37,5 @@ class ColliderPose(Component):
     lower: Floats = column(3, unit="m", doc="lower corner of the bounds", role="derived")
     upper: Floats = column(3, unit="m", doc="upper corner of the bounds", role="derived")
     body_row: Integers = column(unit="1", doc="row of the body, -1 for static", role="derived", holds="rows")
+    turning: Floats = column(unit="m", doc="how far turning may take a point of it within the step", role="derived")
     moved: Booleans = column(unit="1", doc="not where it was when last placed", dtype="bool", role="derived")

@@ -49,7 +49,7 @@ def bound(world: World, rows: Integers, bodies: Integers, dt: float, reach: Floa
         rows, dt, bodies, world[Motion].angular, reach, passes, center,
         transform.position, transform.rotation, collider.position, collider.rotation,
         collider.bound_center, collider.bound_half, collider.bound_radius,
-        pose.position, pose.rotation, pose.lower, pose.upper, pose.body_row, pose.moved,
+        pose.position, pose.rotation, pose.lower, pose.upper, pose.turning, pose.body_row, pose.moved,
     )  # fmt: skip
     if passes and len(world[Awake].sleepers):
         sleepers = rows[world[Motion].asleep[pose.body_row[rows]] & (pose.body_row[rows] >= 0)]

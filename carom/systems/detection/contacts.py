@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from carom.ecs import Collider, ColliderPose, Material, Motion, Parent, RigidBody, Transform, World, system
-from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.column import Booleans, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.ecs.relations.contact import Contact
@@ -28,7 +28,8 @@ from carom.systems.grouping import group_contacts
 from carom.systems.kernels.contacts import complete_contacts
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.crushing import let_go_of_crushed
-from carom.systems.kernels.fast_pairs import reach_trusted
+from carom.systems.kernels.narrow import reach_turning
+from carom.systems.kernels.passing import find_turning_past
 from carom.systems.kernels.renewal import renew_contacts
 from carom.systems.kernels.rows import are_crowded
 from carom.systems.passing import without_passing
@@ -87,7 +88,7 @@ def detect(world: World, left: float, soon: float) -> None:
         center = world[Flight].detected_center
         quick = quick_ones(world, pairs, left, center)
         fast = fast_of(world, of_quick(world, pairs, quick), left, center)
-        found, free = find(world, pairs, *fast), NOBODY
+        found, free = find(world, pairs, left), NOBODY
         if len(quick):
             found, free = without_passing(world, found, left, center, quick)
         if not rouse(world, found):
@@ -97,16 +98,26 @@ def detect(world: World, left: float, soon: float) -> None:
     store(world, without_seams(world, world[Fast].trusted(world, found)))
 
 
-def find(world: World, pairs: Integers, fast: Integers, numbers: Floats) -> Found:
-    """Return the points at which ``pairs`` (n, 2) of collider rows touch or may within their reach.
-
-    Of those that are ``fast`` (m, 2), with ``numbers``, all that would be trusted.
-    """
+def find(world: World, pairs: Integers, span: float) -> Found:
+    """Return the points at which ``pairs`` (n, 2) of collider rows touch or may within ``span`` seconds."""
     if not len(pairs):
         return NOTHING
-    reaches = reaches_of(world, pairs, world[Flight].reach)
-    reach_trusted(pairs, fast, numbers, reaches)
-    return measure_what_moved(world, *world[Apart].without(world, pairs, reaches))
+    flight, motion = world[Flight], world[Motion]
+    collider, pose = world[Collider], world[ColliderPose]
+    reaches = reaches_of(world, pairs, flight.reach)
+    some = reach_turning(
+        pairs, collider.shape, collider.bound_half, collider.bound_radius, pose.turning, pose.body_row,
+        world[RigidBody].inverse_mass, reaches,
+    )  # fmt: skip
+    found = measure_what_moved(world, *world[Apart].without(world, pairs, reaches))
+    if not some:  # most often
+        return found
+    past: Booleans = np.empty(len(found.row_a), np.bool_)
+    number = find_turning_past(
+        span, found.row_a, found.row_b, found.normal, found.depth, found.point, found.old, pose.body_row, flight.reach,
+        motion.asleep, world[Stream].passes, flight.detected_center, motion.angular, past,
+    )  # fmt: skip
+    return found.without(past, number)
 
 
 def store(world: World, found: Found) -> None:

@@ -18,6 +18,7 @@ from carom.systems.kernels.lane_columns import (
     load_flat,
     load_four,
     load_three,
+    store_flat,
     store_four,
     store_one,
     store_three,
@@ -115,10 +116,10 @@ def least_gyration(inertia, inverse_mass):
     return root(smaller(smaller(inertia[0], inertia[1]), inertia[2]) * inverse_mass)
 
 
-@kernel("pose_position", "pose_rotation", "lower", "upper", "body_row", "moved")
+@kernel("pose_position", "pose_rotation", "lower", "upper", "turning", "body_row", "moved")
 def place_bounds(
     rows, dt, body, angular, reach, passes, center_of_mass, position, rotation, local_position, local_rotation,
-    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, body_row, moved,
+    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, turning, body_row, moved,
 ):  # fmt: skip
     """Place each collider in the world and bound all it can reach: |R| half extents + radius + reach + turning.
 
@@ -129,7 +130,7 @@ def place_bounds(
         if in_a_row(rows, n) and are_own(rows[n], body, bound_half):
             place_eight(
                 rows[n], dt, angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
-                bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, moved,
+                bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, turning, moved,
             )  # fmt: skip
             for i in rows[n : n + WIDTH]:
                 body_row[i] = i
@@ -139,7 +140,7 @@ def place_bounds(
             place_one(
                 i, dt, body[i], angular, reach, passes, center_of_mass, position, rotation,
                 local_position, local_rotation, bound_center, bound_half, bound_radius,
-                pose_position, pose_rotation, lower, upper, moved,
+                pose_position, pose_rotation, lower, upper, turning, moved,
             )  # fmt: skip
 
 
@@ -155,7 +156,7 @@ def are_own(first, body, bound_half):
 @woven
 def place_eight(
     i, dt, angular, reach, center_of_mass, position, rotation, local_position, local_rotation,
-    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, moved,
+    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, turning, moved,
 ):  # fmt: skip
     """Place collider i and the seven in the rows behind it, as `place_one` does."""
     q, p = load_four(address(rotation), i), load_three(address(position), i)
@@ -180,7 +181,9 @@ def place_eight(
     hx, hy, hz = load_three(address(bound_half), i)
     away = root((x - cx) * (x - cx) + (y - cy) * (y - cy) + (z - cz) * (z - cz))
     spin = smaller(root(wx * wx + wy * wy + wz * wz) * dt, spread(2.0))
-    wide = load_flat(bound_radius, i) + (load_flat(reach, i) + spin * (root(hx * hx + hy * hy + hz * hz) + away))
+    way = spin * (root(hx * hx + hy * hy + hz * hz) + away)
+    store_flat(turning, i, way)
+    wide = load_flat(bound_radius, i) + (load_flat(reach, i) + way)
     one, zero = spread(1.0), spread(0.0)
     ax, ay, az = turn(q[0], q[1], q[2], q[3], one, zero, zero)
     bx, by, bz = turn(q[0], q[1], q[2], q[3], zero, one, zero)
@@ -203,7 +206,7 @@ def size_of(x):
 @inlined
 def place_one(
     i, dt, b, angular, reach, passes, center_of_mass, position, rotation, local_position, local_rotation,
-    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, moved,
+    bound_center, bound_half, bound_radius, pose_position, pose_rotation, lower, upper, turning, moved,
 ):  # fmt: skip
     """Place one collider, of body b."""
     qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
@@ -228,8 +231,10 @@ def place_one(
         away = 0.0
         for k in range(3):
             away += (position[i, k] + center[k] - center_of_mass[b, k]) ** 2
-        wide += reach[b] + min(spin * dt, 2.0) * (sqrt(hx * hx + hy * hy + hz * hz) + sqrt(away))
+        turning[i] = min(spin * dt, 2.0) * (sqrt(hx * hx + hy * hy + hz * hz) + sqrt(away))
+        wide += reach[b] + turning[i]
     else:
+        turning[i] = 0.0
         wide += passes
     half = (hx, hy, hz)
     if hx < np.inf:  # a half space has no end whichever way it is turned

@@ -183,16 +183,6 @@ def find_fast(
     return count
 
 
-@kernel("reaches")
-def reach_trusted(pairs, fast, numbers, reaches):
-    """Let those of the pairs that are fast reach as far as their contacts are trusted; both are sorted."""
-    p = 0
-    for f in range(len(fast)):
-        while pairs[p, 0] != fast[f, 0] or pairs[p, 1] != fast[f, 1]:
-            p += 1
-        reaches[p] = max(reaches[p], numbers[f, 3])
-
-
 @kernel("pairs", "bodies", "numbers", "cores", "roots", "position", "rotation")
 def place_fast(
     pairs, shape, size, geometry, body_row, pose_position, pose_rotation, center, body_rotation, hulls,

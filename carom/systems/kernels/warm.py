@@ -58,6 +58,7 @@ def compile_measuring() -> None:
     from carom.ecs.components.flight import Flight
     from carom.systems.detection.apart import Apart
     from carom.systems.detection.bounds import reach_within
+    from carom.systems.detection.contacts import find
     from carom.systems.detection.leaving import detection_holds
     from carom.systems.detection.manifolds import reduce_points
     from carom.systems.detection.narrow import measure_pairs
@@ -97,7 +98,9 @@ def compile_measuring() -> None:
         found = without_seams(world, measure_pairs(world, pairs, np.ones(len(pairs))))
         find_balls(world, pairs, np.ones(len(pairs)))
         world[Motion].linear[:] = 1.0
-        detection_holds(world, 1.0)  # with everybody leaving
+        world[Motion].angular[:] = 1.0
+        find(world, pairs, 1.0)  # with everybody turning
+        detection_holds(world, 1.0)  # and leaving
         without_passing(world, found, 1.0, world[Flight].center, np.ones(world.capacity, np.bool_))
         seeming(world, found, 1.0, world[Flight].center)
         without_seeming(world, found, 1.0, world[Flight].center, pairs[-1:], np.ones((1, NUMBERS)))

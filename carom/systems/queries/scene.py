@@ -58,7 +58,8 @@ class Scene(Resource):
         place_bounds(
             rows, 0.0, nobody, still, still[:, 0].copy(), 0.0, still, position, rotation, collider.position,
             collider.rotation, collider.bound_center, collider.bound_half, collider.bound_radius,
-            self.position, self.rotation, self.lower, self.upper, np.empty(n, np.int64), np.empty(n, np.bool_),
+            self.position, self.rotation, self.lower, self.upper, np.empty(n), np.empty(n, np.int64),
+            np.empty(n, np.bool_),
         )  # fmt: skip
         somewhere = np.isfinite(self.position[rows]).all(axis=1) & np.isfinite(self.rotation[rows]).all(axis=1)
         self.rows = rows = rows[somewhere]
