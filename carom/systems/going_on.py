@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Force, Motion, RigidBody, Transform, World, system
+from carom.ecs import Collider, Force, Motion, RigidBody, Transform, World, system
 from carom.ecs.access import GUARDED
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -52,7 +52,7 @@ def nobody_looks_on(world: World) -> bool:
 
 @system(
     reads=(
-        RigidBody, Force, Settings, Awake, BroadPhase, Fast, Inside, Ledger, Linkage, Sensing,
+        RigidBody, Collider, Force, Settings, Awake, BroadPhase, Fast, Inside, Ledger, Linkage, Sensing,
         Standing, Threads, Ties,
     ),
     writes=(Transform, Motion, Flight, Contact, Impact, Answered, Progress, Resting, Stream, Timings),
@@ -62,6 +62,7 @@ def go_on(world: World, dt: float) -> None:
     """Do all that follows in this substep and the rest at once where nobody looks on; no bit depends on it."""
     progress, resting, settings, contact = world[Progress], world[Resting], world[Settings], world[Contact]
     transform, motion, flight = world[Transform], world[Motion], world[Flight]
+    collider = world[Collider]
     body, force, ledger = world[RigidBody], world[Force], world[Ledger]
     rows, watched = world[Awake].now(world), world[BroadPhase].watched(world)
     crew = crew_for(world, max(len(rows), len(watched), resting.count))
@@ -83,9 +84,10 @@ def go_on(world: World, dt: float) -> None:
         flight.center, flight.time, flight.acceleration, flight.angular_acceleration, flight.felt, flight.decay,
         flight.angular_decay, flight.flow, flight.touching, flight.held, flight.start_position, flight.start_rotation,
         flight.start_linear, flight.start_angular, flight.start_center, flight.turned, world[Stream].motion,
-        flight.detected_center, flight.reach,
+        flight.detected_center, flight.detected_rotation, flight.reach,
         contact.body_a, contact.body_b, contact.normal, contact.depth, contact.point, contact.offset_a,
-        contact.offset_b, contact.share, contact.kind, contact.ball, contact.other, contact.sign, contact.radius,
+        contact.offset_b, contact.share, contact.row_a, contact.row_b, collider.shape, collider.bound_radius,
+        contact.kind, contact.ball, contact.other, contact.sign, contact.radius,
         contact.extent, contact.other_position, contact.other_rotation, contact.surface, contact.friction,
         contact.restitution, contact.resting, contact.impulse, contact.friction_impulse, contact.strikes,
         contact.plastic, *world[Fast].all.looked, *world[Fast].land, world[Fast].all.asked,

@@ -177,6 +177,7 @@ def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[
 def _meet(world: World, at: float, h: float, bend: float, events: int, until: float) -> tuple[float, int, int]:
     """Find what stops the flight; those who meet before that are where they meet last, on their arcs from there."""
     transform, motion, flight, body = world[Transform], world[Motion], world[Flight], world[RigidBody]
+    collider = world[Collider]
     contact, manifolds, ledger = world[Contact], world[Resting], world[Ledger]
     began = at == 0.0
     closes, within, some = closing(world, h - at, began=began)
@@ -186,11 +187,13 @@ def _meet(world: World, at: float, h: float, bend: float, events: int, until: fl
         at, h, bend, world[Progress].clock,
         flight.center, flight.start_center, transform.rotation, flight.turned, motion.linear, motion.angular,
         flight.time, flight.acceleration, flight.angular_acceleration,
-        flight.felt, world[Stream].motion, flight.detected_center, flight.reach,
+        flight.felt, world[Stream].motion, flight.detected_center, flight.detected_rotation,
+        flight.reach,
         body.inverse_mass, body.inertia, body.inverse_inertia, body.principal_axes, body.freedom,
         manifolds.count, manifolds.start, manifolds.group_of, manifolds.stale,
-        contact.body_a, contact.body_b, contact.normal, contact.depth, contact.offset_a, contact.offset_b,
-        contact.share, contact.kind, contact.ball, contact.other,
+        contact.body_a, contact.body_b, contact.normal, contact.depth, contact.point, contact.offset_a, contact.offset_b,
+        contact.share, contact.row_a, contact.row_b, collider.shape, collider.bound_radius,
+        contact.kind, contact.ball, contact.other,
         contact.extent, contact.radius, contact.other_position, contact.other_rotation, contact.sign,
         contact.surface, contact.friction, contact.restitution, contact.resting,
         contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic, closes, within,

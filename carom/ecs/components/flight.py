@@ -32,4 +32,7 @@ class Flight(Component):
     )
     turned: Floats = column(3, unit="rad", doc="turn since then", role="derived")
     detected_center: Floats = column(3, unit="m", doc="centre of mass when contacts were last detected", role="derived")
+    detected_rotation: Floats = column(
+        4, unit="1", doc="unit quaternion xyzw, body to world, when contacts were last found", role="derived"
+    )
     reach: Floats = column(unit="m", doc="how far from there the detection holds", role="derived")

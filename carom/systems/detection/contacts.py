@@ -127,6 +127,8 @@ def store(world: World, found: Found) -> None:
     if not known:
         resting.belts = bool(world[Collider].surface_velocity.any())
     world.resize(Contact, count)
+    if count:
+        np.copyto(world[Flight].detected_rotation, world[Transform].rotation)
     same = bool(count or old_count) and fill(world, found, old_count, known=known)
     resting.lasts = isinstance(found, Kept)
     group_contacts(world, same=same)

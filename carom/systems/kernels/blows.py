@@ -24,6 +24,7 @@ from carom.systems.kernels.bodies import (
     surface_velocity,
 )
 from carom.systems.kernels.bouncing import bounce_of
+from carom.systems.kernels.blow_points import depth_now, meet
 from carom.systems.kernels.kernel import inlined, making
 from carom.systems.kernels.leaping import leap, times_of_way
 from carom.systems.kernels.point_coupling import couple_points, part_points, parted, yields_at
@@ -31,27 +32,9 @@ from carom.systems.kernels.spatial import cross
 
 
 @inlined
-def depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned):
-    """Return the depth of contact c where its bodies are now; ``depth`` is that at the start of the substep.
-
-    Its point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
-    """
-    moved = 0.0
-    if a >= 0:
-        x, y, z = cross(turned[a, 0], turned[a, 1], turned[a, 2], offset_a[c, 0], offset_a[c, 1], offset_a[c, 2])
-        for k, turn in enumerate((x, y, z)):
-            moved += normal[c, k] * (center[a, k] - start_center[a, k] + turn)
-    if b >= 0:
-        x, y, z = cross(turned[b, 0], turned[b, 1], turned[b, 2], offset_b[c, 0], offset_b[c, 1], offset_b[c, 2])
-        for k, turn in enumerate((x, y, z)):
-            moved -= normal[c, k] * (center[b, k] - start_center[b, k] + turn)
-    return depth[c] + moved
-
-
-@inlined
 def foresee_blow(
     first, end, now, h, sink, bend, center, linear, angular, time, acceleration,
-    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, resting,
+    body_a, body_b, normal, deep, at_a, at_b, start_center, turned, resting,
 ):  # fmt: skip
     """Return when the first point of a manifold closes within the substep, NEVER if none does.
 
@@ -73,10 +56,10 @@ def foresee_blow(
     soonest = NEVER
     for c in range(first, end):
         closing = gained
-        gap = -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned) - covered
-        for body, offset, sense in ((a, offset_a, 1.0), (b, offset_b, -1.0)):
+        gap = -depth_now(c, a, b, normal, deep, at_a, at_b, start_center, center, turned) - covered
+        for body, at, sense in ((a, at_a, 1.0), (b, at_b, -1.0)):
             if body >= 0:
-                x, y, z = surface_velocity(body, offset[c, 0], offset[c, 1], offset[c, 2], linear, angular)
+                x, y, z = surface_velocity(body, at[c, 0], at[c, 1], at[c, 2], linear, angular)
                 speed = sense * (nx * x + ny * y + nz * z)
                 gap -= speed * (now - time[body])
                 closing += speed
@@ -96,8 +79,8 @@ def foresee_blow(
 def blow(
     first, end, h, struck_before, center, rotation, linear, angular, acceleration, felt,
     inverse_mass, inverse_inertia, principal, freedom,
-    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, share, surface, friction, restitution,
-    impulse, friction_impulse,
+    body_a, body_b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, turned, share,
+    surface, friction, restitution, impulse, friction_impulse,
 ):  # fmt: skip
     """Let all touching points of a manifold strike at once, within Coulomb's cone over the whole impulse.
 
@@ -117,17 +100,19 @@ def blow(
     coupling, slips, start, way = np.zeros((n, n, 9)), np.zeros((n, 3)), np.zeros((n, 4)), np.zeros((n, 4))
     for m in range(n):
         c = first + m
-        if -depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned) <= TOUCH:
-            meet(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned, share)
+        if -depth_now(c, a, b, normal, deep, at_a, at_b, start_center, center, turned) <= TOUCH:
+            meet(
+                c, a, b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, center, turned, share
+            )  # fmt: skip
             ease[m] = 1.0  # it touches
-    for body, offset in ((a, offset_a), (b, offset_b)):
+    for body, at in ((a, at_a), (b, at_b)):
         couple_points(
-            body, first, n, offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling
+            body, first, n, at, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling
         )  # fmt: skip
     speed = 0.0
     for m in range(n):
         ease[m] *= hardness(yields_at(m, nx, ny, nz, coupling), a, b, inverse_mass)
-        slips[m, 0], slips[m, 1], slips[m, 2] = slip_of_pair(first + m, a, b, offset_a, offset_b, linear, angular)
+        slips[m, 0], slips[m, 1], slips[m, 2] = slip_of_pair(first + m, a, b, at_a, at_b, linear, angular)
         if ease[m] > 0.0:
             speed = max(speed, -(nx * slips[m, 0] + ny * slips[m, 1] + nz * slips[m, 2]))
     if speed <= APPROACH:
@@ -178,7 +163,7 @@ def blow(
     for m in range(n):
         j = given[m, 0]
         push_pair(
-            first + m, a, b, j * nx + given[m, 1], j * ny + given[m, 2], j * nz + given[m, 3], offset_a, offset_b,
+            first + m, a, b, j * nx + given[m, 1], j * ny + given[m, 2], j * nz + given[m, 3], at_a, at_b,
             linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
         )  # fmt: skip
     if bounce == 0.0:  # what presses them is taken out of their arcs, as a contact force would
@@ -190,7 +175,7 @@ def blow(
     for m in range(n):
         c, j = first + m, given[m, 0]
         total += j
-        at = offset_a if a >= 0 else offset_b
+        at = at_a if a >= 0 else at_b
         px, py, pz = px + j * at[c, 0], py + j * at[c, 1], pz + j * at[c, 2]
         fx, fy, fz = fx + given[m, 1], fy + given[m, 2], fz + given[m, 3]
         impulse[c] += j
@@ -225,43 +210,24 @@ def rub_point(m, nx, ny, nz, sx, sy, sz, friction, movable, coupling, given):
 
 
 @inlined
-def meet(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned, share):
-    """Bring the point of a contact of two bodies to where it is now, so that both are struck at one place.
-
-    A corner carries it along the face it glides over, an edge that crosses another half the way of each.
-    """
-    if a < 0 or b < 0:
-        return
-    before = depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned)
-    x, y, z = cross(turned[a, 0], turned[a, 1], turned[a, 2], offset_a[c, 0], offset_a[c, 1], offset_a[c, 2])
-    u, v, w = cross(turned[b, 0], turned[b, 1], turned[b, 2], offset_b[c, 0], offset_b[c, 1], offset_b[c, 2])
-    on_a = (center[a, 0] + offset_a[c, 0] + x, center[a, 1] + offset_a[c, 1] + y, center[a, 2] + offset_a[c, 2] + z)
-    on_b = (center[b, 0] + offset_b[c, 0] + u, center[b, 1] + offset_b[c, 1] + v, center[b, 2] + offset_b[c, 2] + w)
-    for k in range(3):
-        place = on_a[k] + share[c] * (on_b[k] - on_a[k])
-        offset_a[c, k], offset_b[c, k] = place - center[a, k], place - center[b, k]
-    depth[c] += before - depth_now(c, a, b, normal, depth, offset_a, offset_b, start_center, center, turned)
-
-
-@inlined
-def slip_of_pair(c, a, b, offset_a, offset_b, linear, angular):
+def slip_of_pair(c, a, b, at_a, at_b, linear, angular):
     """Return the velocity of b against a at contact c."""
-    ax, ay, az = surface_velocity(a, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2], linear, angular)
-    bx, by, bz = surface_velocity(b, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2], linear, angular)
+    ax, ay, az = surface_velocity(a, at_a[c, 0], at_a[c, 1], at_a[c, 2], linear, angular)
+    bx, by, bz = surface_velocity(b, at_b[c, 0], at_b[c, 1], at_b[c, 2], linear, angular)
     return bx - ax, by - ay, bz - az
 
 
 @inlined
 def push_pair(
-    c, a, b, jx, jy, jz, offset_a, offset_b,
+    c, a, b, jx, jy, jz, at_a, at_b,
     linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
 ):  # fmt: skip
     """Apply an impulse on b at contact c, and its reaction on a."""
     push_at(
-        a, -1.0, jx, jy, jz, offset_a[c, 0], offset_a[c, 1], offset_a[c, 2],
+        a, -1.0, jx, jy, jz, at_a[c, 0], at_a[c, 1], at_a[c, 2],
         linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
     )  # fmt: skip
     push_at(
-        b, 1.0, jx, jy, jz, offset_b[c, 0], offset_b[c, 1], offset_b[c, 2],
+        b, 1.0, jx, jy, jz, at_b[c, 0], at_b[c, 1], at_b[c, 2],
         linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
     )  # fmt: skip

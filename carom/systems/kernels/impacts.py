@@ -8,6 +8,7 @@ import numpy as np
 from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, IMPACTS_AT_LEAST, IMPACTS_PER_PAIR, MEET
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import NEVER
+from carom.systems.kernels.blow_points import place_points
 from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body, is_on_joint, length_of
 from carom.systems.kernels.bouncing import patience_of, pushed
@@ -26,17 +27,17 @@ TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 1
 
 @kernel(
     "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
-    "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic", "stale", "arc",
+    "impulse", "friction_impulse", "strikes", "plastic", "stale", "arc",
     "log", "log_pair",
     makes_arrays=True, within=True,
 )  # fmt: skip
 def fly(
     start, h, bend, clock,
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
-    felt, stream, detected_center, reach,
+    felt, stream, detected_center, detected_rotation, reach,
     inverse_mass, inertia, inverse_inertia, principal_axes, freedom,
-    count, beginning, group_of, stale, body_a, body_b, normal, depth, offset_a, offset_b, share,
-    kind, ball, other, extent, radius, other_position, other_rotation, sign,
+    count, beginning, group_of, stale, body_a, body_b, normal, depth, point, offset_a, offset_b, share,
+    row_a, row_b, shape, bound_radius, kind, ball, other, extent, radius, other_position, other_rotation, sign,
     surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, within,
     on_joint, until, trusts, events, pull, arc, log_count, log_pair, log,
 ):  # fmt: skip
@@ -99,7 +100,9 @@ def fly(
             seek[seek_count] = taken
             seek_count += 1
         taken += 1
-    pairs = pairs[:taken]
+    pairs, placed = pairs[:taken], np.zeros(taken, np.bool_)
+    points = beginning[count]
+    at_a, at_b, deep = np.empty((points, 3)), np.empty((points, 3)), np.empty(points)  # of who may strike
     most = IMPACTS_AT_LEAST + IMPACTS_PER_PAIR * max(near, taken)
 
     # A tournament of the foreseen times: node k is the sooner of 2k and 2k + 1, the leaves are the pairs.
@@ -121,9 +124,16 @@ def fly(
                 continue
             sink = sink_allowed(p, body_a, body_b, inertia, inverse_mass)
             if kind[p] < 0:
+                if not placed[m]:
+                    placed[m] = True
+                    place_points(
+                        p, beginning[number[m] + 1], body_a[p], body_b[p], row_a, row_b, shape, bound_radius, normal,
+                        depth, point, offset_a, offset_b, share, start_center, rotation, turned, detected_rotation,
+                        at_a, at_b, deep,
+                    )  # fmt: skip
                 foreseen = foresee_blow(
                     p, beginning[number[m] + 1], now, h, sink, bend, center, linear, angular, time, acceleration,
-                    body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, resting,
+                    body_a, body_b, normal, deep, at_a, at_b, start_center, turned, resting,
                 )  # fmt: skip
                 enter_time(soonest, leaves + m, foreseen)
                 continue
@@ -185,7 +195,7 @@ def fly(
             speed, pressed, px, py, pz, fx, fy, fz, together = blow(
                 p, beginning[number[m] + 1], h, strikes[p], center, rotation, linear, angular, acceleration, felt,
                 inverse_mass, inverse_inertia, principal_axes, freedom,
-                body_a, body_b, normal, depth, offset_a, offset_b, start_center, turned, share,
+                body_a, body_b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, turned, share,
                 surface, friction, restitution, impulse, friction_impulse,
             )  # fmt: skip
             fx, fy, fz = -fx, -fy, -fz

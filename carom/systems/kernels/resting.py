@@ -6,7 +6,7 @@ from __future__ import annotations
 from carom.systems.constants import CALM, MANIFOLD_POINTS, POINT_SWEEPS, START_SWEEPS, STIRRED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
-from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS, RUNS, couplings, pair
+from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS, RUNS, couplings, pair
 from carom.systems.kernels.impulses import pressed, rolled, struck
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import TINY, dot, three
@@ -192,8 +192,11 @@ def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lane
         a, b = pressed(r, lanes, a, b, push, by_t, by_u)
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
-    # One point cannot hold up what turns over it.
-    return parted_by(push, a, b), choose(total - push, spread(0.0), total) if points > 1 else spread(0.0)
+    starts = spread(0.0)
+    if points > 1:  # one point cannot hold up what turns over it
+        second = load(lanes, r + MANIFOLD_ROWS + POINT_ROWS + of.DEPTH) - spread(0.5 * ABSENT)
+        starts = choose(second, choose(total - push, spread(0.0), total), spread(0.0))
+    return parted_by(push, a, b), starts
 
 
 @woven

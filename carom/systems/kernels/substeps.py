@@ -53,8 +53,8 @@ def take_substeps(
     position, rotation, linear, angular, last_acceleration, last_angular_acceleration,
     center, time, acceleration, angular_acceleration, felt, decay, angular_decay, flow, touching, held,
     start_position, start_rotation, start_linear, start_angular, start_center, turned,
-    stream, detected_center, reach,
-    body_a, body_b, normal, depth, point, offset_a, offset_b, share_of_b, kind, ball, other, sign, radius, extent,
+    stream, detected_center, detected_rotation, reach,
+    body_a, body_b, normal, depth, point, offset_a, offset_b, share_of_b, row_a, row_b, shape, bound_radius, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
     strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
     asked, near, left, far_bodies, far_normals, gaps, nears, places, trusts, pull, arc, log_pair, log, spent,
@@ -160,9 +160,10 @@ def take_substeps(
                 share(describe(tell, for_groups, (groups, first, size, row, kind, lanes, depth)))
                 at, reason, events, passed, logged, log_pair, log = soar(
                     0.0, h, bends, clock, center, start_center, rotation, turned, linear, angular, time, acceleration,
-                    angular_acceleration, felt, stream, detected_center, reach, inverse_mass, inertia, inverse_inertia,
-                    principal_axes, freedom, count, start, group_of, stale, body_a, body_b, normal, depth,
-                    offset_a, offset_b, share_of_b, kind, ball, other, extent, radius, other_position, other_rotation,
+                    angular_acceleration, felt, stream, detected_center, detected_rotation, reach, inverse_mass,
+                    inertia, inverse_inertia,
+                    principal_axes, freedom, count, start, group_of, stale, body_a, body_b, normal, depth, point,
+                    offset_a, offset_b, share_of_b, row_a, row_b, shape, bound_radius, kind, ball, other, extent, radius, other_position, other_rotation,
                     sign, surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic,
                     closes, within, held, until, trusts, none, pull, arc, logged, log_pair, log,
                 )  # fmt: skip
