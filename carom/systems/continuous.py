@@ -47,10 +47,8 @@ class Fast(Resource):
         """The pairs (n, 2) of collider rows that are looked after, a mesh first."""
         return self.all.pairs[self.all.asked]
 
-    def find(
-        self, world: World, fast: Integers, numbers: Floats, free: Integers, found: Found, span: float
-    ) -> None:
-        """Find who of ``fast`` pairs (n, 2) is to be looked after within ``span`` seconds, by what is ``found`` of them.
+    def find(self, world: World, fast: Integers, numbers: Floats, free: Integers, found: Found, span: float) -> None:
+        """Find who of ``fast`` pairs (n, 2) is to be looked after for ``span`` seconds, by what is ``found`` of them.
 
         They come with their ``numbers``. So are pairs of two that are ``free`` (m, 2), which `without_passing` tells.
         """

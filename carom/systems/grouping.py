@@ -18,16 +18,16 @@ from carom.systems.resting import Resting
 from carom.systems.threads import crew_for
 
 
-def group_contacts(world: World, *, same: bool) -> None:
+def group_contacts(world: World, *, places: bool, same: bool) -> None:
     """Find the manifolds of the contact table, which detection has replaced, and put them into groups.
 
     They stay in theirs where the table is the ``same`` but for where contacts are, and all but a few rest as they did.
+    Where contacts have the ``places`` in it that they had, they come into the groups in which they would have stayed.
     """
     resting, contact, body = world[Resting], world[Contact], world[RigidBody]
     points, nobody = contact.count, len(body.inverse_mass)
     if len(resting.start) <= points:
         resting.start, resting.beside = np.empty(2 * points + 1, np.int64), np.empty(2 * points, np.int64)
-        resting.rested = np.empty(2 * points, np.bool_)
     if resting.bodies.shape[1] != nobody + 1:
         resting.bodies, resting.packed = aligned(PLANES, nobody + 1, BLOCK), None
         resting.leans, resting.stirred = np.zeros((2, nobody + 1), np.bool_), np.empty(nobody + 1, np.int64)
@@ -37,13 +37,15 @@ def group_contacts(world: World, *, same: bool) -> None:
         resting.count = resting.groups = resting.levels = 0
         resting.solids = False
         return
-    resting.count, resting.solids, resting.balls, boxes, several, stay = find_manifolds(
+    resting.count, resting.solids, resting.balls, boxes, several, stay, few = find_manifolds(
         points, contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.kind, contact.normal,
-        contact.resting, resting.start, resting.rested,
+        contact.resting, contact.grouped, resting.start,
     )  # fmt: skip
     if boxes:
         link_boxes(points, contact.kind, contact.ball, nobody, resting.beside)
-    if same and stay:
+    if not (places and few):
+        contact.grouped[:points] = contact.resting[:points]
+    if same and stay and few:
         refill_groups(
             crew_for(world, resting.count), resting.groups, resting.first, resting.size, resting.row, resting.points,
             resting.even, contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.resting,
@@ -67,10 +69,10 @@ def _group_anew(world: World) -> None:
         resting.reserve(2 * resting.count)
     resting.groups, rows, resting.levels = group_manifolds(
         resting.count, resting.start, contact.a, contact.b, contact.body_a, contact.body_b,
-        contact.kind, contact.rolling, contact.spinning, contact.surface, contact.resting,
+        contact.kind, contact.rolling, contact.spinning, contact.surface, contact.grouped,
         body.inverse_mass, body.inverse_inertia, body.freedom, len(body.inverse_mass),
         resting.group_of, resting.lane_of, resting.index_a, resting.index_b, resting.first, resting.size,
-        resting.points, resting.row, resting.even, resting.ends, resting.run_ends, resting.rested,
+        resting.points, resting.row, resting.even, resting.ends, resting.run_ends,
     )  # fmt: skip
     if len(resting.lanes) < rows:
         resting.lanes = aligned(2 * rows, WIDTH)

@@ -57,7 +57,8 @@ class LeftOut(NamedTuple):
     def room(cls, count: int) -> LeftOut:
         """Return room for so many, to be written."""
         return cls(
-            np.empty((count, 2), np.int64), np.empty((count, 3)), *np.empty((2, count)), np.empty((count, 2, 3)),
+            np.empty((count, 2), np.int64), np.empty((count, 3)), np.empty(count), np.empty(count),
+            np.empty((count, 2, 3)),
         )  # fmt: skip
 
 
@@ -82,7 +83,9 @@ class FastPairs(NamedTuple):
     def of(cls, pairs: Integers, looked: Looked, linear: Floats, angular: Floats) -> FastPairs:
         """Return pairs of whom nothing is known yet, as bodies move."""
         n = len(pairs)
-        return cls(pairs, looked, *np.ones((2, n), np.bool_), np.zeros(n), np.array(linear), np.array(angular))
+        return cls(
+            pairs, looked, np.ones(n, np.bool_), np.ones(n, np.bool_), np.zeros(n), np.array(linear), np.array(angular)
+        )
 
 
 NOWHERE = Land(np.empty(0, np.float32), np.empty(0, np.int32), np.empty(0), np.zeros((TRIANGLE_CORNERS, 3)))

@@ -71,7 +71,6 @@ class Resting(Resource):
         self.centred = False  # whether all of them have their centres of mass at their origins
         self.placed = False  # whether they have not moved since
         self.start, self.beside = np.zeros(1, np.int64), np.zeros(0, np.int64)
-        self.rested = np.zeros(0, np.bool_)  # which manifolds did when they were put into groups
         self.bodies, self.lanes, self.scratch = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH), aligned(0, 2, 0, WIDTH)
         self.stirred = np.empty(1, np.int64)  # the last sweep by which each body was
         self.crushed = np.zeros(1, np.bool_)  # who is, for whom sweeping on would be in vain

@@ -15,7 +15,7 @@ FRAMES = {  # of goldens: when there is most to see
     "binary_star": 300,
     "blast": 60,
     "bounce": 80,
-    "bowling": 1248,
+    "bowling": 1326,
     "bridge": 480,
     "bullet_holes": 23,
     "camera_follow": 60,

@@ -30,7 +30,7 @@ def test_a_pile_of_a_thousand_boxes_comes_to_rest(seed: int) -> None:
     start = np.empty(contact.count + 1, np.int64)
     number, *_ = find_manifolds(
         contact.count, contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.kind, contact.normal,
-        contact.resting, start, np.zeros(contact.count, np.bool_),
+        contact.resting, contact.grouped, start,
     )  # fmt: skip
     resting = np.add.reduceat(contact.resting[: contact.count].astype(np.int64), start[:number])
     points = np.diff(start[: number + 1])

@@ -151,16 +151,14 @@ def test_groups_that_stay_hold_what_new_ones_would(heap: str, stays: list[int]) 
         if system.name == "find_contacts" and len(stays) > before:
             with world.faces(None):
                 contact = world[Contact]
-                rests, first, now = contact.resting.copy(), resting.first[: resting.groups], slice(contact.count)
-                assert (resting.lanes[resting.row[: resting.groups] + of.RESTS] == (rests[first] & (first >= 0))).all()
+                first = resting.first[: resting.groups]
+                rests = contact.resting[first] & (first >= 0)
+                assert (resting.lanes[resting.row[: resting.groups] + of.RESTS] == rests).all()
                 kept, looked = held(), looked + 1
-                start = resting.start[: resting.count + 1]
-                contact.resting[now] = np.repeat(resting.rested[: resting.count], np.diff(start))
-                group_contacts(world, same=False)
+                group_contacts(world, places=True, same=False)
                 for name, values in held().items():
                     assert values.tobytes() == kept[name].tobytes(), name
-                contact.resting[now] = rests[now]
-                group_contacts(world, same=True)
+                group_contacts(world, places=True, same=True)
 
     simulation.hearers.append(look)
     for _ in range(steps):
@@ -278,16 +276,16 @@ def test_manifolds_stay_where_the_same_points_begin_them() -> None:
     """Not where planes part or come together, nor where one comes to rest."""
     row_a, row_b, body, kind = np.zeros(3, np.int64), np.ones(3, np.int64), np.full(3, -1), np.full(3, -1)
     level, steep = np.tile([0.0, 1.0, 0.0], (3, 1)), np.array([[0.0, 1.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
-    resting, start, rested = np.zeros(3, np.bool_), np.zeros(4, np.int64), np.zeros(3, np.bool_)
+    resting, start, grouped = np.zeros(3, np.bool_), np.zeros(4, np.int64), np.zeros(3, np.bool_)
 
     def found(normal: Floats) -> tuple[int, bool]:
-        number, *_, stay = find_manifolds(3, row_a, row_b, body, body, kind, normal, resting, start, rested)
-        return number, stay
+        number, *_, stay, few = find_manifolds(3, row_a, row_b, body, body, kind, normal, resting, grouped, start)
+        return number, stay and few
 
     assert [found(steep), found(steep), found(level), found(level), found(steep)] == [
         (2, False), (2, True), (1, False), (1, True), (2, False)
     ]  # fmt: skip
     resting[2] = True
     assert found(steep) == (2, False)
-    rested[1] = True  # once it has been put into a group
+    grouped[2] = True  # once it has been put into a group
     assert found(steep) == (2, True)

@@ -47,7 +47,7 @@ def test_those_who_did_not_rest_come_last_in_their_level(make: Callable[[], Simu
     A group in which nobody rests is not solved.
     """
     simulation, apart, idle = make(), 0, 0
-    resting = simulation.world[Resting]
+    resting, contact = simulation.world[Resting], simulation.world[Contact]
 
     def look(system: System) -> None:
         nonlocal apart
@@ -56,8 +56,7 @@ def test_those_who_did_not_rest_come_last_in_their_level(make: Callable[[], Simu
         begin = 0
         for end in resting.level_ends():
             there = resting.first[begin:end] >= 0
-            manifolds = np.searchsorted(resting.start[: resting.count], resting.first[begin:end][there])
-            rests = resting.rested[manifolds]
+            rests = contact.grouped[resting.first[begin:end][there]]
             size, points = resting.size[begin:end][there], np.repeat(resting.points[begin:end], there.sum(axis=1))
             assert (size <= points).all()
             kinds = (rests, ~rests) if (~rests).sum() >= WIDTH else (np.ones_like(rests),)
@@ -90,8 +89,8 @@ def test_groups_stay_while_few_begin_or_end_to_rest() -> None:
 
     def look(system: System) -> None:
         if system.name == "find_contacts":
-            rests = contact.resting[resting.start[: resting.count]]
-            counts.append(np.count_nonzero(rests != resting.rested[: resting.count]))
+            first = resting.start[: resting.count]
+            counts.append(np.count_nonzero(contact.resting[first] != contact.grouped[first]))
             assert counts[-1] <= REGROUPED * resting.count
 
     simulation.hearers.append(look)

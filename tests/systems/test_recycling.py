@@ -9,6 +9,7 @@ from carom.ecs import Collider, Transform, state_hash
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
 from carom.ecs.table import Table
+from carom.systems.constants import REACH_FACTOR, RECYCLED_SLIP
 from carom.systems.detection import contacts
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
@@ -103,6 +104,22 @@ def test_what_moves_is_measured_again(pair: tuple[Simulation, int], change: obje
     assert callable(change)
     change(simulation, box)
     assert measured(simulation) == 1
+
+
+def test_who_reaches_farther_is_measured_again(pair: tuple[Simulation, int]) -> None:
+    """Though it is where it was: what it could not reach before may be near; by a thousandth of its half extent.
+
+    Who moves has what stirs others, too, in its reach: as much again.
+    """
+    simulation, box = pair
+    contact, motion = simulation.world[Contact], simulation[box].motion
+    reach = contact.seat_reach[0]
+    assert (contact.seat_reach[:4] == reach).all()
+    for part, again in ((0.4, 0), (1.1, 1)):
+        motion.linear = (0.0, part * RECYCLED_SLIP * 0.5 * 60.0 / REACH_FACTOR, 0.0)
+        assert measured(simulation) == again
+        motion.linear, motion.angular = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+        simulation[box].transform.position = (0.0, 1.0, 0.0)
 
 
 @pytest.mark.parametrize("size", [(0.6, 1.0, 1.0), (1.23, 1.0, 0.83), (0.99, 1.0, 1.01)])

@@ -51,6 +51,7 @@ class Contact(Relation):
     )
     strikes: Integers = column(unit="1", doc="impacts in this substep so far", dtype="int64", role="derived")
     plastic: Integers = column(unit="1", doc="those after which the pair kept together", dtype="int64", role="derived")
+    grouped: Booleans = column(unit="1", doc="was resting when manifolds were put into groups", dtype="bool")
     row_a: Integers = column(unit="1", doc="row of a", role="derived", holds="rows")
     row_b: Integers = column(unit="1", doc="row of b", role="derived", holds="rows")
     body_a: Integers = column(unit="1", doc="row of the body of a, -1 static", role="derived", holds="rows")

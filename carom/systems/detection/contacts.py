@@ -129,35 +129,42 @@ def store(world: World, found: Found) -> None:
     world.resize(Contact, count)
     if count:
         np.copyto(world[Flight].detected_rotation, world[Transform].rotation)
-    same = bool(count or old_count) and fill(world, found, old_count, known=known)
+    places, same = fill(world, found, old_count, known=known) if count or old_count else (False, False)
     resting.lasts = isinstance(found, Kept)
-    group_contacts(world, same=same)
+    group_contacts(world, places=places, same=same)
     resting.structure, resting.awake = world.structure, world[Awake].now(world)
 
 
-def fill(world: World, found: Found, old_count: int, *, known: bool) -> bool:
+def fill(world: World, found: Found, old_count: int, *, known: bool) -> tuple[bool, bool]:
     """Write what is known of contacts, and what follows from it, into the contact table.
 
     Where all are ``known``, nothing was done from outside since the table before of ``old_count`` contacts. Return
-    whether the same contacts were in the same places, what follows from shapes and materials was known, and what
-    they hold is what they held.
+    whether the same contacts were in the same places; and whether, too, what follows from shapes and materials was
+    known, and what they hold is what they held.
     """
-    changed = not isinstance(found, Complete) and complete(world, found, old_count, known=known)
+    moved, changed = (False, False)
+    if not isinstance(found, Complete):
+        moved, changed = complete(world, found, old_count, known=known)
     contact = world[Contact]
     crushed = let_go_of_crushed(
         world[Awake].now(world), contact.count, contact.body_a, contact.body_b, contact.depth,
         world[RigidBody].inverse_mass, world[Motion].linear, world[Motion].angular,
         contact.warm_normal, contact.warm_friction, contact.warm_rolling, world[Resting].crushed_among(world),
     )  # fmt: skip
-    return contact.count == old_count and not (changed or crushed)
+    places = contact.count == old_count and not moved
+    return places, places and not (changed or crushed)
 
 
-def complete(world: World, found: Found, old_count: int, *, known: bool) -> bool:
-    """Replace the contacts by those found, with what follows from their colliders; tell whether any of it changed."""
+def complete(world: World, found: Found, old_count: int, *, known: bool) -> tuple[bool, bool]:
+    """Replace the contacts by those found, with what follows from their colliders.
+
+    Tell whether any has another place in the table, and whether any of it changed.
+    """
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
     crew = crew_for(world, contact.count)
     changed = np.zeros(threads_of(crew), np.bool_)
     match = found.old if isinstance(found, Kept) else renew(world, crew, found, old_count, changed)
+    moved = any(changed.tolist())
     complete_contacts(
         crew, contact.count, match, found.old, known, world[Resting].belts, changed,
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
@@ -173,7 +180,7 @@ def complete(world: World, found: Found, old_count: int, *, known: bool) -> bool
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.seat_reach,
         contact.form,
     )  # fmt: skip
-    return any(changed.tolist())
+    return moved, any(changed.tolist())
 
 
 def renew(world: World, crew: Integers, found: Found, old_count: int, changed: Booleans) -> Integers:

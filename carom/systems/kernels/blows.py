@@ -16,6 +16,7 @@ from carom.systems.constants import (
     TOUCH,
 )
 from carom.systems.kernels.balls import NEVER
+from carom.systems.kernels.blow_points import depth_now, meet
 from carom.systems.kernels.bodies import (
     hardness,
     movable_of,
@@ -24,7 +25,6 @@ from carom.systems.kernels.bodies import (
     surface_velocity,
 )
 from carom.systems.kernels.bouncing import bounce_of
-from carom.systems.kernels.blow_points import depth_now, meet
 from carom.systems.kernels.kernel import inlined, making
 from carom.systems.kernels.leaping import leap, times_of_way
 from carom.systems.kernels.point_coupling import couple_points, part_points, parted, yields_at
@@ -102,7 +102,8 @@ def blow(
         c = first + m
         if -depth_now(c, a, b, normal, deep, at_a, at_b, start_center, center, turned) <= TOUCH:
             meet(
-                c, a, b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, center, turned, share
+                c, a, b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, center, turned,
+                share,
             )  # fmt: skip
             ease[m] = 1.0  # it touches
     for body, at in ((a, at_a), (b, at_b)):

@@ -56,13 +56,12 @@ UNKNOWN, STILL, UNEVEN, EVEN = -1, 0, 1, 2
     "even",
     "ends",
     "run_ends",
-    "rested",
     makes_arrays=True,
 )
 def group_manifolds(
     count, start, a, b, body_a, body_b, kind, rolling, spinning, surface, resting,
     inverse_mass, inverse_inertia, freedom, nobody,
-    group_of, lane_of, index_a, index_b, first, size, points, row, even, ends, run_ends, rested,
+    group_of, lane_of, index_a, index_b, first, size, points, row, even, ends, run_ends,
 ):  # fmt: skip
     """Put manifolds into groups that, one after the other, do what the manifolds would in a shuffled order.
 
@@ -76,7 +75,7 @@ def group_manifolds(
     `SPARED` and the last from `AT` on. ``ends`` (2,) is where the groups of either kind end, ``run_ends`` where each
     run of groups does that have as many points; a level has so many `RUNS`. Where they fill a group or more, those
     that were not ``resting`` before come last in their level, idle: groups in which nobody rests have nothing to solve.
-    Which did is kept in ``rested``. ``nobody`` is the index of what has no body.
+    ``nobody`` is the index of what has no body.
     """
     shuffled = shuffle(count, start, a, b)
     # What is gone through without order is kept small, and what is asked for together side by side.
@@ -86,7 +85,6 @@ def group_manifolds(
     form, alike, stands = np.empty(count, np.int32), np.empty(count, np.bool_), np.empty(count, np.bool_)
     for m in range(count):
         c, least = start[m], EVEN
-        rested[m] = resting[c]
         for side, i in enumerate((body_a[c], body_b[c])):
             how = what_moves(i, known, inverse_mass, inverse_inertia, freedom)
             movers[m, side], least = i if how != STILL else nobody, min(least, how)

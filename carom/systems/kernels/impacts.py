@@ -15,9 +15,10 @@ from carom.systems.kernels.bouncing import patience_of, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
 from carom.systems.kernels.fast_pairs import between
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
-from carom.systems.kernels.kernel import kernel, making, woven
+from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.reach import time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
+from carom.systems.kernels.tournament import enter_time, pairs_of_bodies
 
 DONE, OUT_OF_REACH, TO_LOOK = 0, 1, 2  # why a flight ends
 FEW_IMPACTS = 64  # a flight has room for at first
@@ -27,7 +28,7 @@ TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 1
 
 @kernel(
     "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
-    "impulse", "friction_impulse", "strikes", "plastic", "stale", "arc",
+    "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic", "stale", "arc",
     "log", "log_pair",
     makes_arrays=True, within=True,
 )  # fmt: skip
@@ -127,9 +128,9 @@ def fly(
                 if not placed[m]:
                     placed[m] = True
                     place_points(
-                        p, beginning[number[m] + 1], body_a[p], body_b[p], row_a, row_b, shape, bound_radius, normal,
-                        depth, point, offset_a, offset_b, share, start_center, rotation, turned, detected_rotation,
-                        at_a, at_b, deep,
+                        p, beginning[number[m] + 1], body_a[p], body_b[p], resting[p], row_a, row_b, shape,
+                        bound_radius, normal, depth, point, offset_a, offset_b, share, start_center, rotation, turned,
+                        detected_rotation, at_a, at_b, deep,
                     )  # fmt: skip
                 foreseen = foresee_blow(
                     p, beginning[number[m] + 1], now, h, sink, bend, center, linear, angular, time, acceleration,
@@ -195,8 +196,8 @@ def fly(
             speed, pressed, px, py, pz, fx, fy, fz, together = blow(
                 p, beginning[number[m] + 1], h, strikes[p], center, rotation, linear, angular, acceleration, felt,
                 inverse_mass, inverse_inertia, principal_axes, freedom,
-                body_a, body_b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, turned, share,
-                surface, friction, restitution, impulse, friction_impulse,
+                body_a, body_b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, turned,
+                share, surface, friction, restitution, impulse, friction_impulse,
             )  # fmt: skip
             fx, fy, fz = -fx, -fy, -fz
             at = i if i >= 0 else o
@@ -214,6 +215,10 @@ def fly(
         enter_time(soonest, leaves + m, NEVER)
         stale[group_of[number[m]]] = True
         for c in range(p, beginning[number[m] + 1]):
+            if kind[p] < 0 and together:  # they are held where they were struck
+                depth[c] = deep[c]
+                for k in range(3):
+                    offset_a[c, k], offset_b[c, k] = at_a[c, k], at_b[c, k]
             resting[c] = together  # from now on only a blow makes it an impact, else plastic pairs would never end
         row = logged[m]
         again = row >= 0 and plastic[p] > 0 and log[row, TIME] == clock + now
@@ -273,34 +278,3 @@ def reason_of(now, h, until, veers):
     if now >= h:
         return DONE
     return TO_LOOK if veers or now >= until else OUT_OF_REACH
-
-
-@making
-def pairs_of_bodies(pairs, body_a, body_b, count):
-    """Return which pairs each of ``count`` bodies takes part in: slices of one array begin at numbers of the other."""
-    begin = np.zeros(count + 1, np.int64)
-    for p in pairs:
-        for body in (body_a[p], body_b[p]):
-            if body >= 0:
-                begin[body + 1] += 1
-    for i in range(1, len(begin)):
-        begin[i] += begin[i - 1]
-    place = begin.copy()
-    of_body = np.empty(begin[count], np.int64)
-    for m in range(len(pairs)):
-        for body in (body_a[pairs[m]], body_b[pairs[m]]):
-            if body >= 0:
-                of_body[place[body]] = m
-                place[body] += 1
-    return begin, of_body
-
-
-@woven
-def enter_time(soonest, leaf, time):
-    """Set a leaf of the tournament and play the games above it again."""
-    if soonest[leaf] == time:
-        return
-    soonest[leaf] = time
-    while leaf > 1:
-        leaf //= 2
-        soonest[leaf] = min(soonest[2 * leaf], soonest[2 * leaf + 1])

@@ -6,7 +6,7 @@ from __future__ import annotations
 from carom.systems.constants import MEET
 from carom.systems.kernels.fast_pairs import NEVER, first_of_pairs
 from carom.systems.kernels.frames import turned_back
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.spatial import cross, turn
 
 
@@ -15,7 +15,7 @@ def write_left_out(
     pairs, numbers, far, row_a, row_b, normal, depth, point, body_row, center, rotation,
     bodies, normals, gaps, nears, places,
 ):  # fmt: skip
-    """Write the contacts that are ``far``: their bodies, their gaps, which gaps are near (m), and where they are on both.
+    """Write the contacts that are ``far``: their bodies, their gaps, which gaps are near (m), and their places on both.
 
     Places are in the frames of bodies about their centres, of what stands in the world.
     """

@@ -18,12 +18,13 @@ from carom.systems.kernels.rubbing import ROLLING, RUBBING, TWISTING
 
 
 @kernel("start")
-def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, resting, start, rested):
+def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, resting, grouped, start):
     """Write where each manifold begins, and one past the last.
 
     Return how many there are, whether some are not of balls on exact arcs, whether some are of two balls or of a ball
     and a box, whether bodies may have several side by side: of one pair, or since they have several colliders; and
-    whether all that is written was there already, and all but a few (REGROUPED) rest that ``rested``, and no others.
+    whether all that is written was there already, and whether all but a few (REGROUPED) rest that did when they were
+    ``grouped``, and no others.
     """
     number, solids, balls, boxes, several, stay, turned = 0, False, False, False, False, True, 0
     for c in range(count):
@@ -38,12 +39,12 @@ def find_manifolds(count, row_a, row_b, body_a, body_b, kind, normal, resting, s
                     continue
                 several = True
         stay &= start[number] == c
-        turned += rested[number] != resting[c]
+        turned += grouped[c] != resting[c]
         start[number] = c
         number += 1
-    stay &= start[number] == count and turned <= REGROUPED * number
+    stay &= start[number] == count
     start[number] = count
-    return number, solids, balls, boxes, several, stay
+    return number, solids, balls, boxes, several, stay, turned <= REGROUPED * number
 
 
 @woven

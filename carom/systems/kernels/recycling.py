@@ -50,10 +50,10 @@ def recycle_contacts(
 
     Moved has a pair of which one is a ball, which rolls, one of whose points has slipped or sunk by RECYCLED_SLIP of
     the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known`` to be
-    what they were, or that reaches farther by as much, so that it may have more: its contacts stay as they are. Those of balls are found up to where they leave (REACH_KEPT).
-    ``seat``, ``lean`` and ``seat_depth`` say where the points and the normal were found on the two shapes, ``seat_reach``
-    up to which gap. Those placed
-    are ``kept``; with their offsets, where this ``completes`` them. Each thread has a row of ``ends``, where those and
+    what they were, or that reaches farther by as much, so that it may have more: its contacts stay as they are. Those
+    of balls are found up to where they leave (REACH_KEPT). ``seat``, ``lean`` and ``seat_depth`` say where the points
+    and the normal were found on the two shapes, ``seat_reach`` up to which gap. Those placed are ``kept``; with their
+    offsets, where this ``completes`` them. Each thread has a row of ``ends``, where those and
     its pairs end: behind them are those of the next.
     """
     begin_pair, end_pair = part_of(crew, len(pairs))

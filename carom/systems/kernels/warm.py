@@ -174,7 +174,7 @@ def compile_frame() -> None:
     simulation.step(3)
     with simulation.world.faces(None):
         for same in (False, True):  # those who stay in groups
-            group_contacts(simulation.world, same=same)
+            group_contacts(simulation.world, places=same, same=same)
     compile_rest()
 
 
