@@ -20,6 +20,8 @@ SHAPES: dict[str, dict[str, Any]] = {
     "capsules": {"capsule": {"radius": 0.35, "length": 0.3}},
     "cylinders": {"cylinder": {"radius": 0.4, "length": 0.8}},
 }
+#: Capsules would roll to and fro in hollows between others, which nothing slows: one of 27 did in one heap of twelve.
+RESISTANCE: dict[str, dict[str, float]] = {"capsules": {"rolling_friction": 0.02, "spinning_friction": 0.02}}
 
 
 def add_bin(simulation: Simulation, side: float, material: dict[str, float]) -> None:
@@ -41,7 +43,7 @@ def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ..
     Not even light ones that are wedged between heavy ones, which sink into them.
     """
     simulation, random = Simulation(checked=False), np.random.default_rng(0)
-    material = {"restitution": restitution}
+    material = {"restitution": restitution} | RESISTANCE.get(shape, {})
     add_bin(simulation, SIDE, material)
     places = 1.1 * np.stack(np.meshgrid([-1, 0, 1], [0, 1, 2], [-1, 0, 1], indexing="ij"), -1).reshape(-1, 3)
     places += np.array([0.0, 0.6, 0.0]) + random.uniform(-0.04, 0.04, places.shape)
