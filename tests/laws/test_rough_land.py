@@ -105,6 +105,31 @@ def test_bodies_come_to_rest_at_the_bottom_of_an_icy_valley(steep: float) -> Non
     assert np.abs(motion.linear[rows]).max() < 1e-4
 
 
+@pytest.mark.parametrize("seed", [2, 4, 13])
+def test_a_hull_that_slides_down_one_side_of_a_valley_does_not_swing_through_the_other(seed: int) -> None:
+    """Flat hulls that come 6 cm in a step touch it first, while the other side is too far to be trusted.
+
+    They came 2 to 4 cm into that, for one step.
+    """
+    hull = Convex(hull_of(np.random.default_rng(1).normal(size=(12, 3)) * [0.3, 0.1, 0.3]))
+    simulation, random = Simulation(checked=False), np.random.default_rng(seed)
+    heights = np.tile(0.6 * np.abs(np.arange(-4.0, 5.0)), (9, 1))
+    simulation.add(collider={"height_field": {"heights": heights, "spacing": 1.0}}, material={"friction": 0.5})
+    body = simulation.add(
+        collider={"shape": hull}, body={"mass": 1.0}, material={"friction": 0.5},
+        transform={"position": (0.1, 1.5, 0.2), "rotation": random_turn(random)},
+    )  # fmt: skip
+    transform, row = simulation.world[Transform], simulation.world.row(body)
+    down, deepest = np.array([(0.6, -1.0, 0.0), (-0.6, -1.0, 0.0)]) / np.hypot(1.0, 0.6), 0.0
+    for _ in range(120):
+        simulation.step()
+        turn = transform.rotation[row]
+        lowest = hull.support(quaternion.rotate(quaternion.conjugate(turn), down))
+        places = transform.position[row] + quaternion.rotate(turn, lowest)
+        deepest = max(deepest, float((down * places).sum(axis=1).max()))
+    assert deepest < 5e-3
+
+
 def random_turn(random: np.random.Generator) -> tuple[float, ...]:
     """Return a rotation, any as likely as any other."""
     return tuple(quaternion.normalise(random.normal(size=4)).tolist())

@@ -46,8 +46,8 @@ def fly(
 
     Returns (time reached, reason, events, cut, impacts logged, pair of each, log). Pairs are the ``count`` manifolds
     that begin at rows of the contact table: those of ``kind`` >= 0 are of a ball on an exact arc (`strike`), the others
-    strike with all their points at once (`blow`). As bodies move at first, ``closing`` says which may strike, and
-    ``within`` how long nobody leaves his reach.
+    strike with all their points at once (`blow`), placed where they are by now for who may (`place_points`). As bodies
+    move at first, ``closing`` says which may strike, and ``within`` how long nobody leaves his reach.
     Where a body comes to move faster than its detection foresaw, the flight goes on for as long as none can have left
     its reach; the caller brings all bodies to the time reached, detects anew and calls again. What the substep has
     counted so far goes on: ``events``, and for each pair ``strikes`` and ``plastic``, else to detect in the middle
