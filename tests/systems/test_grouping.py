@@ -9,18 +9,7 @@ import numpy as np
 import pytest
 from heaps import add_walls, bin_of_balls, jointed_heap, stack_of_boxes, stirred_heap
 
-from carom.ecs import (
-    Collider,
-    Material,
-    Motion,
-    RigidBody,
-    System,
-    World,
-    restore_snapshot,
-    state_hash,
-    system,
-    take_snapshot,
-)
+from carom.ecs import Collider, Material, Motion, RigidBody, System, World, state_hash, system
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -35,8 +24,6 @@ from carom.systems.kernels.refilling import refill_groups
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
 from carom.systems.simulation import Simulation
-from carom.tools.bench.contact_scenes import pyramid
-from carom.tools.bench.engines import Carom
 
 
 def heap_of_all() -> Simulation:
@@ -238,19 +225,6 @@ def test_no_bit_depends_on_whether_groups_stay(
     assert not stays
     assert hashes(make, steps, change) == expected
     assert len(stays) >= least
-
-
-def test_what_is_restored_is_grouped_as_it_was() -> None:
-    """A pyramid of 820 boxes, of which few begin or end to rest in a step, goes on from one to the same bits."""
-    engine = Carom(pyramid(40), 1)
-    simulation, world = engine.simulation, engine.simulation.world
-    simulation.step(60)
-    snapshot = take_snapshot(world)
-    simulation.step(25)
-    went_on = state_hash(world)
-    restore_snapshot(world, snapshot)
-    simulation.step(25)
-    assert state_hash(world) == went_on
 
 
 def test_systems_of_others_may_change_anything() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from heaps import bin_of_balls, stack_of_boxes
 
+from carom.ecs import restore_snapshot, state_hash, take_snapshot
 from carom.ecs.relations.contact import Contact
 from carom.ecs.spatial import quaternion
 from carom.ecs.system import System
@@ -17,6 +18,8 @@ from carom.systems.kernels.lanes import WIDTH
 from carom.systems.kernels.rubbing import IDLE
 from carom.systems.resting import Resting, Stage
 from carom.systems.simulation import Simulation
+from carom.tools.bench.contact_scenes import pyramid
+from carom.tools.bench.engines import Carom
 
 
 def heap_of_boxes() -> Simulation:
@@ -96,3 +99,16 @@ def test_groups_stay_while_few_begin_or_end_to_rest() -> None:
     simulation.hearers.append(look)
     simulation.step(240)
     assert np.count_nonzero(counts) > 10
+
+
+def test_what_is_restored_is_grouped_as_it_was() -> None:
+    """A pyramid of 820 boxes, of which few begin or end to rest in a step, goes on from a snapshot to the same."""
+    engine = Carom(pyramid(40), 1)
+    simulation, world = engine.simulation, engine.simulation.world
+    simulation.step(60)
+    snapshot = take_snapshot(world)
+    simulation.step(25)
+    went_on = state_hash(world)
+    restore_snapshot(world, snapshot)
+    simulation.step(25)
+    assert state_hash(world) == went_on

@@ -28,10 +28,9 @@ from carom.systems.grouping import group_contacts
 from carom.systems.kernels.contacts import complete_contacts
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.crushing import let_go_of_crushed
-from carom.systems.kernels.narrow import reach_turning
-from carom.systems.kernels.passing import find_turning_past
 from carom.systems.kernels.renewal import renew_contacts
 from carom.systems.kernels.rows import are_crowded
+from carom.systems.kernels.turning_past import find_turning_past, reach_turning
 from carom.systems.passing import without_passing
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting

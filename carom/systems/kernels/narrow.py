@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf
-
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FAST, REACH_SLACK
 from carom.systems.kernels.balls import BALL, BOX, HALF_SPACE
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import inlined, kernel, woven
@@ -38,29 +35,6 @@ def reach_of_pair(a, b, body_row, reach, asleep, passes):
         together += reach[body] if body >= 0 else 0.0
         together += passes if body < 0 or asleep[body] else 0.0
     return together
-
-
-@kernel("reaches")
-def reach_turning(pairs, shape, bound_half, bound_radius, turning, body_row, inverse_mass, reaches):
-    """Let pairs reach as far as turning takes points of them, too; tell whether that is farther for any.
-
-    It is no farther than those come who are not looked after; all the way to half spaces, over which nobody is.
-    """
-    some = False
-    for p in range(len(pairs)):
-        a, b = pairs[p, 0], pairs[p, 1]
-        turned = turning[a] + turning[b]
-        if turned <= REACH_SLACK:  # most often
-            continue
-        reach, smallest = reaches[p] + turned, inf
-        for c in (a, b):
-            if body_row[c] >= 0 and inverse_mass[body_row[c]] > 0.0:
-                smallest = min(smallest, min(bound_half[c, 0], bound_half[c, 1], bound_half[c, 2]) + bound_radius[c])
-        if shape[a] != PLANE_SHAPE and shape[b] != PLANE_SHAPE:
-            reach = min(reach, FAST * smallest)
-        if reach > reaches[p]:
-            reaches[p], some = reach, True
-    return some
 
 
 @shared("side", "order", "first", "second", "counts", "places")

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from math import cos, sin, sqrt
+from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.fast_pairs import NEVER, between, is_one_quick
-from carom.systems.kernels.kernel import inlined, kernel, woven
-from carom.systems.kernels.narrow import reach_of_pair
-from carom.systems.kernels.spatial import cross
+from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.trust import closing_of
-
-LOOKS = 8  # at a point on its way around, which is a quarter of a percent of its distance off between them at 1 rad
 
 
 @woven
@@ -55,45 +51,3 @@ def find_seeming(span, row_a, row_b, normal, depth, point, body_row, center, lin
             pairs[count, 0], pairs[count, 1] = a, b
             count += 1
     return count
-
-
-@kernel("past")
-def find_turning_past(
-    span, row_a, row_b, normal, depth, point, old, body_row, reach, asleep, passes, center, angular, past
-):
-    """Say which contacts that bodies do not reach but by turning turn ``past`` within ``span`` seconds; count them.
-
-    Those recycled (``old`` is not below 0) were known before.
-    """
-    count = 0
-    for c in range(len(row_a)):
-        a, b = row_a[c], row_b[c]
-        past[c] = old[c] < 0 and -depth[c] > reach_of_pair(a, b, body_row, reach, asleep, passes)
-        if past[c]:
-            gap = -depth[c] - reach_of_pair(a, b, body_row, reach, asleep, passes)
-            for look in range(1, LOOKS + 1):
-                time = span * look / LOOKS
-                risen = risen_by(c, body_row[a], time, normal, point, center, angular)
-                if risen - risen_by(c, body_row[b], time, normal, point, center, angular) >= gap:
-                    past[c] = False
-                    break
-        count += past[c]
-    return count
-
-
-@inlined
-def risen_by(c, i, time, normal, point, center, angular):
-    """Return how far (m) the turning of body i takes contact c along its normal within a time (s)."""
-    if i < 0:
-        return 0.0
-    wx, wy, wz = angular[i, 0], angular[i, 1], angular[i, 2]
-    speed = sqrt(wx * wx + wy * wy + wz * wz)
-    if speed == 0.0:
-        return 0.0
-    ux, uy, uz = wx / speed, wy / speed, wz / speed
-    x, y, z = point[c, 0] - center[i, 0], point[c, 1] - center[i, 1], point[c, 2] - center[i, 2]
-    ax, ay, az = cross(ux, uy, uz, x, y, z)  # across, and from there to the axis
-    tx, ty, tz = cross(ux, uy, uz, ax, ay, az)
-    nx, ny, nz = normal[c, 0], normal[c, 1], normal[c, 2]
-    across, inward = nx * ax + ny * ay + nz * az, nx * tx + ny * ty + nz * tz
-    return sin(speed * time) * across + (1.0 - cos(speed * time)) * inward
