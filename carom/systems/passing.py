@@ -6,6 +6,7 @@ import numpy as np
 
 from carom.ecs import ColliderPose, Motion, Transform, World
 from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.components.flight import Flight
 from carom.systems.constants import FEW_MEETING, MEET
 from carom.systems.continuous import accelerations, fast_of, look_at
 from carom.systems.detection.narrow import Found
@@ -13,8 +14,10 @@ from carom.systems.kernels.fast_pairs import NEVER, find_far
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.passing import find_nearing, find_seeming
 from carom.systems.kernels.trust import find_agreeing
+from carom.systems.kernels.turning_past import find_turning_past
 from carom.systems.looked import Looked
 from carom.systems.progress import Progress
+from carom.systems.stream import Stream
 
 
 def without_passing(world: World, found: Found, span: float, center: Floats, quick: Booleans) -> tuple[Found, Integers]:
@@ -33,6 +36,19 @@ def without_passing(world: World, found: Found, span: float, center: Floats, qui
     if max(len(free[0]), world[Progress].detections) <= FEW_MEETING:
         return without_seeming(world, found, span, center, *free)
     return without_seeming(world, found, span, center, *seeming(world, found, span, center))[0], pairs[:0]
+
+
+def without_turning_past(world: World, found: Found, span: float) -> Found:
+    """Return what is found without new contacts that bodies turn past within ``span`` seconds; all, if that is 0."""
+    if not span:  # most often
+        return found
+    past: Booleans = np.empty(len(found.row_a), np.bool_)
+    pose, flight, motion = world[ColliderPose], world[Flight], world[Motion]
+    number = find_turning_past(
+        span, found.row_a, found.row_b, found.normal, found.depth, found.point, found.old, pose.body_row, flight.reach,
+        motion.asleep, world[Stream].passes, flight.detected_center, motion.angular, past,
+    )  # fmt: skip
+    return found.without(past, number)
 
 
 def seeming(world: World, found: Found, span: float, center: Floats) -> tuple[Integers, Floats]:

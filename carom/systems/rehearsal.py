@@ -67,7 +67,7 @@ class Rehearsal:
                 seeming(simulation.world, none, 1.0, center)
                 without_seeming(simulation.world, none, 1.0, center, pair, np.ones((1, NUMBERS)))
                 apart.many = True
-                apart.note(apart.without(simulation.world, pair, np.ones(1))[0], np.ones(1), 1)
+                apart.note(simulation.world, apart.without(simulation.world, pair, np.ones(1))[0], np.ones(1), 1)
                 group_contacts(simulation.world, places=True, same=True)
             for column, value in (("linear", 0.0), ("angular", 0.0), ("still", SLEEP_TIME)):
                 with simulation.world.edit(Motion) as motion:

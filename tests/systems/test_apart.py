@@ -17,6 +17,7 @@ from carom.systems.detection.apart import Apart
 from carom.systems.detection.bounds import reaches_of
 from carom.systems.detection.narrow import measure_pairs
 from carom.systems.kernels.apart import add_ways, leave_apart
+from carom.systems.kernels.crew import ALONE
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.sphere import Sphere
 from carom.systems.simulation import Simulation
@@ -130,7 +131,7 @@ def test_no_point_goes_farther_than_the_way_of_its_collider() -> None:
     turns[1, : n // 2] = quaternion.normalise(turns[0, : n // 2] + 0.1 * random.normal(size=(n // 2, 4)))
     turns[1, ::2] *= -1.0
     seen, way = np.concatenate([places[0], turns[0]], axis=1), np.zeros(n)
-    add_ways(np.arange(n), np.zeros((n, 3)), half, np.zeros(n), places[1], turns[1], seen, way)
+    add_ways(ALONE, np.arange(n), np.zeros((n, 3)), half, np.zeros(n), places[1], turns[1], seen, way)
     corner = half * random.choice([-1.0, 1.0], (n, 3))
     went = [place + quaternion.rotate(turn, corner) for place, turn in zip(places, turns, strict=True)]
     gone = np.linalg.norm(went[1] - went[0], axis=1)
@@ -138,7 +139,7 @@ def test_no_point_goes_farther_than_the_way_of_its_collider() -> None:
     assert np.median(way / gone) < 2.0
     assert np.array_equal(seen, np.concatenate([places[1], turns[1]], axis=1))
     again = way.copy()
-    add_ways(np.arange(n), np.zeros((n, 3)), half, np.zeros(n), places[1], turns[1], seen, way)
+    add_ways(ALONE, np.arange(n), np.zeros((n, 3)), half, np.zeros(n), places[1], turns[1], seen, way)
     assert np.array_equal(way, again)
 
 

@@ -9,6 +9,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.systems.kernels.apart import add_ways, keep_apart, leave_apart, note_apart
 from carom.systems.resting import Resting
+from carom.systems.threads import crew_for
 
 NOBODY: Integers = np.empty((0, 2), np.int64)
 
@@ -37,25 +38,25 @@ class Apart(Resource):
         if len(self.way) != len(collider.shape):
             self.seen, self.way = np.zeros((len(collider.shape), 7)), np.zeros(len(collider.shape))
         add_ways(
-            rows, collider.bound_center, collider.bound_half, collider.bound_radius, pose.position, pose.rotation,
-            self.seen, self.way,
+            crew_for(world, len(rows)), rows, collider.bound_center, collider.bound_half, collider.bound_radius,
+            pose.position, pose.rotation, self.seen, self.way,
         )  # fmt: skip
         if not world[Resting].knows(world):
             self.pairs = NOBODY  # their shapes may be others
         if not np.array_equal(pairs, self.pairs):
             before = self.pairs, self.until
             self.pairs, self.until = pairs, np.empty(len(pairs))
-            keep_apart(*before, self.pairs, self.until)
+            keep_apart(crew_for(world, len(pairs)), *before, self.pairs, self.until)
         near, near_reaches = np.empty_like(pairs), np.empty_like(reaches)
         count = leave_apart(pairs, reaches, self.until, self.way, collider.shape, near, near_reaches)
         self._left = len(pairs) - count
         return near[:count], near_reaches[:count]
 
-    def note(self, measured: Integers, gaps: Floats, apart: int) -> None:
+    def note(self, world: World, measured: Integers, gaps: Floats, apart: int) -> None:
         """Remember how far those of the ``pairs`` are ``apart`` that were ``measured`` and have no points.
 
         Gaps (m) that are 0 or less say nothing.
         """
         self.many = bool(self._left + apart > self._rows)
         if apart and len(self.pairs):
-            note_apart(measured, gaps, self.pairs, self.way, self.until)
+            note_apart(crew_for(world, len(measured)), measured, gaps, self.pairs, self.way, self.until)

@@ -30,7 +30,7 @@ from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.crushing import let_go_of_crushed
 from carom.systems.kernels.renewal import renew_contacts
 from carom.systems.kernels.rows import are_crowded
-from carom.systems.kernels.turning_past import find_turning_past, reach_turning
+from carom.systems.kernels.turning_past import reach_turning
 from carom.systems.passing import without_passing
 from carom.systems.progress import Progress
 from carom.systems.resting import Resting
@@ -101,22 +101,13 @@ def find(world: World, pairs: Integers, span: float) -> Found:
     """Return the points at which ``pairs`` (n, 2) of collider rows touch or may within ``span`` seconds."""
     if not len(pairs):
         return NOTHING
-    flight, motion = world[Flight], world[Motion]
     collider, pose = world[Collider], world[ColliderPose]
-    reaches = reaches_of(world, pairs, flight.reach)
+    reaches = reaches_of(world, pairs, world[Flight].reach)
     some = reach_turning(
         pairs, collider.shape, collider.bound_half, collider.bound_radius, pose.turning, pose.body_row,
         world[RigidBody].inverse_mass, reaches,
     )  # fmt: skip
-    found = measure_what_moved(world, *world[Apart].without(world, pairs, reaches))
-    if not some:  # most often
-        return found
-    past: Booleans = np.empty(len(found.row_a), np.bool_)
-    number = find_turning_past(
-        span, found.row_a, found.row_b, found.normal, found.depth, found.point, found.old, pose.body_row, flight.reach,
-        motion.asleep, world[Stream].passes, flight.detected_center, motion.angular, past,
-    )  # fmt: skip
-    return found.without(past, number)
+    return measure_what_moved(world, *world[Apart].without(world, pairs, reaches), span if some else 0.0)
 
 
 def store(world: World, found: Found) -> None:

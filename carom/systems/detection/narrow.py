@@ -171,7 +171,7 @@ def measure_pairs(
         taken += ROOMS[number] * count
     total, known_apart = count_points(points.count, points.apart)
     if apart:
-        apart.note(pairs, points.apart, known_apart)
+        apart.note(world, pairs, points.apart, known_apart)
     found, threads = Found.room(total), threads_of(crew)
     told, received = np.zeros((threads, 4), np.int64), np.empty((threads, 2))
     collect_points(

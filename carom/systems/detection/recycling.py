@@ -14,6 +14,7 @@ from carom.systems.detection.narrow import NOTHING, Found, measure_pairs
 from carom.systems.kernels.balls_narrow import find_ball_contacts
 from carom.systems.kernels.crew import threads_of
 from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
+from carom.systems.passing import without_turning_past
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.threads import crew_for
@@ -45,17 +46,18 @@ def all_of(contact: Contact, places: Integers, *, complete: bool) -> Kept:
     return (Complete if complete else Kept)(*Found(*in_table(contact), places).take(slice(contact.count)))
 
 
-def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
+def measure_what_moved(world: World, pairs: Integers, reaches: Floats, turning_for: float = 0.0) -> Found:
     """Return the contact points of sorted ``pairs`` (n, 2), recycled where a pair has hardly moved since found.
 
-    Those recycled are placed in the table; where all of it is, that is returned.
+    Those recycled are placed in the table; where all of it is, that is returned. Where pairs reach as far as some turn,
+    those that they only turn past within so many seconds are left out.
     """
     contact, collider, pose, resting = world[Contact], world[Collider], world[ColliderPose], world[Resting]
     known = resting.knows(world)
     if known and not resting.solids and world[Settings].collision == "auto":
         found = find_balls(world, pairs, reaches)
         if found is not None:
-            return found
+            return without_turning_past(world, found, turning_for)
     moved, moved_reaches = np.empty_like(pairs), np.empty_like(reaches)
     kept: Integers = np.empty(contact.count, np.int64)
     crew = crew_for(world, len(pairs))
@@ -77,10 +79,11 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats) -> Found:
     fresh = NOTHING
     if moving:
         fresh = measure_pairs(world, moved[:moving], moved_reaches[:moving], apart=world[Apart])
+        fresh = without_turning_past(world, fresh, turning_for)
         if not count:
             return fresh
     found = Found.room(count + len(fresh.row_a))
-    merge_contacts(kept[:count], *in_table(contact), *fresh, *found)
+    merge_contacts(crew_for(world, len(found.row_a)), kept[:count], *in_table(contact), *fresh, *found)
     return found
 
 
@@ -103,7 +106,7 @@ def find_balls(world: World, pairs: Integers, reaches: Floats) -> Found | None:
     if others:
         return None
     world[Answered].kernels += n
-    world[Apart].note(pairs, NO_GAPS, 0)
+    world[Apart].note(world, pairs, NO_GAPS, 0)
     if new:
         return found.take(slice(count))
     return all_of(contact, found.old, complete=not world[Resting].belts)

@@ -8,17 +8,20 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APART_MARGIN, REACH_KEPT
+from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.narrow import is_ball
+from carom.systems.kernels.rows import first_at
 
 
-@kernel("seen", "way")
-def add_ways(rows, bound_center, bound_half, bound_radius, position, rotation, seen, way):
+@shared("seen", "way")
+def add_ways(crew, rows, bound_center, bound_half, bound_radius, position, rotation, seen, way):
     """Add to the ``way`` (m) of colliders what no point of theirs has gone beyond since they were ``seen``; see them.
 
     One at the distance r from the origin of a collider that turns from q to p goes no farther than 2 r |p - q|.
     """
-    for i in rows:
+    begin, end = part_of(crew, len(rows))
+    for i in rows[begin:end]:
         moved, turned, other, center, half = 0.0, 0.0, 0.0, 0.0, 0.0
         for k in range(3):
             moved += (position[i, k] - seen[i, k]) ** 2
@@ -50,14 +53,15 @@ def leave_apart(pairs, reaches, until, way, shape, near, near_reaches):
     return count
 
 
-@kernel("until")
-def note_apart(measured, gaps, pairs, way, until):
+@shared("until")
+def note_apart(crew, measured, gaps, pairs, way, until):
     """Write ``until`` when measured pairs stay apart of which a gap above 0 (m) is known.
 
     Both lists of pairs are sorted, and those measured are among the others.
     """
-    p = 0
-    for m in range(len(measured)):
+    begin, end = part_of(crew, len(measured))
+    p = first_at(pairs[:, 0], pairs[:, 1], measured[begin, 0], measured[begin, 1]) if begin < end else 0
+    for m in range(begin, end):
         i, j = measured[m, 0], measured[m, 1]
         while pairs[p, 0] != i or pairs[p, 1] != j:
             p += 1
@@ -65,11 +69,12 @@ def note_apart(measured, gaps, pairs, way, until):
             until[p] = (1.0 - APART_MARGIN) * gaps[m] + way[i] + way[j]
 
 
-@kernel("until")
-def keep_apart(old, old_until, pairs, until):
+@shared("until")
+def keep_apart(crew, old, old_until, pairs, until):
     """Write of pairs until when they stay apart, as was known of the ``old`` ones; both lists are sorted."""
-    o = 0
-    for p in range(len(pairs)):
+    begin, end = part_of(crew, len(pairs))
+    o = first_at(old[:, 0], old[:, 1], pairs[begin, 0], pairs[begin, 1]) if begin < end else 0
+    for p in range(begin, end):
         i, j = pairs[p, 0], pairs[p, 1]
         while o < len(old) and (old[o, 0] < i or (old[o, 0] == i and old[o, 1] < j)):
             o += 1

@@ -58,16 +58,12 @@ def fly(
     go to and fro between bodies that stay together are at one time, and logged as one impact of each pair. An ``arc``
     of more than no rows is accounted for (`note_arc`).
     """
-    pairs, number, held = np.empty(count, np.int64), np.empty(count, np.int64), np.empty(count, np.int64)
-    taken, near, holds = 0, 0, 0
+    pairs, number = np.empty(count, np.int64), np.empty(count, np.int64)
+    taken, near = 0, 0
     for m in range(count):
         near += closing[m] != HELD
-        if closing[m] >= HELD_BALL:
-            held[holds] = m
-            holds += 1
-            continue
         pairs[taken], number[taken] = beginning[m], m
-        taken += 1
+        taken += closing[m] < HELD_BALL
 
     kept = np.empty((1, KEPT))
     now, end, cut, veers = start, min(h, until), 0, False
@@ -89,14 +85,16 @@ def fly(
                 p, gap, body_a, body_b, h - now, kind, ball, other, center, normal, offset_a, offset_b,
                 linear, angular, inertia, inverse_mass,
             )  # fmt: skip
-    for k in range(holds if start > 0.0 else 0):  # blows of before
-        heavy |= is_heavy(
-            beginning[held[k]], 0.0, body_a, body_b, h - now, kind, ball, other, center, normal, offset_a, offset_b,
+    for m in range(count if start > 0.0 else 0):  # blows of before
+        heavy |= closing[m] >= HELD_BALL and is_heavy(
+            beginning[m], 0.0, body_a, body_b, h - now, kind, ball, other, center, normal, offset_a, offset_b,
             linear, angular, inertia, inverse_mass,
         )  # fmt: skip
     # Only then may those who rest be driven into each other: else they are not asked.
-    for k in range(holds if heavy else 0):
-        pairs[taken], number[taken] = beginning[held[k]], held[k]
+    for m in range(count if heavy else 0):
+        if closing[m] < HELD_BALL:
+            continue
+        pairs[taken], number[taken] = beginning[m], m
         if start > 0.0:
             seek[seek_count] = taken
             seek_count += 1

@@ -28,11 +28,12 @@ def find_nearing(span, row_a, row_b, depth, point, body_row, quick, center, line
     count, c = 0, 0
     while c < len(row_a):
         a, b, gap, first = row_a[c], row_b[c], NEVER, c
-        while c < len(row_a) and row_a[c] == a and row_b[c] == b:
-            gap, c = min(gap, -depth[c]), c + 1
         i, o = body_row[a], body_row[b]
         if not is_one_quick(i, o, quick):  # most often
+            c += 1
             continue
+        while c < len(row_a) and row_a[c] == a and row_b[c] == b:
+            gap, c = min(gap, -depth[c]), c + 1
         if 0.0 < gap < span * nearing_of(first, i, o, point, center, linear, angular):
             pairs[count, 0], pairs[count, 1] = a, b
             count += 1

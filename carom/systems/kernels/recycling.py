@@ -14,11 +14,12 @@ import numpy as np
 from carom.ecs.entity import INDEX_MASK
 from carom.systems.constants import REACH_KEPT, RECYCLED_SLIP, RECYCLED_TURN
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import ALL, load_flat, load_three, store_flat
 from carom.systems.kernels.lanes import WIDTH, address, larger, spread, which
 from carom.systems.kernels.narrow import is_ball
 from carom.systems.kernels.offsets import find_offsets, is_alike
+from carom.systems.kernels.rows import first_at
 from carom.systems.kernels.spatial import turn
 
 PLACED = 7  # numbers of a contact that is placed
@@ -255,18 +256,23 @@ def seat_pair(
         seat_depth[c], seat_reach[c], form[c] = depth[c], reach, number
 
 
-@kernel("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")
+@shared("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")
 def merge_contacts(
-    kept, old_a, old_b, old_feature, old_normal, old_depth, old_point, old_by_fcl,
+    crew, kept, old_a, old_b, old_feature, old_normal, old_depth, old_point, old_by_fcl,
     fresh_a, fresh_b, fresh_feature, fresh_normal, fresh_depth, fresh_point, fresh_by_fcl, fresh_old,
     row_a, row_b, feature, normal, depth, point, by_fcl, old,
 ):  # fmt: skip
-    """Merge those of the old contacts that are ``kept`` and the fresh ones, both sorted by pair."""
-    i, j = 0, 0
-    for c in range(len(kept) + len(fresh_a)):
-        o = kept[i] if i < len(kept) else 0
-        first = j == len(fresh_a)
-        if not first and i < len(kept):
+    """Merge those of the old contacts that are ``kept`` and the fresh ones, of other pairs, both sorted by pair."""
+    i, end = part_of(crew, len(kept))
+    j, until = 0, len(fresh_a)
+    if crew[1] > 0:
+        j = first_at(fresh_a, fresh_b, old_a[kept[i]], old_b[kept[i]])
+    if end < len(kept):
+        until = first_at(fresh_a, fresh_b, old_a[kept[end]], old_b[kept[end]])
+    for c in range(i + j, end + until):
+        o = kept[i] if i < end else 0
+        first = j == until
+        if not first and i < end:
             first = old_a[o] < fresh_a[j] or (old_a[o] == fresh_a[j] and old_b[o] < fresh_b[j])
         if first:
             row_a[c], row_b[c], feature[c], by_fcl[c] = old_a[o], old_b[o], old_feature[o], old_by_fcl[o]

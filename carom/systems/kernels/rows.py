@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.kernel import kernel, woven
 
 
 @kernel()
@@ -28,3 +28,16 @@ def are_crowded(used, pairs, most):
             count += not there[pairs[p, side]]
             there[pairs[p, side]] = True
     return len(pairs) > most * count
+
+
+@woven
+def first_at(row_a, row_b, a, b):
+    """Return which of pairs in order is the first that is (a, b) or comes after it."""
+    low, high = 0, len(row_a)
+    while low < high:
+        middle = (low + high) // 2
+        if row_a[middle] < a or (row_a[middle] == a and row_b[middle] < b):
+            low = middle + 1
+        else:
+            high = middle
+    return low

@@ -65,6 +65,7 @@ def compile_measuring() -> None:
     from carom.systems.detection.recycling import find_balls
     from carom.systems.detection.seams import without_seams
     from carom.systems.kernels.broad_pairs import renew_pairs
+    from carom.systems.kernels.crew import ALONE
     from carom.systems.kernels.fast_pairs import NUMBERS, let_go
     from carom.systems.kernels.grid import lead_astray
     from carom.systems.kernels.lanes import WIDTH, aligned
@@ -107,9 +108,9 @@ def compile_measuring() -> None:
         apart = world[Apart]
         apart.many = True
         apart.without(world, pairs, np.ones(len(pairs)))
-        apart.note(pairs, np.ones(len(pairs)), len(pairs))
+        apart.note(world, pairs, np.ones(len(pairs)), len(pairs))
     count = len(found.row_a)
-    merge_contacts(np.arange(count), *found[:-1], *found, *found.room(2 * count))
+    merge_contacts(ALONE, np.arange(count), *found[:-1], *found, *found.room(2 * count))
     far = np.zeros(count, np.bool_)  # of somebody fast
     let_go(pairs, count, found.row_a, found.row_b, far)
     far[0] = True
