@@ -25,9 +25,10 @@ from carom.systems.kernels.fast_pairs import (
 )
 from carom.systems.kernels.left_out import when_near, write_left_out
 from carom.systems.kernels.meeting import foresee_meetings
-from carom.systems.kernels.trust import find_agreeing, spend_trust
+from carom.systems.kernels.trust import ask_straying, find_agreeing, spend_trust
 from carom.systems.looked import NO_PAIRS, NONE_LEFT_OUT, NOWHERE, FastPairs, Land, LeftOut, Looked
 from carom.systems.progress import Progress
+from carom.systems.settings import Settings
 
 
 class Fast(Resource):
@@ -104,6 +105,9 @@ class Fast(Resource):
 
         Contacts have just been ``found``, or what was is trusted for as long as it lasts.
         """
+        settings = world[Settings]
+        if found:
+            self._ask_straying(world, world[Progress].substep * (settings.dt / settings.substeps), straight=False)
         if not self.all.asked.any():
             return np.inf
         center, motion = world[Flight].center, world[Motion]
@@ -115,15 +119,26 @@ class Fast(Resource):
     def look_on(self, world: World, elapsed: float, rest: float) -> float:
         """Return what `next_look` does after a flight of ``elapsed`` seconds, with ``rest`` left of the substep.
 
-        It is 0 where somebody is to be detected now. Who goes another way than was foreseen is looked after henceforth.
+        It is 0 where somebody is to be detected now.
         """
         of, motion = self.all, world[Motion]
         if len(of.pairs):
             spend_trust(
-                elapsed, rest, of.looked.bodies, of.looked.numbers, motion.linear, motion.angular, of.linear,
-                of.angular, of.asked, of.left,
+                elapsed, of.looked.bodies, of.looked.numbers, motion.linear, motion.angular, of.linear, of.angular,
+                of.left,
             )  # fmt: skip
+            self._ask_straying(world, rest, straight=True)
         return self.next_look(world, rest, found=False)
+
+    def _ask_straying(self, world: World, time: float, *, straight: bool) -> None:
+        """Look after those henceforth who turn another way within a time (s) than was foreseen, or go ``straight``."""
+        of, motion = self.all, world[Motion]
+        if len(of.pairs):
+            seen = of.looked
+            ask_straying(
+                time, straight, seen.bodies, seen.numbers, motion.linear, motion.angular, of.linear, of.angular,
+                of.asked,
+            )  # fmt: skip
 
     def _times(self, world: World, center: Floats, span: float, *, found: bool, first_only: bool = False) -> Floats:
         """Return when (n,) each pair is to be looked at again."""

@@ -13,7 +13,6 @@ from carom.systems.detection.narrow import Found
 from carom.systems.kernels.fast_pairs import NEVER, find_far
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.passing import find_nearing, find_seeming
-from carom.systems.kernels.trust import find_agreeing
 from carom.systems.kernels.turning_past import find_turning_past
 from carom.systems.looked import Looked
 from carom.systems.progress import Progress
@@ -24,8 +23,8 @@ def without_passing(world: World, found: Found, span: float, center: Floats, qui
     """Return what is found without what only seems to close within ``span`` seconds, and who is to be looked after.
 
     Asked are pairs (n, 2) of two that can both be pushed and come far for their size, their centres at ``center``; one
-    of them is ``quick``. They are looked after where they meet otherwise than contacts say, followed straight on, where
-    only a few may meet, and a few times in a step. Of many only those are looked at who seem to meet.
+    of them is ``quick``. They are looked after where they meet, where only a few may meet, and a few times in a step.
+    Of many only those are looked at who seem to meet.
     """
     pose, motion, pairs = world[ColliderPose], world[Motion], np.empty((len(found.row_a), 2), np.int64)
     count = find_nearing(
@@ -66,24 +65,20 @@ def without_seeming(
 ) -> tuple[Found, Integers]:
     """Return what is found without far contacts of those of the pairs who never touch, as they move and turn.
 
-    And the pairs who touch, but not when contacts say, followed straight on.
+    And the pairs who touch.
     """
     if not len(free):
         return found, free
-    pose, motion = world[ColliderPose], world[Motion]
+    motion = world[Motion]
     looked, reaches = Looked.room(numbers.copy()), numbers.copy()
-    times, agrees = np.empty(len(free)), np.empty(len(free), np.bool_)
+    times = np.empty(len(free))
     land = look_at(world, free.copy(), center, looked)  # of meshes the sides change places
     foresee_meetings(
         span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, accelerations(world),
         *looked, *land, *np.ones((2, len(free)), np.bool_), np.zeros(len(free)), times,
     )  # fmt: skip
-    find_agreeing(
-        free, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
-        pose.body_row, center, motion.linear, motion.angular, agrees,
-    )  # fmt: skip
     passes = times == NEVER
     reaches[:, 3] *= MEET  # they are looked at until they are as near as that
     far: Booleans = np.empty(len(found.row_a), np.bool_)
     number = find_far(free[passes], reaches[passes], found.row_a, found.row_b, found.depth, far)
-    return found.without(far, number), free[~(agrees | passes)]
+    return found.without(far, number), free[~passes]

@@ -74,7 +74,7 @@ def test_a_rod_strikes_when_and_where_it_first_touches(shape: str, speed: float,
     assert world[Motion].angular[row, 2] == pytest.approx(speed + lever * impulse * eased, rel=2.5e-3)
 
 
-@pytest.mark.parametrize("wall", ["box", "mesh"])
+@pytest.mark.parametrize("wall", WALLS)
 @pytest.mark.parametrize("half", [(0.5, 0.1, 0.1), (0.3, 0.1, 0.2), (0.3, 0.02, 0.3)])
 @pytest.mark.parametrize("speed", [2.0, 4.0, 10.0, 30.0])
 def test_no_corner_swings_into_a_wall(speed: float, half: tuple[float, float, float], wall: str) -> None:

@@ -50,7 +50,7 @@ def hammer(**options: Any) -> Simulation:
     simulation = Simulation(**options)
     simulation.add(
         name="handle", body={}, collider={"box": {"size": (0.1, 1.0, 0.1)}}, transform={"position": (0.0, 3.0, 0.0)},
-        motion={"linear": (0.5, 2.0, 0.0), "angular": (1.0, 2.0, 7.0)},
+        motion={"linear": (0.5, 2.0, 0.0), "angular": (1.0, 2.0, 6.5)},
     )  # fmt: skip
     quarter = quaternion.from_axis_angle((0.0, 0.0, 1.0), math.pi / 2)
     handle = simulation.world.find("handle")

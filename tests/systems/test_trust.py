@@ -7,7 +7,7 @@ import pytest
 
 from carom.ecs.column import Floats
 from carom.systems.constants import MEET
-from carom.systems.kernels.trust import spend_trust
+from carom.systems.kernels.trust import ask_straying, spend_trust
 
 TRUST, REACH = 0.04, 0.5
 STILL, ALONG, ACROSS = np.zeros((1, 3)), np.array([[4.0, 0.0, 0.0]]), np.array([[0.0, 0.0, 4.0]])
@@ -18,9 +18,10 @@ def spend(
     *, asked: bool, linear: Floats = ALONG, angular: Floats = STILL, before: Floats = ALONG, spin: Floats = STILL,
     left: float = TRUST,
 ) -> tuple[bool, float]:  # fmt: skip
-    """Return whether a pair is looked after, and what is left, 2 ms after a look."""
-    asks, lefts = np.array([asked]), np.array([left])
-    spend_trust(0.002, 0.01, np.array([[0, -1]]), NUMBERS, linear, angular, before, spin, asks, lefts)
+    """Return whether a pair is looked after, and what is left, 2 ms after a look and 10 ms before the next."""
+    asks, lefts, pair = np.array([asked]), np.array([left]), np.array([[0, -1]])
+    spend_trust(0.002, pair, NUMBERS, linear, angular, before, spin, lefts)
+    ask_straying(0.01, True, pair, NUMBERS, linear, angular, before, spin, asks)
     return bool(asks[0]), float(lefts[0])
 
 
@@ -39,11 +40,11 @@ def test_only_what_moves_against_each_other_counts() -> None:
     """Two that fly side by side spend nothing; where one was stopped on the way, all of its speed."""
     numbers, both, lefts = np.array([[REACH, REACH, 0.0, TRUST]]), np.tile(ALONG, (2, 1)), np.array([TRUST])
     pair, still, stopped = np.array([[0, 1]]), np.zeros((2, 3)), np.vstack([ALONG, STILL])
-    spend_trust(0.002, 0.01, pair, numbers, both, still, both, still, np.ones(1, np.bool_), lefts)
+    spend_trust(0.002, pair, numbers, both, still, both, still, lefts)
     assert lefts == TRUST
     for now, before in ((both, stopped), (stopped, both)):
         lefts[:] = TRUST
-        spend_trust(0.002, 0.01, pair, numbers, now, still, before, still, np.ones(1, np.bool_), lefts)
+        spend_trust(0.002, pair, numbers, now, still, before, still, lefts)
         assert lefts == pytest.approx(TRUST - 0.002 * 4.0, rel=1e-12)
 
 
@@ -59,7 +60,7 @@ def test_who_goes_straight_on_needs_nobody_to_look() -> None:
 
 @pytest.mark.parametrize("angular", [False, True])
 def test_who_goes_another_way_is_looked_after(angular: bool) -> None:
-    """Where in the rest of the substep it may be MEET of the trust from where it was foreseen; nothing is known."""
+    """Where within the time it may be MEET of the trust from where it was foreseen; nothing is known."""
     off = MEET * TRUST / 0.01
     for part, asked in ((0.999, False), (1.001, True)):
         change = np.array([[0.0, part * off, 0.0]])

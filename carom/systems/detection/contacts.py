@@ -104,8 +104,8 @@ def find(world: World, pairs: Integers, span: float) -> Found:
     collider, pose = world[Collider], world[ColliderPose]
     reaches = reaches_of(world, pairs, world[Flight].reach)
     some = reach_turning(
-        pairs, collider.shape, collider.bound_half, collider.bound_radius, pose.turning, pose.body_row,
-        world[RigidBody].inverse_mass, reaches,
+        pairs, collider.bound_half, collider.bound_radius, pose.turning, pose.body_row, world[RigidBody].inverse_mass,
+        reaches,
     )  # fmt: skip
     return measure_what_moved(world, *world[Apart].without(world, pairs, reaches), span if some else 0.0)
 

@@ -51,7 +51,7 @@ def is_exact(i, o, shape, body_row, position, center, inverse_mass):
     """Tell whether collider i is a ball whose impacts with o are exact, so that it needs nobody to look ahead."""
     if not is_free_ball(i, shape, body_row, position, center, inverse_mass):
         return False
-    if shape[o] not in (SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE):
+    if shape[o] not in (SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE, PLANE_SHAPE):
         return False
     return body_row[o] < 0 or is_centred(o, body_row[o], position, center)
 
@@ -60,11 +60,13 @@ def is_exact(i, o, shape, body_row, position, center, inverse_mass):
 def reach_of(c, i, local_position, bound_center, bound_half, position, center):
     """Return how far (m) the core of collider c, what it is without its roundness, reaches from the centre of body i.
 
-    Roundness does not count, since it turns without effect.
+    Roundness does not count, since it turns without effect; nor does what has no body and never turns.
     """
+    if i < 0:
+        return 0.0
     away, off, half = 0.0, 0.0, 0.0
     for k in range(3):
-        away += (position[c, k] - center[i, k]) ** 2 if i >= 0 else 0.0
+        away += (position[c, k] - center[i, k]) ** 2
         off += (bound_center[c, k] - local_position[c, k]) ** 2
         half += bound_half[c, k] * bound_half[c, k]
     return sqrt(away) + sqrt(off) + sqrt(half)
@@ -148,8 +150,7 @@ def find_fast(
     """Write which pairs are to be looked after within ``span`` seconds, and their numbers; return how many.
 
     Those of a body that comes farther than FAST of its smallest half extent and what stands or is kinematic; where both
-    can be pushed, only if one is ``continuous``; those of the others if they are to be ``free``. Half spaces let nobody
-    through.
+    can be pushed, only if one is ``continuous``; those of the others if they are to be ``free``.
     """
     count = 0
     for p in range(len(pairs)):
@@ -157,8 +158,6 @@ def find_fast(
         i, o = body_row[a], body_row[b]
         free_a, free_b = i >= 0 and inverse_mass[i] > 0.0, o >= 0 and inverse_mass[o] > 0.0
         if free != (free_a and free_b and not (continuous[i] or continuous[o])):
-            continue
-        if shape[a] == PLANE_SHAPE or shape[b] == PLANE_SHAPE:
             continue
         smallest, smaller = NEVER, 0
         for side in range(2):
@@ -188,13 +187,13 @@ def place_fast(
     pairs, shape, size, geometry, body_row, pose_position, pose_rotation, center, body_rotation, hulls,
     root, bodies, numbers, cores, roots, position, rotation,
 ):  # fmt: skip
-    """Put the mesh of a pair first, and write what both shapes are around, and where they are.
+    """Put the mesh of a pair first, a half space second, and write what both shapes are around, and where they are.
 
     They are in the frames of their ``bodies``, or in the world. Of a mesh there is where its tree begins, and the room
     behind the vertices of all hulls for those of one triangle at a time.
     """
     for p in range(len(pairs)):
-        if shape[pairs[p, 1]] == MESH_SHAPE or shape[pairs[p, 1]] == FIELD_SHAPE:
+        if shape[pairs[p, 1]] in (MESH_SHAPE, FIELD_SHAPE) or shape[pairs[p, 0]] == PLANE_SHAPE:
             pairs[p, 0], pairs[p, 1] = pairs[p, 1], pairs[p, 0]
             numbers[p, 0], numbers[p, 1] = numbers[p, 1], numbers[p, 0]
         a, core = pairs[p, 0], cores[p]

@@ -13,13 +13,14 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import CAST_GAP, MEET, MOST_LOOKS
 from carom.systems.kernels.bodies import length_of
-from carom.systems.kernels.cores import AROUND, CORE, PLACE, write_place
-from carom.systems.kernels.distance import FAR, MEETING
+from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, write_place
+from carom.systems.kernels.distance import APART, FAR, MEETING
 from carom.systems.kernels.fast_pairs import NEVER, between
 from carom.systems.kernels.frames import turned, turned_back
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles
 from carom.systems.kernels.nearing import MOST_STEPS, near
+from carom.systems.kernels.parting_cores import part_from_half_space
 from carom.systems.kernels.spatial import cross, product, spun, turn
 
 
@@ -82,10 +83,14 @@ def meet(
         put(0, i, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
         put(1, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
         write_place(position, rotation, 0, 1, place)
-        state, gap, mx, my, mz, _, _, _ = near(
-            core, place, vertices, nx, ny, nz, most * (limit - time) + trust + around, CAST_GAP,
-            corner, name, weight, seen,
-        )  # fmt: skip
+        reach = most * (limit - time) + trust + around
+        if core[CORE + KIND] == HALF_SPACE:
+            gap, mx, my, mz, _, _, _ = part_from_half_space(core, place, vertices)
+            state = FAR if gap > reach else APART
+        else:
+            state, gap, mx, my, mz, _, _, _ = near(
+                core, place, vertices, nx, ny, nz, reach, CAST_GAP, corner, name, weight, seen
+            )
         if state == FAR:
             return NEVER, 0.0
         gap = 0.0 if state == MEETING else gap - around

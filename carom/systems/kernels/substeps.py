@@ -24,11 +24,13 @@ from carom.systems.kernels.resting import press_groups
 from carom.systems.kernels.settling import finish_drift, sink_contacts, tell_depths
 from carom.systems.kernels.sorting import sort_groups
 from carom.systems.kernels.ticks import nanoseconds
+from carom.systems.kernels.trust import ask_straying
 
 predict, pack, sort, touch = predict_middle.within, pack_bodies.within, sort_groups.within, write_touches.within
 kick, press, bend, close = kick_bodies.within, press_groups.within, bend_arcs.within, find_closing.within
 advance, finish, sink, tell = advance_bodies.within, finish_drift.within, sink_contacts.within, tell_depths.within
-leave, look, come, soar = find_leaving.within, foresee_meetings.within, when_near.within, fly.within
+leave, stray, look = find_leaving.within, ask_straying.within, foresee_meetings.within
+come, soar = when_near.within, fly.within
 
 #: The systems whose work is done here, in the order of the frame.
 LOOK_AHEAD, PREDICT, SORT, KICK, HOLD, DRIFT, SETTLE, RELAX, SYSTEMS = range(9)
@@ -41,7 +43,7 @@ HARD = (0.0, 1.0)
     "center", "time", "acceleration", "angular_acceleration", "decay", "angular_decay", "flow", "touching",
     "start_position", "start_rotation", "start_linear", "start_angular", "start_center", "turned",
     "normal", "depth", "point", "offset_a", "offset_b", "resting", "impulse", "friction_impulse", "strikes", "plastic",
-    "stream", "arc", "room", "near", "left", "log", "log_pair", "spent",
+    "stream", "arc", "room", "asked", "near", "left", "log", "log_pair", "spent",
     makes_arrays=True,
 )  # fmt: skip
 def take_substeps(
@@ -58,7 +60,8 @@ def take_substeps(
     row_a, row_b, shape, bound_radius, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
     strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-    asked, near, left, far_bodies, far_normals, gaps, nears, places, trusts, pull, arc, log_pair, log, spent,
+    asked, near, left, before_linear, before_angular,
+    far_bodies, far_normals, gaps, nears, places, trusts, pull, arc, log_pair, log, spent,
 ):  # fmt: skip
     """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
 
@@ -135,6 +138,7 @@ def take_substeps(
         flown = False
         at, reason, events, until = h, DONE, none, np.inf
         if len(fast):
+            stray(k * h, False, fast, numbers, linear, angular, before_linear, before_angular, asked)
             look(
                 h, True, True, center, rotation, linear, angular, felt,
                 fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,

@@ -57,13 +57,27 @@ def find_agreeing(
             agrees[p] = abs(straight - times[p]) * most <= numbers[p, 3] or straight == times[p]
 
 
-@kernel("asked", "left")
-def spend_trust(elapsed, rest, bodies, numbers, linear, angular, before_linear, before_angular, asked, left):
+@kernel("asked", within=True)
+def ask_straying(time, straight, bodies, numbers, linear, angular, before_linear, before_angular, asked):
+    """Let who agreed when pairs were found, as velocities were ``before``, be ``asked`` once it goes another way.
+
+    That is by more than at which a contact is found, within the ``time`` (s), by turning or, where that counts too, by
+    going ``straight``: as other impacts have it and, without any, precession.
+    """
+    for p in range(len(bodies)):
+        strays = 0.0
+        for side in range(2):
+            body, reach = bodies[p, side], numbers[p, side]
+            strays += between(body, body, linear, before_linear) if straight else 0.0
+            strays += between(body, body, angular, before_angular) * reach
+        asked[p] = asked[p] or strays * time > MEET * numbers[p, 3]
+
+
+@kernel("left")
+def spend_trust(elapsed, bodies, numbers, linear, angular, before_linear, before_angular, left):
     """Take from what is ``left`` of the way (m) for which contacts of pairs are trusted what bodies went since a look.
 
-    That was ``elapsed`` seconds ago; velocities ``before`` are those when pairs were found. Who agreed then is
-    ``asked`` once it may go another way than was foreseen, in the ``rest`` of the substep, by more than at which a
-    contact is found.
+    That was ``elapsed`` seconds ago; velocities ``before`` are those when pairs were found.
     """
     for p in range(len(bodies)):
         i, o = bodies[p, 0], bodies[p, 1]
@@ -71,10 +85,7 @@ def spend_trust(elapsed, rest, bodies, numbers, linear, angular, before_linear, 
             between(i, o, linear, linear), between(i, o, linear, before_linear),
             between(i, o, before_linear, linear), between(i, o, before_linear, before_linear),
         )  # fmt: skip
-        strays = 0.0
         for side in range(2):
             body, reach = bodies[p, side], numbers[p, side]
             came += max(length_of(body, angular), length_of(body, before_angular)) * reach
-            strays += between(body, body, linear, before_linear) + between(body, body, angular, before_angular) * reach
         left[p] = max(0.0, left[p] - came * elapsed)
-        asked[p] = asked[p] or strays * rest > MEET * numbers[p, 3]

@@ -8,17 +8,17 @@ from math import cos, sin, sqrt
 from carom.systems.constants import FAST, REACH_SLACK
 from carom.systems.kernels.fast_pairs import NEVER, extent_of
 from carom.systems.kernels.kernel import inlined, kernel
-from carom.systems.kernels.narrow import PLANE_SHAPE, reach_of_pair
+from carom.systems.kernels.narrow import reach_of_pair
 from carom.systems.kernels.spatial import cross
 
 LOOKS = 8  # at a point on its way around, which is a quarter of a percent of its distance off between them at 1 rad
 
 
 @kernel("reaches")
-def reach_turning(pairs, shape, bound_half, bound_radius, turning, body_row, inverse_mass, reaches):
+def reach_turning(pairs, bound_half, bound_radius, turning, body_row, inverse_mass, reaches):
     """Let pairs reach as far as turning takes points of them, too; tell whether that is farther for any.
 
-    It is no farther than those come who are not looked after; all the way to half spaces, over which nobody is.
+    It is no farther than those come who are not looked after.
     """
     some = False
     for p in range(len(pairs)):
@@ -30,8 +30,7 @@ def reach_turning(pairs, shape, bound_half, bound_radius, turning, body_row, inv
         for c in (a, b):
             if body_row[c] >= 0 and inverse_mass[body_row[c]] > 0.0:
                 smallest = min(smallest, extent_of(c, bound_half, bound_radius))
-        if shape[a] != PLANE_SHAPE and shape[b] != PLANE_SHAPE:
-            reach = min(reach, FAST * smallest)
+        reach = min(reach, FAST * smallest)
         if reach > reaches[p]:
             reaches[p], some = reach, True
     return some
