@@ -1,13 +1,20 @@
-"""What is left of the way for which contacts of fast pairs are trusted, after bodies have flown."""
+"""For how long contacts of fast pairs are trusted, and what is left of that after bodies have flown."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from carom.ecs import Transform
 from carom.ecs.column import Floats
+from carom.ecs.components.flight import Flight
 from carom.systems.constants import MEET
+from carom.systems.constants import TRUST as TRUST_PART
+from carom.systems.continuous import Fast
+from carom.systems.detection.bounds import reach_within
+from carom.systems.detection.contacts import detect
 from carom.systems.kernels.trust import ask_straying, spend_trust
+from carom.systems.simulation import Simulation
 
 TRUST, REACH = 0.04, 0.5
 STILL, ALONG, ACROSS = np.zeros((1, 3)), np.array([[4.0, 0.0, 0.0]]), np.array([[0.0, 0.0, 4.0]])
@@ -69,3 +76,30 @@ def test_who_goes_another_way_is_looked_after(angular: bool) -> None:
         else:
             found = spend(asked=False, linear=ALONG + change, spin=ACROSS, angular=ACROSS, left=0.0)
         assert found == (asked, 0.0)
+
+
+@pytest.mark.parametrize("near", [True, False])
+def test_who_was_not_near_when_contacts_were_found_is_not_trusted_once_he_is(near: bool) -> None:
+    """A box that has come within the trust: its contact was left out as too far, unless it was near all the time.
+
+    Then it may go on for as far as it is trusted, else until it is well within what is near.
+    """
+    half, speed = 0.1, 0.7 * 0.1 * TRUST_PART * 240.0  # 0.7 of the trust in a substep
+    simulation = Simulation(gravity=(0.0, 0.0, 0.0))
+    simulation.add(collider={"box": {"size": (4.0, 1.0, 4.0)}}, transform={"position": (0.0, -0.5, 0.0)})
+    place = {"position": (0.0, half + 0.6 * half * TRUST_PART, 0.0)}
+    box = {"box": {"size": (0.2, 0.2, 0.2)}}
+    simulation.add(collider=box, body={}, transform=place, motion={"linear": (0.0, -speed, 0.0)})
+    world = simulation.world
+    with world.faces(None):
+        np.copyto(world[Flight].center, world[Transform].position)
+        reach_within(world, simulation.settings.dt)
+        detect(world, simulation.settings.dt, 1.0 / 240.0)
+        fast = world[Fast]
+        assert fast.all.looked.numbers[:, 3] == half * TRUST_PART
+        fast.all.asked[:], fast.all.near[:], fast.all.left[:] = True, near, 0.0
+        time = fast.next_look(world, 1.0 / 240.0, found=True)
+    wanted = (0.6 - 0.5 * MEET) * half * TRUST_PART / speed
+    assert time == (np.inf if near else pytest.approx(wanted, rel=1e-9))
+    assert fast.all.near == near
+    assert fast.all.left == (half * TRUST_PART if near else 0.0)
