@@ -69,6 +69,17 @@ def test_nobody_is_looked_after_who_is_fast_no_more() -> None:
     assert len(simulation.world[Fast].all.pairs) == 0
 
 
+@pytest.mark.parametrize("wall", [{"plane": {"normal": (-1.0, 0.0, 0.0)}}, WALL])
+def test_nobody_looks_after_balls_whose_impacts_are_exact(wall: dict[str, Any]) -> None:
+    """One that flies at a wall or a half space strikes it at the time on its arc; a cube there is looked after."""
+    for collider, number in ((BALL, 0), (CUBE, 1)):
+        simulation = shot(0, collider, {"collider": wall}, (0.0, 0.0, 0.0))
+        bullet = simulation["bullet"]
+        bullet.transform.position, bullet.motion.linear = (-3.0, 0.0, 0.0), (300.0, 0.0, 0.0)
+        simulation.step()
+        assert len(simulation.world[Fast].all.pairs) == number
+
+
 @pytest.mark.parametrize("phase", PHASES)
 @pytest.mark.parametrize("collider", [CUBE, PILL])
 def test_what_tumbles_does_not_pass_either(collider: dict[str, Any], phase: int) -> None:
