@@ -105,9 +105,10 @@ class Fast(Resource):
 
         Contacts have just been ``found``, or what was is trusted for as long as it lasts.
         """
-        settings = world[Settings]
-        if found:
-            self._ask_straying(world, world[Progress].substep * (settings.dt / settings.substeps), straight=False)
+        if found and len(self.all.pairs):  # planes of contacts stay where they go at another speed
+            settings = world[Settings]
+            gone = world[Progress].substep * (settings.dt / settings.substeps)
+            self._ask_straying(world, gone, world[Motion].linear)
         if not self.all.asked.any():
             return np.inf
         center, motion = world[Flight].center, world[Motion]
@@ -127,18 +128,15 @@ class Fast(Resource):
                 elapsed, of.looked.bodies, of.looked.numbers, motion.linear, motion.angular, of.linear, of.angular,
                 of.left,
             )  # fmt: skip
-            self._ask_straying(world, rest, straight=True)
+            self._ask_straying(world, rest, of.linear)
         return self.next_look(world, rest, found=False)
 
-    def _ask_straying(self, world: World, time: float, *, straight: bool) -> None:
-        """Look after those henceforth who turn another way within a time (s) than was foreseen, or go ``straight``."""
+    def _ask_straying(self, world: World, time: float, before: Floats) -> None:
+        """Look after those who go another way within a time (s) than was foreseen, as velocities were ``before``."""
         of, motion = self.all, world[Motion]
-        if len(of.pairs):
-            seen = of.looked
-            ask_straying(
-                time, straight, seen.bodies, seen.numbers, motion.linear, motion.angular, of.linear, of.angular,
-                of.asked,
-            )  # fmt: skip
+        ask_straying(
+            time, of.looked.bodies, of.looked.numbers, motion.linear, motion.angular, before, of.angular, of.asked
+        )
 
     def _times(self, world: World, center: Floats, span: float, *, found: bool, first_only: bool = False) -> Floats:
         """Return when (n,) each pair is to be looked at again."""

@@ -28,7 +28,7 @@ def spend(
     """Return whether a pair is looked after, and what is left, 2 ms after a look and 10 ms before the next."""
     asks, lefts, pair = np.array([asked]), np.array([left]), np.array([[0, -1]])
     spend_trust(0.002, pair, NUMBERS, linear, angular, before, spin, lefts)
-    ask_straying(0.01, True, pair, NUMBERS, linear, angular, before, spin, asks)
+    ask_straying(0.01, pair, NUMBERS, linear, angular, before, spin, asks)
     return bool(asks[0]), float(lefts[0])
 
 

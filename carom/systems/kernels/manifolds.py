@@ -67,11 +67,11 @@ def part_masses(
     for m in range(count):
         c, before, after = start[m], start[max(m - 1, 0)], start[min(m + 1, count - 1)]
         a, b, among[m] = body_a[c], body_b[c], -1
+        if a < 0 or b < 0 or inverse_mass[a] == 0.0 or inverse_mass[b] == 0.0:
+            continue
         alone = m == 0 or body_a[before] != a or body_b[before] != b
         alone = alone and (m == count - 1 or body_a[after] != a or body_b[after] != b)
-        if alone and a == row_a[c] and b == row_b[c]:  # those of several colliders may be anywhere
-            continue
-        if a >= 0 and b >= 0 and inverse_mass[a] > 0.0 and inverse_mass[b] > 0.0:
+        if not alone or a != row_a[c] or b != row_b[c]:  # those of several colliders may be anywhere
             among[m] = a
             begin[a + 1] += 1
     for i in range(len(inverse_mass)):

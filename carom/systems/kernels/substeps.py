@@ -60,8 +60,8 @@ def take_substeps(
     row_a, row_b, shape, bound_radius, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
     strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-    asked, near, left, before_linear, before_angular,
-    far_bodies, far_normals, gaps, nears, places, trusts, pull, arc, log_pair, log, spent,
+    asked, near, left, found_angular, far_bodies, far_normals, gaps, nears, places, trusts, pull, arc, log_pair, log,
+    spent,
 ):  # fmt: skip
     """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
 
@@ -138,7 +138,7 @@ def take_substeps(
         flown = False
         at, reason, events, until = h, DONE, none, np.inf
         if len(fast):
-            stray(k * h, False, fast, numbers, linear, angular, before_linear, before_angular, asked)
+            stray(k * h, fast, numbers, linear, angular, linear, found_angular, asked)  # planes of contacts stay
             look(
                 h, True, True, center, rotation, linear, angular, felt,
                 fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,

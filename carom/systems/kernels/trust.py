@@ -58,18 +58,17 @@ def find_agreeing(
 
 
 @kernel("asked", within=True)
-def ask_straying(time, straight, bodies, numbers, linear, angular, before_linear, before_angular, asked):
+def ask_straying(time, bodies, numbers, linear, angular, before_linear, before_angular, asked):
     """Let who agreed when pairs were found, as velocities were ``before``, be ``asked`` once it goes another way.
 
-    That is by more than at which a contact is found, within the ``time`` (s), by turning or, where that counts too, by
-    going ``straight``: as other impacts have it and, without any, precession.
+    That is by more than at which a contact is found, within the ``time`` (s): as other impacts have it and, without
+    any, precession. Where speed is not to count, it is what it was ``before``.
     """
     for p in range(len(bodies)):
         strays = 0.0
         for side in range(2):
             body, reach = bodies[p, side], numbers[p, side]
-            strays += between(body, body, linear, before_linear) if straight else 0.0
-            strays += between(body, body, angular, before_angular) * reach
+            strays += between(body, body, linear, before_linear) + between(body, body, angular, before_angular) * reach
         asked[p] = asked[p] or strays * time > MEET * numbers[p, 3]
 
 
