@@ -62,7 +62,6 @@ class Resting(Resource):
         self.count = self.groups = self.levels = 0
         self.solids = self.balls = False  # whether some contacts are not of balls on exact arcs, and some of two balls
         self.belts = False  # whether surfaces of colliders run
-        self.lasts = False  # whether the table of contacts was kept as it was when last they were detected
         self.structure = -1  # that of the world when contacts were detected
         self.awake: Integers | None = None  # who was awake then
         self.bound = np.zeros(0, np.int64)  # the rows of bodies that contacts or joints are of

@@ -20,6 +20,10 @@ from carom.systems.shapes.box import Box
 from carom.systems.simulation import Simulation
 
 BOX = {"box": {"size": (1.0, 1.0, 1.0)}}
+FOLLOWS = (
+    "offset_a", "offset_b", "share", "friction", "restitution", "rolling", "spinning", "surface", "body_a", "body_b",
+    "kind",
+)  # fmt: skip
 
 
 @pytest.fixture
@@ -56,15 +60,15 @@ def test_what_stays_is_completed_where_it_is_placed(monkeypatch: pytest.MonkeyPa
 
     def wall() -> list[bytes]:
         simulation = Simulation(sleeping=False)
-        simulation.add(collider={"plane": {}})
+        simulation.add(collider={"plane": {}}, material={"friction": 0.3})
         told: list[bytes] = []
-        for k in range(6):
-            place = {"position": (1.01 * (k % 2), 0.5 + 1.01 * (k // 2), 0.0)}
-            simulation.add(collider=BOX, body={}, transform=place)
-            simulation.step(40)
-            contact = simulation.world[Contact]
-            for column in (contact.offset_a, contact.offset_b, contact.share):
-                told.append(column[: contact.count].tobytes())
+        for k in range(9):
+            place = {"position": (1.01 * (k % 2), 0.5 + 1.01 * (k // 2), 0.02 * k)}
+            simulation.add(collider=BOX, body={}, transform=place, material={"friction": 0.05 * k, "restitution": 0.1})
+            for _ in range(40):
+                simulation.step()
+                contact = simulation.world[Contact]
+                told += [getattr(contact, name)[: contact.count].tobytes() for name in FOLLOWS]
             told.append(state_hash(simulation.world).encode())
         return told
 
@@ -72,11 +76,10 @@ def test_what_stays_is_completed_where_it_is_placed(monkeypatch: pytest.MonkeyPa
     found = contacts.complete
     monkeypatch.setattr(contacts, "complete", lambda *given, **known: passes.append(1) or found(*given, **known))
     told = wall()
-    assert 6 < len(passes) < 120  # of 240 steps
-    passes.clear()
+    assert 9 < len(passes) < 180  # of 360 steps
     monkeypatch.setattr(contacts, "Complete", type(None))  # then none is
+    monkeypatch.setattr(contacts, "complete", lambda *given, known: found(*given, known=False))
     assert wall() == told
-    assert len(passes) >= 240
 
 
 def test_recycled_contacts_go_with_their_shapes(pair: tuple[Simulation, int]) -> None:
@@ -174,11 +177,10 @@ def test_what_is_to_be_measured_again_leaves_its_contacts_as_they_are(pair: tupl
 
 
 @pytest.mark.parametrize("astray", [None, (0, 0), (1, 3), (2, 7), (3, 3), (3, 16), (4, 8), (5, 0), (5, 2)])
-@pytest.mark.parametrize("completes", [False, True])
-def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None, completes: bool) -> None:
+def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None) -> None:
     """As many of a pair as there may be, of one normal or several, to the end of the table; one astray leaves all.
 
-    With where they are from both bodies, or from what stands, where that is asked for; a face bears the points on it.
+    With where they are from both bodies, or from what stands; a face bears the points on it.
     """
     generator = np.random.default_rng(5)
     numbers = np.array([1, 4, 8, 17, 9, 3])
@@ -217,7 +219,7 @@ def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None, compl
         np.zeros((1, 2), np.int64),
     )
     recycle_contacts(
-        ALONE, pairs, np.ones(6), True, completes, count, np.arange(12), np.zeros(12, np.int32),
+        ALONE, pairs, np.ones(6), True, count, np.arange(12), np.zeros(12, np.int32),
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         position, rotation, body, center, contact.a, contact.b,
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth,
@@ -232,7 +234,6 @@ def test_contacts_of_any_number_are_placed(astray: tuple[int, int] | None, compl
     half = 0.5 * depth[:, None] * normal
     seats = np.concatenate([position[:6], center])[pairs[of]]
     wanted_offsets = point + half - seats[:, 0], point - half - seats[:, 1], np.where(of == 5, 0.0, 0.5)
-    placed = same & completes
     for found, wanted in zip(offsets, wanted_offsets, strict=True):
-        assert found[placed] == pytest.approx(wanted[placed], abs=1e-14)
-        assert np.isnan(found[~placed]).all()
+        assert found[same] == pytest.approx(wanted[same], abs=1e-14)
+        assert np.isnan(found[~same]).all()

@@ -22,7 +22,12 @@ ROWS = 6
 HELD = (
     "resting", "warm_normal", "warm_friction", "warm_rolling", "impulse", "friction_impulse", "strikes", "plastic",
 )  # fmt: skip
-SEATED = "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "seat_reach", "form"
+#: What is carried for those that are recycled; of others it is said elsewhere.
+CARRIED = (
+    "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "seat_reach", "form",
+    "body_a", "body_b", "offset_a", "offset_b", "share",
+    "friction", "restitution", "rolling", "spinning", "surface", "kind",
+)  # fmt: skip
 SIMULATION = Simulation()
 SIMULATION.add_many(np.zeros((ROWS, 3)), collider={"sphere": {"radius": 0.5}})
 FAR = 10.0  # m between the places that points are drawn from; what is in one place is the same point
@@ -86,7 +91,7 @@ def test_contacts_keep_what_they_held(threads: int, renewal: Renewal) -> None:
             FAR * place,
         )
     before = {}
-    for name in (*HELD, *SEATED):
+    for name in (*HELD, *CARRIED):
         column = getattr(contact, name)
         column[:] = (1 + np.arange(column.size)).reshape(column.shape) % (2 if column.dtype == np.bool_ else room + 999)
         before[name] = column.copy()
@@ -95,6 +100,9 @@ def test_contacts_keep_what_they_held(threads: int, renewal: Renewal) -> None:
         found.row_a[k], found.row_b[k], found.feature[k], found.point[k] = x, y, feature, (FAR * place, 0.0, 0.0)
         found.normal[k], found.depth[k], found.by_fcl[k] = (k, 0.0, 1.0), k, k % 2
         found.old[k] = match[k] if (x, y) in renewal.recycled else -1
+    stays, told = found.old >= 0, ("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl")
+    for name in told:  # the table holds what is found of those recycled
+        getattr(contact, name)[match[stays]] = getattr(found, name)[stays]
     matched, pool = np.empty(count, np.int64), Threads()
     with pool:
         crew = pool.call(threads) if threads > 1 else ALONE
@@ -103,7 +111,7 @@ def test_contacts_keep_what_they_held(threads: int, renewal: Renewal) -> None:
             crew, matched, np.zeros(len(old), np.bool_), changed, len(old), handles, SIMULATION.world.slots.row_shift,
             collider.bound_half, collider.bound_radius, *found, contact.a, contact.b, contact.feature,
             contact.row_a, contact.row_b, contact.by_fcl, contact.normal, contact.depth, contact.point,
-            *(getattr(contact, name) for name in (*HELD, *SEATED)),
+            *(getattr(contact, name) for name in (*HELD, *CARRIED)),
         )  # fmt: skip
     assert matched.tolist() == match.tolist()
     assert changed.any() == (match.tolist() != list(range(count)))
@@ -111,10 +119,9 @@ def test_contacts_keep_what_they_held(threads: int, renewal: Renewal) -> None:
         column = getattr(contact, name)[:count]
         assert (column[match >= 0] == before[name][match[match >= 0]]).all()
         assert not column[match < 0].any()
-    for name in SEATED:  # of others than those recycled it is said elsewhere
-        stays = found.old >= 0
+    for name in CARRIED:
         assert (getattr(contact, name)[:count][stays] == before[name][match[stays]]).all()
     assert contact.a[:count].tolist() == handles[found.row_a].tolist()
     assert contact.b[:count].tolist() == handles[found.row_b].tolist()
-    for name in ("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl"):
+    for name in told:
         assert (getattr(contact, name)[:count] == getattr(found, name)).all()

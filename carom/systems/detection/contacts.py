@@ -120,7 +120,6 @@ def store(world: World, found: Found) -> None:
     if count:
         np.copyto(world[Flight].detected_rotation, world[Transform].rotation)
     places, same = fill(world, found, old_count, known=known) if count or old_count else (False, False)
-    resting.lasts = isinstance(found, Kept)
     group_contacts(world, places=places, same=same)
     resting.structure, resting.awake = world.structure, world[Awake].now(world)
 
@@ -187,6 +186,7 @@ def renew(world: World, crew: Integers, found: Found, old_count: int, changed: B
         contact.normal, contact.depth, contact.point, contact.resting, contact.warm_normal, contact.warm_friction,
         contact.warm_rolling, contact.impulse, contact.friction_impulse, contact.strikes, contact.plastic,
         contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b, contact.seat_depth, contact.seat_reach,
-        contact.form,
+        contact.form, contact.body_a, contact.body_b, contact.offset_a, contact.offset_b, contact.share,
+        contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface, contact.kind,
     )  # fmt: skip
     return match

@@ -62,9 +62,8 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats, turning_f
     kept: Integers = np.empty(contact.count, np.int64)
     crew = crew_for(world, len(pairs))
     ends = np.zeros((threads_of(crew), 2), np.int64)
-    completes = known and resting.lasts and not resting.belts
     recycle_contacts(
-        crew, pairs, reaches, known, completes, contact.count, world.handles(), world.slots.row_shift,
+        crew, pairs, reaches, known, contact.count, world.handles(), world.slots.row_shift,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, pose.body_row, world[Flight].detected_center,
         contact.a, contact.b, contact.seat_a, contact.seat_b, contact.lean_a, contact.lean_b,
@@ -75,7 +74,7 @@ def measure_what_moved(world: World, pairs: Integers, reaches: Floats, turning_f
     count, moving = map(max, zip(*ends.tolist(), strict=True))  # not all may have come
     world[Answered].recycled += len(pairs) - moving
     if not moving and count == contact.count:
-        return all_of(contact, kept, complete=completes)
+        return all_of(contact, kept, complete=known and not resting.belts)
     fresh = NOTHING
     if moving:
         fresh = measure_pairs(world, moved[:moving], moved_reaches[:moving], apart=world[Apart])

@@ -12,7 +12,7 @@ from carom.systems.kernels.contacts import exact_pair
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, is_ball, kind_and_extent
-from carom.systems.kernels.offsets import find_offsets
+from carom.systems.kernels.offsets import find_offsets, find_shares
 from carom.systems.kernels.recycling import first_of_pair, is_pair
 from carom.systems.kernels.validity import SOUND, fault_of
 from carom.systems.kernels.writing import write_point
@@ -114,9 +114,9 @@ def find_ball_contacts(
             old[c] = c
             write_measured(c, p, m, pairs, measured, row_a, row_b, normal, depth, point)
             find_offsets(
-                c, c + 1, pairs[p, 0], pairs[p, 1], normal, depth, point, body_row, shape, position, rotation, center,
-                offset_a, offset_b, share,
-            )  # fmt: skip
+                c, c + 1, pairs[p, 0], pairs[p, 1], normal, depth, point, body_row, position, center, offset_a, offset_b
+            )
+            find_shares(c, c + 1, pairs[p, 0], pairs[p, 1], normal, shape, rotation, share)
         else:
             old[c], found_feature[c], found_by_fcl[c] = -1, 0, False
             write_measured(c, p, m, pairs, measured, found_a, found_b, found_normal, found_depth, found_point)

@@ -11,7 +11,7 @@ from carom.systems.kernels.cores import CONE_SHAPE, CONVEX_SHAPE, CYLINDER_SHAPE
 from carom.systems.kernels.crew import runs_of, shared
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent, reach_of_pair
-from carom.systems.kernels.offsets import find_offsets
+from carom.systems.kernels.offsets import find_offsets, find_shares
 from carom.systems.kernels.recycling import seat_pair, turned
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
@@ -50,19 +50,23 @@ def complete_contacts(
 ):  # fmt: skip
     """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
-    Of those that were not recycled (``recycled_from`` is below 0), also where they are on the two shapes.
-    Exact are balls about their body's centre of mass against balls, boxes likewise centred, and half spaces. Where all
-    are ``known``, what follows from shapes and materials, and where others stand, is there of pairs that are where they
-    were (``match``). Each thread tells in ``changed`` whether it was not, or a surface runs; without ``belts`` none
-    does.
+    Of those that were not recycled (``recycled_from`` is below 0), also where they are on the two shapes; of others
+    `recycle_contacts` says their offsets. Exact are balls about their body's centre of mass against balls, boxes
+    likewise centred, and half spaces. Where all are ``known``, what follows from shapes and materials, and where others
+    stand, is there of pairs that are where they were (``match``), and what does not hang on exact arcs of those
+    recycled. Each thread tells in ``changed`` whether it was not, or a surface runs; without ``belts`` none does.
     """
     end, until = runs_of(crew, row_a[:count], row_b[:count])
     while end < until:
+        recycled = recycled_from[end] >= 0
+        if recycled and known and not belts and kind[end] < 0:  # most often
+            end += 1
+            continue
         first, a, b, there = end, row_a[end], row_b[end], known
         while end < until and row_a[end] == a and row_b[end] == b:
             there &= match[end] == end
             end += 1
-        if recycled_from[first] < 0:
+        if not recycled:
             seat_pair(
                 first, end, a, b, reach_of_pair(a, b, body_row, reach, asleep, passes), normal, depth, point,
                 shape, size, geometry, pose_position, pose_rotation,
@@ -107,10 +111,9 @@ def complete_contacts(
             surface[c, 0], surface[c, 1], surface[c, 2] = surface_of_pair(
                 c, a, b, normal, surface_velocity, pose_rotation
             )
-        find_offsets(
-            first, end, a, b, normal, depth, point, body_row, shape, pose_position, pose_rotation, center,
-            offset_a, offset_b, share,
-        )  # fmt: skip
+        if not recycled:
+            find_offsets(first, end, a, b, normal, depth, point, body_row, pose_position, center, offset_a, offset_b)
+            find_shares(first, end, a, b, normal, shape, pose_rotation, share)
 
 
 @woven

@@ -10,11 +10,8 @@ from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE
 
 
 @woven
-def find_offsets(
-    first, end, a, b, normal, depth, point, body_row, shape, pose_position, pose_rotation, center,
-    offset_a, offset_b, share,
-):  # fmt: skip
-    """Write where the contacts of colliders a and b are from both bodies, and how much their points go with b."""
+def find_offsets(first, end, a, b, normal, depth, point, body_row, pose_position, center, offset_a, offset_b):
+    """Write where the contacts of colliders a and b are from both bodies."""
     ax, ay, az = seat_of(a, body_row[a], center, pose_position)
     bx, by, bz = seat_of(b, body_row[b], center, pose_position)
     for c in range(first, end):
@@ -23,10 +20,17 @@ def find_offsets(
         px, py, pz = point[c, 0], point[c, 1], point[c, 2]
         offset_a[c, 0], offset_a[c, 1], offset_a[c, 2] = px + x - ax, py + y - ay, pz + z - az
         offset_b[c, 0], offset_b[c, 1], offset_b[c, 2] = px - x - bx, py - y - by, pz - z - bz
+
+
+@woven
+def find_shares(first, end, a, b, normal, shape, pose_rotation, share):
+    """Write how much the contact points of colliders a and b go with b."""
+    for c in range(first, end):
         if c > first and is_alike(c, c - 1, normal):
             share[c] = share[c - 1]
         else:
-            share[c] = share_of_b(c, a, b, normal, shape, pose_rotation)
+            flat_a, flat_b = is_flat(a, c, normal, shape, pose_rotation), is_flat(b, c, normal, shape, pose_rotation)
+            share[c] = share_of_b(flat_a, flat_b)
 
 
 @woven
@@ -44,12 +48,12 @@ def is_alike(c, o, column):
 
 
 @woven
-def share_of_b(c, a, b, normal, shape, pose_rotation):
-    """Return how much the point of contact c goes with b rather than with a, over whose face it glides."""
+def share_of_b(flat_a, flat_b):
+    """Return how much a point goes with b rather than with a, over whose faces it glides where those are ``flat``."""
     share = 0.5
-    if is_flat(a, c, normal, shape, pose_rotation):
+    if flat_a:
         share += 0.5
-    if is_flat(b, c, normal, shape, pose_rotation):
+    if flat_b:
         share -= 0.5
     return share
 
@@ -57,10 +61,20 @@ def share_of_b(c, a, b, normal, shape, pose_rotation):
 @woven
 def is_flat(i, c, normal, shape, pose_rotation):
     """Tell whether a collider turns a face to contact c, over which its point glides."""
-    if shape[i] == PLANE_SHAPE:
-        return True
     if shape[i] != BOX_SHAPE:
-        return False
+        return shape[i] == PLANE_SHAPE
     x, y, z = turned_back(pose_rotation, i, normal[c, 0], normal[c, 1], normal[c, 2])
+    return is_along_axis(x, y, z)
+
+
+@woven
+def is_flat_where_seated(i, c, lean, shape):
+    """Tell whether collider i turns a face to contact c, whose normal ``lean`` has in its frame."""
+    return shape[i] == PLANE_SHAPE or (shape[i] == BOX_SHAPE and is_along_axis(lean[c, 0], lean[c, 1], lean[c, 2]))
+
+
+@woven
+def is_along_axis(x, y, z):
+    """Tell whether a unit vector is along one of the axes."""
     x, y, z = x * x, y * y, z * z
     return x + y + z - max(x, y, z) <= LEANING * LEANING

@@ -12,17 +12,17 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.ecs.entity import INDEX_MASK
-from carom.systems.constants import REACH_KEPT, RECYCLED_SLIP, RECYCLED_TURN
+from carom.systems.constants import LEANING, REACH_KEPT, RECYCLED_SLIP, RECYCLED_TURN
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import ALL, load_flat, load_three, store_flat
 from carom.systems.kernels.lanes import WIDTH, address, larger, spread, which
 from carom.systems.kernels.narrow import is_ball
-from carom.systems.kernels.offsets import find_offsets, is_alike
+from carom.systems.kernels.offsets import find_offsets, is_alike, is_flat_where_seated, share_of_b
 from carom.systems.kernels.rows import first_at
 from carom.systems.kernels.spatial import turn
 
-PLACED = 7  # numbers of a contact that is placed
+PLACED = 8  # numbers of a contact that is placed
 
 
 @woven
@@ -42,7 +42,7 @@ def form_of_pair(a, b, shape, size, geometry):
     makes_arrays=True,
 )  # fmt: skip
 def recycle_contacts(
-    crew, pairs, reaches, known, completes, old_count, handles, row_shift,
+    crew, pairs, reaches, known, old_count, handles, row_shift,
     shape, size, geometry, bound_half, bound_radius, position, rotation, body_row, center,
     a, b, seat_a, seat_b, lean_a, lean_b, seat_depth, seat_reach, form,
     moved, moved_reaches, row_a, row_b, normal, depth, point, offset_a, offset_b, share, kept, ends,
@@ -53,12 +53,11 @@ def recycle_contacts(
     the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known`` to be
     what they were, or that reaches farther by as much, so that it may have more: its contacts stay as they are. Those
     of balls are found up to where they leave (REACH_KEPT). ``seat``, ``lean`` and ``seat_depth`` say where the points
-    and the normal were found on the two shapes, ``seat_reach`` up to which gap. Those placed are ``kept``; with their
-    offsets, where this ``completes`` them. Each thread has a row of ``ends``, where those and
-    its pairs end: behind them are those of the next.
+    and the normal were found on the two shapes, ``seat_reach`` up to which gap. Those placed are ``kept``. Each thread
+    has a row of ``ends``, where those and its pairs end: behind them are those of the next.
     """
     begin_pair, end_pair = part_of(crew, len(pairs))
-    placed = np.empty(PLACED * (old_count + WIDTH))  # of one pair, for eight at a time: how deep, normal, point
+    placed = np.empty(PLACED * (old_count + WIDTH))  # of one pair, eight at a time: depth, normal, point, how it leans
     o = 0
     if 0 < begin_pair < end_pair:
         o = first_of_pair(0, old_count, pairs[begin_pair, 0], pairs[begin_pair, 1], a, b, handles, row_shift)
@@ -102,12 +101,13 @@ def recycle_contacts(
                 point[c, axis] = placed[k + WIDTH * (4 + axis)]
             if not known:
                 row_a[c], row_b[c] = x, y
+            if c == first or not alike:
+                flat_x, flat_y = is_flat_where_seated(x, c, lean_a, shape), is_flat_where_seated(y, c, lean_b, shape)
+                share[c] = share_of_b(flat_x, flat_y and placed[k + WIDTH * 7] <= LEANING * LEANING)
+            else:
+                share[c] = share[first]
             count += 1
-        if completes:
-            find_offsets(
-                first, o, x, y, normal, depth, point, body_row, shape, position, rotation, center,
-                offset_a, offset_b, share,
-            )  # fmt: skip
+        find_offsets(first, o, x, y, normal, depth, point, body_row, position, center, offset_a, offset_b)
     _, part, parts = crew
     for turn_of in range(parts):
         if turn_of == part:
@@ -148,7 +148,7 @@ def place_contacts(
     far = larger(leant - RECYCLED_TURN * RECYCLED_TURN, aside - slip * slip)
     far = larger(far, larger(larger(sunk, -sunk) - slip, -deep - reach))
     to *= PLACED
-    for k, lane in enumerate((deep, nx, ny, nz, 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz))):
+    for k, lane in enumerate((deep, nx, ny, nz, 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz), leant)):
         store_flat(placed, to + WIDTH * k, lane)
     return which(far)
 
