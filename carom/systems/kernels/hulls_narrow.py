@@ -58,12 +58,12 @@ def measure_hulls(
     contact's points are where the faces turned to each other lie one over the other, seen along the normal.
     """
     corners, faces = most_of(hulls.vertex_start), most_of(hulls.face_start)
-    room = 2 * most_of(hulls.loop_start) + 2
+    most = 2 * most_of(hulls.loop_start) + 2
     v, planes = np.empty(6 * corners), np.empty(8 * faces)
     near = np.empty(most_of(hulls.edge_start), np.int64)
     corner, name, weight = np.empty(12), np.empty(8, np.int64), np.empty(4)
-    polygon, tag = np.empty(6 * room), np.empty(2 * room, np.int64)
-    place, gaps, names = np.empty(3 * room), np.empty(room), np.empty(room, np.int64)
+    polygon, tag = np.empty(6 * most), np.empty(2 * most, np.int64)
+    place, gaps, names = np.empty(3 * most), np.empty(most), np.empty(most, np.int64)
     begin, end = part_of(crew, len(which))
     taken += room * begin
     for k in range(begin, end):

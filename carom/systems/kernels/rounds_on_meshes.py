@@ -54,10 +54,10 @@ def measure_rounds_on_meshes(
     )  # fmt: skip
     root, bounds, nodes = meshes.root, meshes.bounds, meshes.nodes
     core, place, low, high = np.zeros(2 * CORE), np.empty(PLACE), np.empty(3), np.empty(3)
-    room = 2 * RIM_POINTS + 8
-    v, tag, plane, corners = np.empty(3 * room), np.empty(room, np.int64), np.zeros(4), np.arange(RIM_POINTS)
-    polygon, tags = np.empty(6 * room), np.empty(4 * room, np.int64)
-    line, spot, apart, sides = np.empty(6), np.empty(6), np.empty(2), np.empty(2, np.int64)
+    most = 2 * RIM_POINTS + 8
+    v, tag, plane, corners = np.empty(3 * most), np.empty(most, np.int64), np.zeros(4), np.arange(RIM_POINTS)
+    polygon, tags = np.empty(6 * most), np.empty(4 * most, np.int64)
+    line, spot, parted, sides = np.empty(6), np.empty(6), np.empty(2), np.empty(2, np.int64)
     found = np.empty(FEW, np.uint32)
     points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
     place, gaps, alike = np.empty(3 * FEW), np.empty(FEW), np.empty(FEW, np.int64)
@@ -113,7 +113,7 @@ def measure_rounds_on_meshes(
             ) < 0.0
             if kind == NOTHING or (hidden and (kind == ON_FACE or gap < -SAME_PLACE * width)):
                 continue
-            while touching + room > len(names):
+            while touching + most > len(names):
                 names, points = grown(names), grown(points)
             before = touching
             # All of an area that n is all but square to is as near, and not one end of it or the other.
@@ -121,7 +121,7 @@ def measure_rounds_on_meshes(
                 end, _ = outline(core, SECOND, place, hulls, -nx, -ny, -nz, v, tag, plane)
                 touching = points_over_triangle(
                     v, corners, 0, end, triangles, links, vertices, t, 0.0, reach, found, near,
-                    polygon, tags, room, points, names, touching,
+                    polygon, tags, most, points, names, touching,
                 )  # fmt: skip
                 for i in range(before, touching):
                     corner = names[i] % MOST_CORNERS
@@ -131,7 +131,7 @@ def measure_rounds_on_meshes(
             if kind == ON_EDGE and touching == before:
                 touching = points_on_edge(
                     core, place, hulls, triangles, links, t, edge, nx, ny, nz, gap, px, py, pz, reach,
-                    v, tag, plane, line, spot, apart, sides, points, names, touching,
+                    v, tag, plane, line, spot, parted, sides, points, names, touching,
                 )  # fmt: skip
             elif kind == ON_CORNER and touching == before:
                 lx, ly, lz = into(place, nx, ny, nz)

@@ -44,10 +44,10 @@ def measure_solids_on_meshes(
     root, bounds, nodes = meshes.root, meshes.bounds, meshes.nodes  # taken out once: each time counts references
     loop_start, loop_vertex, edges = hulls.loop_start, hulls.loop_vertex, hulls.edges
     corners, faces_most = most_of(hulls.vertex_start), most_of(hulls.face_start)
-    room = 2 * most_of(hulls.loop_start) + 8
+    most = 2 * most_of(hulls.loop_start) + 8
     v, planes = np.empty(3 * corners), np.empty(4 * faces_most)
     height, lean = np.empty(corners), np.empty(faces_most)
-    polygon, tag = np.empty(6 * room), np.empty(4 * room, np.int64)
+    polygon, tag = np.empty(6 * most), np.empty(4 * most, np.int64)
     own, ends = np.empty(BOX_ROOM), np.array([0, 1])
     found = np.empty(FEW, np.uint32)
     points, names, kept = np.empty(WIDTH * FEW), np.empty(FEW, np.int64), np.empty(MOST_MESH_POINTS, np.int64)
@@ -116,7 +116,7 @@ def measure_solids_on_meshes(
                 )  # fmt: skip
             if kind == FAR or gap > far or (hidden and (kind in (ON_TRIANGLE, ASIDE) or gap < -SAME_PLACE * width)):
                 continue
-            while touching + room > len(names):
+            while touching + most > len(names):
                 names, points = grown(names), grown(points)
             before = touching
             if kind == ON_POINT:
@@ -127,13 +127,13 @@ def measure_solids_on_meshes(
                 if level >= 0 and facing >= max(cosine, FLAT_COSINE):
                     touching = points_over_triangle(
                         v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
-                        t, radius, reach, found, near, polygon, tag, room, points, names, touching,
+                        t, radius, reach, found, near, polygon, tag, most, points, names, touching,
                     )  # fmt: skip
                 elif cosine >= FLAT_COSINE:
                     touching = points_over_face(
                         v, loop_vertex, loop_start[f], loop_start[f + 1],
                         planes[4 * level], planes[4 * level + 1], planes[4 * level + 2], planes[4 * level + 3],
-                        triangles, links, t, gap, reach, polygon, tag, room, points, names, touching,
+                        triangles, links, t, gap, reach, polygon, tag, most, points, names, touching,
                     )  # fmt: skip
                 as_deep_as(points, before, touching, nx, ny, nz, gap)
                 if touching == before:
@@ -147,12 +147,12 @@ def measure_solids_on_meshes(
                 touching = points_over_face(
                     v, loop_vertex, loop_start[f], loop_start[f + 1], -nx, -ny, -nz,
                     planes[4 * face + 3], triangles, links, t, gap, reach,
-                    polygon, tag, room, points, names, touching,
+                    polygon, tag, most, points, names, touching,
                 )  # fmt: skip
             elif p == SEGMENT:
                 touching = points_over_triangle(
                     v, ends, 0, 2, triangles, links, vertices, t, radius, reach, found, near,
-                    polygon, tag, room, points, names, touching,
+                    polygon, tag, most, points, names, touching,
                 )  # fmt: skip
             else:
                 if face < 0:
@@ -160,7 +160,7 @@ def measure_solids_on_meshes(
                 f = hulls.face_start[p] + face
                 touching = points_over_triangle(
                     v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
-                    t, radius, reach, found, near, polygon, tag, room, points, names, touching,
+                    t, radius, reach, found, near, polygon, tag, most, points, names, touching,
                 )  # fmt: skip
             if kind == ASIDE:  # what is beneath the triangle's plane, yet in front of the mesh, is beyond a thin part
                 for k in range(touching - 1, before - 1, -1):
