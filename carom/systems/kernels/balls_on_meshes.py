@@ -92,7 +92,7 @@ def measure_balls_on_meshes(
             )
         while touching > len(alike):
             place, gaps, alike = grown(place), grown(gaps), grown(alike)
-        chosen = choose_points(points, names, touching, SAME_PLACE * radius + LEAST_PART, kept, place, gaps, alike)
+        chosen = choose_points(points, names, touching, SAME_PLACE * radius + LEAST_PART, 0.0, kept, place, gaps, alike)
         count[p] = chosen
         taken = write_chosen(
             points, names, kept, chosen, px, py, pz, qx, qy, qz, qw, taken, feature, normal, depth, point

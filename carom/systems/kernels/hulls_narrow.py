@@ -10,8 +10,8 @@ from carom.systems.kernels.areas import points_of_area
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.distance import APART, FAR, distance_apart
 from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.low_points import reduce_lows
 from carom.systems.kernels.polyhedra import place_faces, place_vertices, polyhedron_of
-from carom.systems.kernels.reduction import reduce_area
 from carom.systems.kernels.separation import most_apart
 from carom.systems.kernels.spatial import turn
 from carom.systems.kernels.writing import write_points
@@ -63,6 +63,7 @@ def measure_hulls(
     near = np.empty(most_of(hulls.edge_start), np.int64)
     corner, name, weight = np.empty(12), np.empty(8, np.int64), np.empty(4)
     polygon, tag = np.empty(6 * most), np.empty(2 * most, np.int64)
+    most += corners
     place, gaps, names = np.empty(3 * most), np.empty(most), np.empty(most, np.int64)
     begin, end = part_of(crew, len(which))
     taken += room * begin
@@ -115,7 +116,7 @@ def measure_hulls(
             hulls, p, q, v, middle, end, planes, split, gap, nx, ny, nz, px, py, pz, reach,
             labels_p, labels_q, labels, polygon, tag, place, gaps, names,
         )  # fmt: skip
-        found = reduce_area(place, gaps, names, found, nx, ny, nz)
+        found = reduce_lows(place, gaps, names, found, nx, ny, nz)
         if found == 1:
             names[0] = 0  # a lone point is the pair itself, however the bodies roll
         count[pair] = found
@@ -153,7 +154,7 @@ def measure_hulls_on_planes(
                 gaps[found], names[found] = gap, c
                 place[3 * found], place[3 * found + 1], place[3 * found + 2] = v[3 * c], v[3 * c + 1], v[3 * c + 2]
                 found += 1
-        found = reduce_area(place, gaps, names, found, -nx, -ny, -nz)
+        found = reduce_lows(place, gaps, names, found, -nx, -ny, -nz)
         count[pair] = found
         taken = write_points(
             place, gaps, names, found, x, y, z, -nx, -ny, -nz, 1.0, 0.0, 0.0, taken, feature, normal, depth, point

@@ -3,17 +3,43 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import BETTER, LOWER
+from carom.systems.constants import BETTER, BIAS, LOWER
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.reduction import MOST_POINTS, extend_area, span_roughly, swap
+from carom.systems.kernels.reduction import (
+    MOST_POINTS,
+    SPANNING,
+    alternate,
+    extend_area,
+    put_deepest_first,
+    span_roughly,
+    swap,
+)
 from carom.systems.kernels.spatial import cross
+
+FAR = 1e300  # m
 
 
 @inlined
-def span_low(place, gaps, which, count, nx, ny, nz, least):
+def reduce_lows(place, gaps, names, count, nx, ny, nz):
+    """Do what `reduce_area` does for bodies that may roll onto further corners: with those that are lower than others.
+
+    A corner within what others span that is left out is what such a body rolls onto, and sinks in.
+    """
+    if count <= SPANNING:
+        return count
+    put_deepest_first(place, gaps, names, count)
+    kept = span_low(place, gaps, names, count, nx, ny, nz, BIAS, FAR)
+    if kept > SPANNING:
+        alternate(names, kept)
+    return kept
+
+
+@inlined
+def span_low(place, gaps, which, count, nx, ny, nz, least, near):
     """Do what `span_area` does, but of eight points those come first that are lower than what four span.
 
     Those bear. On land whose bumps are many and small all around an area is touched, and all but nothing within it.
+    Of those that do not touch there are more than four up to a gap that is ``near``.
     """
     kept = span_roughly(place, gaps, which, count, nx, ny, nz, least)
     found = with_low_ones(place, gaps, which, kept, count, nx, ny, nz, least)
@@ -21,7 +47,7 @@ def span_low(place, gaps, which, count, nx, ny, nz, least):
     if found < min(MOST_POINTS, count):
         for k in range(low - 1, -1, -1):
             swap(kept + k, count - low + k, place, gaps, which)
-        kept = extend_area(place, gaps, which, kept, MOST_POINTS - low, count - low, nx, ny, nz, least)
+        kept = extend_area(place, gaps, which, kept, MOST_POINTS - low, count - low, nx, ny, nz, least, near)
         for k in range(low):
             swap(kept + k, count - low + k, place, gaps, which)
     return kept + low

@@ -37,11 +37,12 @@ def as_deep_as(points, begin, end, nx, ny, nz, gap):
 
 
 @inlined
-def choose_points(points, names, count, least, kept, place, gaps, which):
+def choose_points(points, names, count, least, beyond, kept, place, gaps, which):
     """Write into ``kept`` which of the points stand for all; return how many.
 
     The deepest point's manifold takes all whose normal is within SAME_NORMAL, then the deepest left begins the next.
-    Of each those stay that `span_low` chooses; points nearer than ``least`` (m) are one. Names of points that are in a
+    Of each those stay that `span_low` chooses, of those that do not touch more than four only up to a gap ``beyond``;
+    points nearer than ``least`` (m) are one. Names of points that are in a
     manifold become -1 - name. ``place``, ``gaps`` and ``which`` are for the points of one manifold.
     """
     if count == 1:
@@ -67,7 +68,7 @@ def choose_points(points, names, count, least, kept, place, gaps, which):
                 if k == deepest:
                     swap(0, alike, place, gaps, which)
                 alike += 1
-        found = span_low(place, gaps, which, alike, nx, ny, nz, least)
+        found = span_low(place, gaps, which, alike, nx, ny, nz, least, max(least, beyond))
         for k in range(found):
             kept[taken] = which[k]
             taken += 1

@@ -24,14 +24,20 @@ def reduce_area(place, gaps, names, count, nx, ny, nz):
     """Keep at most eight points that stand for the area, the deepest and those of `span_area`; return their number."""
     if count <= SPANNING:
         return count
-    deepest, least = 0, gaps[0]
-    for k in range(1, count):  # chosen, not branched on: which it is is past foreseeing
-        deepest, least = (k, gaps[k]) if gaps[k] < least - BIAS else (deepest, least)
-    swap(0, deepest, place, gaps, names)
+    put_deepest_first(place, gaps, names, count)
     kept = span_area(place, gaps, names, count, nx, ny, nz, BIAS)
     if kept > SPANNING:
         alternate(names, kept)
     return kept
+
+
+@woven
+def put_deepest_first(place, gaps, names, count):
+    """Swap the deepest point and the first."""
+    deepest, least = 0, gaps[0]
+    for k in range(1, count):  # chosen, not branched on: which it is is past foreseeing
+        deepest, least = (k, gaps[k]) if gaps[k] < least - BIAS else (deepest, least)
+    swap(0, deepest, place, gaps, names)
 
 
 @woven
@@ -63,7 +69,7 @@ def span_area(place, gaps, names, count, nx, ny, nz, least):
     Return how many are chosen.
     """
     kept = span_roughly(place, gaps, names, count, nx, ny, nz, least)
-    return extend_area(place, gaps, names, kept, MOST_POINTS, count, nx, ny, nz, least)
+    return extend_area(place, gaps, names, kept, MOST_POINTS, count, nx, ny, nz, least, least)
 
 
 @woven
@@ -77,13 +83,16 @@ def span_roughly(place, gaps, names, count, nx, ny, nz, least):
     if farthest < 0:
         return 1
     swap(1, farthest, place, gaps, names)
-    kept = extend_area(place, gaps, names, 2, SPANNING, count, nx, ny, nz, least)
+    kept = extend_area(place, gaps, names, 2, SPANNING, count, nx, ny, nz, least, least)
     return with_other_end(place, gaps, names, count, least) if kept == 2 else kept
 
 
 @woven
-def extend_area(place, gaps, names, kept, room, count, nx, ny, nz, least):
-    """Move points that add area in among the ``kept`` ones, until there are as many as there is ``room`` for."""
+def extend_area(place, gaps, names, kept, room, count, nx, ny, nz, least, near):
+    """Move points that add area in among the ``kept`` ones, until there are as many as there is ``room`` for.
+
+    Those beyond four are no farther than ``near`` (m).
+    """
     while kept < min(room, count):
         widest, before, most = -1, 0, 0.0
         for e in range(kept):
@@ -94,7 +103,7 @@ def extend_area(place, gaps, names, kept, room, count, nx, ny, nz, least):
             sx, sy, sz = cross(ux, uy, uz, nx, ny, nz)
             for k in range(kept, count):
                 area = sx * (place[3 * k] - ox) + sy * (place[3 * k + 1] - oy) + sz * (place[3 * k + 2] - oz)
-                if area > max(most, slack) and (kept < SPANNING or gaps[k] <= least):
+                if area > max(most, slack) and (kept < SPANNING or gaps[k] <= near):
                     widest, before, most = k, e, area * (1.0 + BETTER)
         if widest < 0:
             break

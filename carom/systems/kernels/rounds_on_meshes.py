@@ -143,7 +143,7 @@ def measure_rounds_on_meshes(
                 )  # fmt: skip
         while touching > len(alike):
             place, gaps, alike = grown(place), grown(gaps), grown(alike)
-        chosen = choose_points(points, names, touching, SAME_PLACE * width, kept, place, gaps, alike)
+        chosen = choose_points(points, names, touching, SAME_PLACE * width, 0.0, kept, place, gaps, alike)
         count[pair] = chosen
         taken = write_chosen(
             points, names, kept, chosen, position[m, 0], position[m, 1], position[m, 2],

@@ -10,7 +10,7 @@ import numpy as np
 from carom.systems.constants import FLAT_COSINE, SAME_PLACE
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.hulls_narrow import most_of
-from carom.systems.kernels.mesh_areas import MOST_CORNERS, points_over_face, points_over_triangle
+from carom.systems.kernels.mesh_areas import MOST_CORNERS, corners_over_triangle, points_over_face, points_over_triangle
 from carom.systems.kernels.mesh_axes import ASIDE, FAR, ON_FACE, ON_POINT, ON_TRIANGLE, most_apart_from_triangle
 from carom.systems.kernels.mesh_boxes import BOX_ROOM, most_apart_from_box, place_box
 from carom.systems.kernels.mesh_points import (
@@ -116,7 +116,7 @@ def measure_solids_on_meshes(
                 )  # fmt: skip
             if kind == FAR or gap > far or (hidden and (kind in (ON_TRIANGLE, ASIDE) or gap < -SAME_PLACE * width)):
                 continue
-            while touching + most > len(names):
+            while touching + most + end > len(names):
                 names, points = grown(names), grown(points)
             before = touching
             if kind == ON_POINT:
@@ -129,6 +129,11 @@ def measure_solids_on_meshes(
                         v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
                         t, radius, reach, found, near, polygon, tag, most, points, names, touching,
                     )  # fmt: skip
+                    if p >= BOX:
+                        touching = corners_over_triangle(
+                            v, end, loop_vertex, loop_start[f], loop_start[f + 1], triangles, t, reach,
+                            points, names, touching,
+                        )  # fmt: skip
                 elif cosine >= FLAT_COSINE:
                     touching = points_over_face(
                         v, loop_vertex, loop_start[f], loop_start[f + 1],
@@ -162,6 +167,11 @@ def measure_solids_on_meshes(
                     v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
                     t, radius, reach, found, near, polygon, tag, most, points, names, touching,
                 )  # fmt: skip
+                if p >= BOX:
+                    touching = corners_over_triangle(
+                        v, end, loop_vertex, loop_start[f], loop_start[f + 1], triangles, t, reach,
+                        points, names, touching,
+                    )  # fmt: skip
             if kind == ASIDE:  # what is beneath the triangle's plane, yet in front of the mesh, is beyond a thin part
                 for k in range(touching - 1, before - 1, -1):
                     i = WIDTH * k
@@ -176,7 +186,9 @@ def measure_solids_on_meshes(
                             points[i + d] = points[WIDTH * touching + d]
         while touching > len(alike):
             place, gaps, alike = grown(place), grown(gaps), grown(alike)
-        chosen = choose_points(points, names, touching, SAME_PLACE * width, kept, place, gaps, alike)
+        chosen = choose_points(
+            points, names, touching, SAME_PLACE * width, reach if p >= BOX else 0.0, kept, place, gaps, alike
+        )
         count[pair] = chosen
         taken = write_chosen(
             points, names, kept, chosen, ox, oy, oz, qx, qy, qz, qw, taken, feature, normal, depth, point
