@@ -103,7 +103,8 @@ def recycle_contacts(
                 row_a[c], row_b[c] = x, y
             if c == first or not alike:
                 flat_x, flat_y = is_flat_where_seated(x, c, lean_a, shape), is_flat_where_seated(y, c, lean_b, shape)
-                share[c] = share_of_b(flat_x, flat_y and placed[k + WIDTH * 7] <= LEANING * LEANING)
+                flat_y &= placed[k + WIDTH * 7] <= LEANING * LEANING  # normals go with x, from which y may have turned
+                share[c] = share_of_b(flat_x, flat_y)
             else:
                 share[c] = share[first]
             count += 1

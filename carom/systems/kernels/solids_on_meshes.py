@@ -10,9 +10,10 @@ import numpy as np
 from carom.systems.constants import FLAT_COSINE, SAME_PLACE
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.hulls_narrow import most_of
-from carom.systems.kernels.mesh_areas import MOST_CORNERS, corners_over_triangle, points_over_face, points_over_triangle
+from carom.systems.kernels.mesh_areas import MOST_CORNERS, points_over_face, points_over_triangle
 from carom.systems.kernels.mesh_axes import ASIDE, FAR, ON_FACE, ON_POINT, ON_TRIANGLE, most_apart_from_triangle
 from carom.systems.kernels.mesh_boxes import BOX_ROOM, most_apart_from_box, place_box
+from carom.systems.kernels.mesh_corners import solid_over_triangle
 from carom.systems.kernels.mesh_points import (
     MOST_MESH_POINTS,
     WIDTH,
@@ -125,15 +126,10 @@ def measure_solids_on_meshes(
                 f = hulls.face_start[p] + level
                 # Where edges cross all but level with an area, all of that is as near, and not one end or the other.
                 if level >= 0 and facing >= max(cosine, FLAT_COSINE):
-                    touching = points_over_triangle(
-                        v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
+                    touching = solid_over_triangle(
+                        v, end, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
                         t, radius, reach, found, near, polygon, tag, most, points, names, touching,
                     )  # fmt: skip
-                    if p >= BOX:
-                        touching = corners_over_triangle(
-                            v, end, loop_vertex, loop_start[f], loop_start[f + 1], triangles, t, reach,
-                            points, names, touching,
-                        )  # fmt: skip
                 elif cosine >= FLAT_COSINE:
                     touching = points_over_face(
                         v, loop_vertex, loop_start[f], loop_start[f + 1],
@@ -163,15 +159,10 @@ def measure_solids_on_meshes(
                 if face < 0:
                     face, _ = face_towards(hulls, p, v, 0, end, planes, 0, -nx, -ny, -nz)
                 f = hulls.face_start[p] + face
-                touching = points_over_triangle(
-                    v, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
+                touching = solid_over_triangle(
+                    v, end, loop_vertex, loop_start[f], loop_start[f + 1], triangles, links, vertices,
                     t, radius, reach, found, near, polygon, tag, most, points, names, touching,
                 )  # fmt: skip
-                if p >= BOX:
-                    touching = corners_over_triangle(
-                        v, end, loop_vertex, loop_start[f], loop_start[f + 1], triangles, t, reach,
-                        points, names, touching,
-                    )  # fmt: skip
             if kind == ASIDE:  # what is beneath the triangle's plane, yet in front of the mesh, is beyond a thin part
                 for k in range(touching - 1, before - 1, -1):
                     i = WIDTH * k
