@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(bool(numba.config.DISABLE_JIT), reason="kernels 
 COUNT = 90
 ANGLES = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)
 RIMS = [(0.3 * np.cos(a), y, 0.3 * np.sin(a)) for a in ANGLES for y in (-0.1, 0.1)]
-#: Shapes that lie 10 cm above where they touch down, faces of many corners among them.
+#: Shapes whose middles are 10 cm above what they lie on, faces of many corners among them.
 LYING: dict[str, Any] = {
     "prism": {"convex": {"points": RIMS}},
     "cylinder": {"cylinder": {"radius": 0.3, "length": 0.2}},

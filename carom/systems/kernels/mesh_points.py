@@ -41,9 +41,9 @@ def choose_points(points, names, count, least, beyond, kept, place, gaps, which)
     """Write into ``kept`` which of the points stand for all; return how many.
 
     The deepest point's manifold takes all whose normal is within SAME_NORMAL, then the deepest left begins the next.
-    Of each those stay that `span_low` chooses, of those that do not touch more than four only up to a gap ``beyond``;
-    points nearer than ``least`` (m) are one. Names of points that are in a
-    manifold become -1 - name. ``place``, ``gaps`` and ``which`` are for the points of one manifold.
+    Of each those stay that `span_low` chooses, more than four that do not touch only up to a gap ``beyond``; points
+    nearer than ``least`` (m) are one. Names of points that are in a manifold become -1 - name. ``place``, ``gaps`` and
+    ``which`` are for the points of one manifold.
     """
     if count == 1:
         kept[0], names[0] = 0, -1 - names[0]

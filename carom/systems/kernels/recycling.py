@@ -53,8 +53,9 @@ def recycle_contacts(
     the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known`` to be
     what they were, or that reaches farther by as much, so that it may have more: its contacts stay as they are. Those
     of balls are found up to where they leave (REACH_KEPT). ``seat``, ``lean`` and ``seat_depth`` say where the points
-    and the normal were found on the two shapes, ``seat_reach`` up to which gap. Those placed are ``kept``. Each thread
-    has a row of ``ends``, where those and its pairs end: behind them are those of the next.
+    and the normal were found on the two shapes, ``seat_reach`` up to which gap. Those placed are ``kept``, and it is
+    written where they are from their bodies. Each thread has a row of ``ends``, where those and its pairs end: behind
+    them are those of the next.
     """
     begin_pair, end_pair = part_of(crew, len(pairs))
     placed = np.empty(PLACED * (old_count + WIDTH))  # of one pair, eight at a time: depth, normal, point, how it leans
