@@ -95,10 +95,8 @@ class Fast(Resource):
         return found.without(far, number)
 
     def let_go(self, contact: Contact) -> None:
-        """Let contacts of pairs that are looked after strike again, whose bodies may turn onto another point."""
-        pairs = self.pairs
-        if len(pairs):
-            let_go(pairs, contact.count, contact.row_a, contact.row_b, contact.resting)
+        """Let contacts strike again of pairs of which one is new, or that are looked after: they may turn onto one."""
+        let_go(self.pairs, contact.count, contact.row_a, contact.row_b, contact.resting)
 
     def next_look(self, world: World, span: float, *, found: bool) -> float:
         """Return in how many seconds somebody is to be detected anew as all move now; infinity beyond ``span``.

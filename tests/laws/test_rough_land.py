@@ -105,16 +105,12 @@ def test_bodies_come_to_rest_at_the_bottom_of_an_icy_valley(steep: float) -> Non
     assert np.abs(motion.linear[rows]).max() < 1e-4
 
 
-SQUEEZED = "9 mm: it strikes while the other side bears it, and two sweeps leave 2 m/s of that, as centres hardly part"
-
-
-@pytest.mark.parametrize(
-    "seed", [2, 3, 4, pytest.param(13, marks=pytest.mark.xfail(strict=True, reason=SQUEEZED)), 31, 33, 36, 37]
-)
+@pytest.mark.parametrize("seed", [2, 3, 4, 13, 17, 23, 31, 33, 36, 37])
 def test_a_hull_that_slides_down_one_side_of_a_valley_does_not_swing_through_the_other(seed: int) -> None:
     """Flat hulls that come 6 cm in a step touch it first, while the other side is too far to be trusted.
 
-    Or they roll onto further corners. They came 1 to 5 cm into that, for one step.
+    Or they roll onto further corners, or strike it while the first bears them, when their centres hardly part. They
+    came 1 to 5 cm into that, for one step.
     """
     hull = Convex(hull_of(np.random.default_rng(1).normal(size=(12, 3)) * [0.3, 0.1, 0.3]))
     simulation, random = Simulation(checked=False), np.random.default_rng(seed)

@@ -272,8 +272,15 @@ def find_far(pairs, numbers, row_a, row_b, depth, far):
 
 @kernel("resting")
 def let_go(pairs, count, row_a, row_b, resting):
-    """Say that no contact of these pairs rests."""
-    p = 0
-    for c in range(count):
-        p = first_of_pairs(p, pairs, row_a[c], row_b[c])
-        resting[c] = resting[c] and not is_of_pair(p, pairs, row_a[c], row_b[c])
+    """Say that no contact of these pairs rests, nor of any other of which one does not: it is new, and to strike."""
+    p, begin = 0, 0
+    while begin < count:
+        end, all_rest = begin, True
+        while end < count and row_a[end] == row_a[begin] and row_b[end] == row_b[begin]:
+            all_rest &= resting[end]
+            end += 1
+        p = first_of_pairs(p, pairs, row_a[begin], row_b[begin])
+        rests = all_rest and not is_of_pair(p, pairs, row_a[begin], row_b[begin])
+        for c in range(begin, end):
+            resting[c] = rests
+        begin = end

@@ -116,13 +116,13 @@ def press_groups(
                         if not some(concerned):
                             continue
                         put_aside(g, row[g], points[g], asks[g], of_a, of_b, lanes, bodies, kept)
-                    change, starts = press(
-                        g, row[g], points[g], asks[g], 1.0 / h, rate, hardness,
+                    excess, starts = press(
+                        g, row[g], points[g], asks[g], 1.0 / h, rate, hardness, limit, g < ends[0],
                         of_a, of_b, lanes, bodies, scratch,
                     )  # fmt: skip
                     if again:
                         put_back(concerned, g, row[g], points[g], asks[g], ended, of_a, of_b, lanes, bodies, kept)
-                        change = choose(concerned, change, spread(0.0))
+                        excess = choose(concerned, excess, spread(0.0))
                         go_on = are_stirred(g, sweep, index_a, index_b, stirred)
                         stirs_some |= some(choose(concerned, go_on, spread(0.0)))
                     elif ended and last:
@@ -130,8 +130,8 @@ def press_groups(
                     if last and not again and some(starts):
                         stir(g, sweep + START_SWEEPS - 1, which(starts), index_a, index_b, velocity, crushed, stirred)
                         stirs_some = True
-                    if last and some(change - limit):
-                        stir(g, sweep, which(change - limit), index_a, index_b, velocity, crushed, stirred)
+                    if last and some(excess):
+                        stir(g, sweep, which(excess), index_a, index_b, velocity, crushed, stirred)
                         stirs_some = True
             passed += 1
             if level == levels - 1:
@@ -161,26 +161,28 @@ def sum_impulses(r, points, lanes):
 
 
 @woven
-def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lanes, bodies, scratch):
+def press(g, r, points, asks, per_second, rate, hardness, limit, both_yield, index_a, index_b, lanes, bodies, scratch):
     """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling.
 
     All but rolling is found in the frames of manifolds, and what bodies move by is added up once.
-    Return by how much that changes how fast bodies part, and more than 0 where no point has pressed before: friction
-    turns bodies, against which points cannot press before the next sweep. Balls need none for that.
+    Return more than 0 where that changes by more than the ``limit`` (m/s) how fast bodies part: their centres where
+    ``both_yield``, else each of their points, of flat ones many times as fast. And more than 0 where no point has
+    pressed before: friction turns bodies, against which points cannot press before the next sweep. Balls need none.
     """
     if asks == BALLS:
-        return press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies), spread(0.0)
+        return press_balls(g, r, per_second, rate, hardness, limit, index_a, index_b, lanes, bodies), spread(0.0)
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     parting, slipping = parting_of(r, lanes, a, b), slip(r, lanes, a, b)
     # Loops over a known number of points are unrolled.
     if points == 1:
-        total, twisting, push, by_t, by_u = press_points(1, r, per_second, rate, hardness, parting, lanes, scratch)
+        solved = press_points(1, r, per_second, rate, hardness, limit, parting, lanes, scratch)
     elif points == 2:
-        total, twisting, push, by_t, by_u = press_points(2, r, per_second, rate, hardness, parting, lanes, scratch)
+        solved = press_points(2, r, per_second, rate, hardness, limit, parting, lanes, scratch)
     elif points == 3:
-        total, twisting, push, by_t, by_u = press_points(3, r, per_second, rate, hardness, parting, lanes, scratch)
+        solved = press_points(3, r, per_second, rate, hardness, limit, parting, lanes, scratch)
     else:
-        total, twisting, push, by_t, by_u = press_points(4, r, per_second, rate, hardness, parting, lanes, scratch)
+        solved = press_points(4, r, per_second, rate, hardness, limit, parting, lanes, scratch)
+    total, twisting, push, by_t, by_u, excess = solved
     if asks == ROLLING:
         a, b = pressed(r, lanes, a, b, push, by_t, by_u)
         a, b = roll(g, r, total, twisting, a, b, index_a, index_b, lanes, bodies)
@@ -196,15 +198,16 @@ def press(g, r, points, asks, per_second, rate, hardness, index_a, index_b, lane
     if points > 1:  # one point cannot hold up what turns over it
         second = load(lanes, r + MANIFOLD_ROWS + POINT_ROWS + of.DEPTH) - spread(0.5 * ABSENT)
         starts = choose(second, choose(total - push, spread(0.0), total), spread(0.0))
-    return parted_by(push, a, b), starts
+    return parted_by(push, a, b) - limit if both_yield else excess, starts
 
 
 @woven
-def press_points(points, r, per_second, rate, hardness, parting, lanes, scratch):
+def press_points(points, r, per_second, rate, hardness, limit, parting, lanes, scratch):
     """Solve the points of a group, of which bodies are ``parting`` so (`parting_of`).
 
     Return the sum of the impulses, that of each times its distance from the middle, by how much the sum has changed,
-    and the twists about the tangents that come with it.
+    the twists about the tangents that come with it, and more than 0 where one changes how fast its point parts by more
+    than the ``limit`` (m/s).
     Each point has a target, the impulse that is `aimed_at`; others move it, and the bodies learn of all at once. What
     all need alike comes first, then one after the other what it lacks.
     """
@@ -231,16 +234,17 @@ def press_points(points, r, per_second, rate, hardness, parting, lanes, scratch)
                     x = SCRATCH_ROWS * o
                     coupling = load(scratch, x + STIFF) * load(lanes, couplings(r, points) + pair(max(p, o), min(p, o)))
                     store(scratch, x + TARGET, load(scratch, x + TARGET) - coupling * j)
-    total, twisting, push, by_t, by_u = zero, zero, zero, zero, zero
+    total, twisting, push, by_t, by_u, excess = zero, zero, zero, zero, zero, zero
     for p in range(points):
         q, after = r + MANIFOLD_ROWS + POINT_ROWS * p, load(scratch, SCRATCH_ROWS * p + IMPULSE)
         j = after - load(lanes, q + of.WARM)
         store(lanes, q + of.WARM, after)
         total, push = total + after, push + j
+        excess = larger(excess, larger(j, -j) - limit * load(lanes, q + of.MASS))
         if points > 1:  # else it is the middle
             twisting = twisting + after * load(lanes, q + of.AWAY)
             by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
-    return total, twisting, push, by_t, by_u
+    return total, twisting, push, by_t, by_u, excess
 
 
 @woven

@@ -82,10 +82,10 @@ def press_balls_warm(g, r, index_a, index_b, lanes, bodies):
 
 
 @woven
-def press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodies):
+def press_balls(g, r, per_second, rate, hardness, limit, index_a, index_b, lanes, bodies):
     """Solve a group once, as `press_points` and `rub` do: what parts balls does not rub them, so that both are one.
 
-    Return by how much that changes how fast they part.
+    Return more than 0 where that changes how fast they part by more than the ``limit`` (m/s).
     """
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     q, zero = r + MANIFOLD_ROWS, spread(0.0)
@@ -101,7 +101,7 @@ def press_balls(g, r, per_second, rate, hardness, index_a, index_b, lanes, bodie
     a, b = struck_balls(r, lanes, a, b, after - before, minus(new, f))
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
-    return parted_by(after - before, a, b)
+    return parted_by(after - before, a, b) - limit
 
 
 @woven
