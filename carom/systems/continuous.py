@@ -138,11 +138,12 @@ class Fast(Resource):
 
     def _times(self, world: World, center: Floats, span: float, *, found: bool, first_only: bool = False) -> Floats:
         """Return when (n,) each pair is to be looked at again."""
-        motion, of = world[Motion], self.all
+        motion, flight, of = world[Motion], world[Flight], self.all
         times = np.empty(len(of.pairs))
         foresee_meetings(
             span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular,
-            accelerations(world), *of.looked, *self.land, of.asked, of.near, of.left, times,
+            accelerations(world), flight.detected_center, flight.detected_rotation, *of.looked, *self.land, of.asked,
+            of.near, of.left, times,
         )  # fmt: skip
         return times
 

@@ -74,14 +74,14 @@ def lowest(simulation: Simulation, body: int, shape: Shape) -> float:
     [
         ("plane", (47, 53, 111, 193, 175, 186, 131, 195)),
         ("box", (45, 193, 47, 23, 177, 121, 131, 84)),
-        ("mesh", (193, 47, 23, 101, 121, 177, 131, 195)),
+        ("mesh", (193, 47, 23, 101, 121, 177, 131, 195, 59, 173)),
     ],
 )
 def test_hulls_that_roll_over_an_edge_do_not_sink_in(floor: str, seeds: tuple[int, ...]) -> None:
     """Corners that they come down to next are contacts before, however many others are spread farther or higher.
 
-    They sank in by 11 to 27 mm, for a step or several; the last two of each by 5 mm, as a corner that was found while
-    others bore them neither bore nor struck.
+    They sank in by 11 to 27 mm, for a step or several. The last of each came 3 to 6 mm in: a corner that was found
+    while others bore them neither bore nor struck, and contacts with meshes were trusted anew in each substep.
     """
     for seed in seeds:
         simulation, body, shape = thrown("hull", floor, seed, checked=False, material=ROUGH)

@@ -93,6 +93,8 @@ def detect(world: World, left: float, soon: float) -> None:
         if not rouse(world, found):
             break
         reach_within(world, left)
+    if len(found.row_a) or len(fast[0]):
+        np.copyto(world[Flight].detected_rotation, world[Transform].rotation)
     world[Fast].find(world, *fast, free, found, left)
     store(world, without_seams(world, world[Fast].trusted(world, found)))
 
@@ -117,8 +119,6 @@ def store(world: World, found: Found) -> None:
     if not known:
         resting.belts = bool(world[Collider].surface_velocity.any())
     world.resize(Contact, count)
-    if count:
-        np.copyto(world[Flight].detected_rotation, world[Transform].rotation)
     places, same = fill(world, found, old_count, known=known) if count or old_count else (False, False)
     group_contacts(world, places=places, same=same)
     resting.structure, resting.awake = world.structure, world[Awake].now(world)

@@ -109,19 +109,35 @@ def meet(
     return time, 0.0
 
 
+@inlined
+def was_near(
+    p, i, o, numbers, core, vertices, center, turns, linear, angular,
+    local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+):  # fmt: skip
+    """Tell whether the two cores of pair p were so near where bodies were that their contact is trusted."""
+    put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+    put(1, o, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+    write_place(position, rotation, 0, 1, place)
+    reach = numbers[p, 3] + core[AROUND] + core[CORE + AROUND]
+    state, gap, _, _, _, _, _, _ = near(
+        core, place, vertices, 0.0, 1.0, 0.0, reach, CAST_GAP, corner, name, weight, seen
+    )
+    return state == MEETING or (state != FAR and gap <= reach)
+
+
 @kernel("room", "near", "left", "times", makes_arrays=True, within=True)
 def foresee_meetings(
-    span, first_only, found, center, turns, linear, angular, felt,
+    span, first_only, found, center, turns, linear, angular, felt, detected_center, detected_turns,
     bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
     asked, near, left, times,
 ):  # fmt: skip
     """Write when (s) each pair of ``bodies`` that is ``asked`` is to be detected anew as they move now.
 
     NEVER if not in ``span``. Where contacts have been ``found``, who has been ``near`` ever since is trusted for a way
-    that is written into ``left`` (m), but of meshes, of which some triangles may be near and others not. Else it is for
-    what is left of that. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both
-    shapes about the centres of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and
-    three more for a triangle of a mesh, which is the first of a pair that has one of ``roots``.
+    that is written into ``left`` (m); of a mesh it is the triangles that were, where bodies were ``detected``. Else
+    that goes for what is left of it. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are
+    of both shapes about the centres of their bodies, of what stands in the world. ``room`` are the vertices of all
+    hulls, and three more for a triangle of a mesh, which is the first of a pair that has one of ``roots``.
     """
     place = np.empty(PLACE)
     corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
@@ -134,11 +150,13 @@ def foresee_meetings(
         i, o, core = bodies[p, 0], bodies[p, 1], cores[p]
         limit, soonest, known, trusted = sooner if first_only else span, NEVER, found and near[p], 0.0
         if not known and left[p] > 0.0:
-            times[p] = 0.0
+            soonest = 0.0
             if left[p] > MEET * numbers[p, 3]:
-                times[p] = time_of_way(left[p], most_of(p, i, o, limit, numbers, linear, angular, felt)[1], limit)
-            sooner = min(sooner, times[p])
-            continue
+                soonest = time_of_way(left[p], most_of(p, i, o, limit, numbers, linear, angular, felt)[1], limit)
+            if roots[p] < 0 or soonest == 0.0:
+                times[p] = soonest
+                sooner = min(sooner, times[p])
+                continue
         if roots[p] < 0:
             times[p], trusted = meet(
                 p, i, o, limit, known, numbers, core, room, center, turns, linear, angular, felt,
@@ -162,7 +180,15 @@ def foresee_meetings(
                     p, i, o, min(limit, soonest), known, numbers, core, room, center, turns, linear, angular, felt,
                     local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
                 )  # fmt: skip
+                if way > 0.0 and not was_near(
+                    p, i, o, numbers, core, room, detected_center, detected_turns, linear, angular,
+                    local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+                ):  # fmt: skip
+                    time, way = meet(
+                        p, i, o, min(limit, soonest), False, numbers, core, room, center, turns, linear, angular, felt,
+                        local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+                    )  # fmt: skip
                 soonest, trusted = min(soonest, time), max(trusted, way)
-            times[p] = soonest
+            times[p], left[p] = soonest, trusted if found else left[p]
         sooner = min(sooner, times[p])
         near[p] = near[p] and (trusted > 0.0 or not found)
