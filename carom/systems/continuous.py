@@ -142,8 +142,8 @@ class Fast(Resource):
         times = np.empty(len(of.pairs))
         foresee_meetings(
             span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular,
-            accelerations(world), flight.detected_center, flight.detected_rotation, *of.looked, *self.land, of.asked,
-            of.near, of.left, times,
+            accelerations(world), flight.detected_center, flight.detected_rotation, flight.reach,
+            *of.looked, *self.land, of.asked, of.near, of.left, times,
         )  # fmt: skip
         return times
 

@@ -75,8 +75,8 @@ def without_seeming(
     land = look_at(world, free.copy(), center, looked)  # of meshes the sides change places
     foresee_meetings(
         span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, accelerations(world),
-        center, world[Transform].rotation, *looked, *land, *np.ones((2, len(free)), np.bool_), np.zeros(len(free)),
-        times,
+        center, world[Transform].rotation, world[Flight].reach, *looked, *land,
+        np.ones(len(free), np.bool_), np.zeros(len(free), np.bool_), np.zeros(len(free)), times,
     )  # fmt: skip
     passes = times == NEVER
     reaches[:, 3] *= MEET  # they are looked at until they are as near as that

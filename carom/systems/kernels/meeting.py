@@ -11,7 +11,7 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import CAST_GAP, MEET, MOST_LOOKS
+from carom.systems.constants import CAST_GAP, FAST, MEET, MOST_LOOKS, TRUST
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, write_place
 from carom.systems.kernels.distance import APART, FAR, MEETING
@@ -110,34 +110,41 @@ def meet(
 
 
 @inlined
-def was_near(
-    p, i, o, numbers, core, vertices, center, turns, linear, angular,
-    local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
-):  # fmt: skip
-    """Tell whether the two cores of pair p were so near where bodies were that their contact is trusted."""
-    put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
-    put(1, o, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
-    write_place(position, rotation, 0, 1, place)
-    reach = numbers[p, 3] + core[AROUND] + core[CORE + AROUND]
-    state, gap, _, _, _, _, _, _ = near(
-        core, place, vertices, 0.0, 1.0, 0.0, reach, CAST_GAP, corner, name, weight, seen
-    )
-    return state == MEETING or (state != FAR and gap <= reach)
+def covered_by(p, i, o, numbers, reach, center, turns, detected_center, detected_turns):
+    """Return by how much (m) pair p may still move before points touch that were too far to be contacts.
+
+    Those were sought as far as both bodies ``reach``, or as the pair had to come to be fast, whichever is farther.
+    """
+    covered = max((reach[i] if i >= 0 else 0.0) + (reach[o] if o >= 0 else 0.0), FAST / TRUST * numbers[p, 3])
+    squared = 0.0
+    for k in range(3):
+        way = (center[i, k] - detected_center[i, k]) if i >= 0 else 0.0
+        way -= (center[o, k] - detected_center[o, k]) if o >= 0 else 0.0
+        squared += way * way
+    covered -= sqrt(squared)
+    for side in range(2):
+        body, cosine = i if side == 0 else o, 0.0  # of half the angle by which it has turned
+        for k in range(4 if body >= 0 else 0):
+            cosine += turns[body, k] * detected_turns[body, k]
+        if body >= 0:
+            covered -= 2.0 * sqrt(max(0.0, 1.0 - cosine * cosine)) * numbers[p, side]
+    return max(0.0, covered)
 
 
 @kernel("room", "near", "left", "times", makes_arrays=True, within=True)
 def foresee_meetings(
-    span, first_only, found, center, turns, linear, angular, felt, detected_center, detected_turns,
+    span, first_only, found, center, turns, linear, angular, felt, detected_center, detected_turns, reach,
     bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
     asked, near, left, times,
 ):  # fmt: skip
     """Write when (s) each pair of ``bodies`` that is ``asked`` is to be detected anew as they move now.
 
     NEVER if not in ``span``. Where contacts have been ``found``, who has been ``near`` ever since is trusted for a way
-    that is written into ``left`` (m); of a mesh it is the triangles that were, where bodies were ``detected``. Else
-    that goes for what is left of it. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are
-    of both shapes about the centres of their bodies, of what stands in the world. ``room`` are the vertices of all
-    hulls, and three more for a triangle of a mesh, which is the first of a pair that has one of ``roots``.
+    that is written into ``left`` (m), but of meshes, of which some triangles may be near and others not. Else it is for
+    what is left of that. Nor is he trusted farther than contacts were sought (`covered_by`) where bodies had been
+    ``detected``. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both shapes about
+    the centres of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and three more for
+    a triangle of a mesh, which is the first of a pair that has one of ``roots``.
     """
     place = np.empty(PLACE)
     corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
@@ -153,12 +160,8 @@ def foresee_meetings(
             soonest = 0.0
             if left[p] > MEET * numbers[p, 3]:
                 soonest = time_of_way(left[p], most_of(p, i, o, limit, numbers, linear, angular, felt)[1], limit)
-            if roots[p] < 0 or soonest == 0.0:
-                times[p] = soonest
-                sooner = min(sooner, times[p])
-                continue
-        if roots[p] < 0:
-            times[p], trusted = meet(
+        elif roots[p] < 0:
+            soonest, trusted = meet(
                 p, i, o, limit, known, numbers, core, room, center, turns, linear, angular, felt,
                 local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
             )  # fmt: skip
@@ -180,15 +183,11 @@ def foresee_meetings(
                     p, i, o, min(limit, soonest), known, numbers, core, room, center, turns, linear, angular, felt,
                     local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
                 )  # fmt: skip
-                if way > 0.0 and not was_near(
-                    p, i, o, numbers, core, room, detected_center, detected_turns, linear, angular,
-                    local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
-                ):  # fmt: skip
-                    time, way = meet(
-                        p, i, o, min(limit, soonest), False, numbers, core, room, center, turns, linear, angular, felt,
-                        local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
-                    )  # fmt: skip
                 soonest, trusted = min(soonest, time), max(trusted, way)
-            times[p], left[p] = soonest, trusted if found else left[p]
-        sooner = min(sooner, times[p])
         near[p] = near[p] and (trusted > 0.0 or not found)
+        if near[p]:
+            covered = covered_by(p, i, o, numbers, reach, center, turns, detected_center, detected_turns)
+            most = most_of(p, i, o, limit, numbers, linear, angular, felt)[1]
+            soonest = min(soonest, time_of_way(covered, most, limit))
+        times[p] = soonest
+        sooner = min(sooner, soonest)

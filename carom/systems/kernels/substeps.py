@@ -140,7 +140,7 @@ def take_substeps(
         if len(fast):
             stray(k * h, fast, numbers, linear, angular, linear, found_angular, asked)  # planes of contacts stay
             look(
-                h, True, True, center, rotation, linear, angular, felt, detected_center, detected_rotation,
+                h, True, True, center, rotation, linear, angular, felt, detected_center, detected_rotation, reach,
                 fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
                 asked, near, left, times,
             )  # fmt: skip
