@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.spatial import turn
+from carom.systems.kernels.spatial import product, spun, turn
 
 
 @inlined
@@ -24,3 +24,22 @@ def placed(position, rotation, row, x, y, z):
     """Return a place of the row's frame in the world."""
     x, y, z = turned(rotation, row, x, y, z)
     return position[row, 0] + x, position[row, 1] + y, position[row, 2] + z
+
+
+@inlined
+def put(side, i, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation):
+    """Write where a shape of pair p is ``time`` seconds on, as its body moves and turns now."""
+    x, y, z = local_position[p, side, 0], local_position[p, side, 1], local_position[p, side, 2]
+    lx, ly, lz, lw = (
+        local_rotation[p, side, 0], local_rotation[p, side, 1], local_rotation[p, side, 2], local_rotation[p, side, 3]
+    )  # fmt: skip
+    if i >= 0:
+        qx, qy, qz, qw = spun(
+            turns[i, 0], turns[i, 1], turns[i, 2], turns[i, 3], angular[i, 0], angular[i, 1], angular[i, 2], time
+        )
+        x, y, z = turn(qx, qy, qz, qw, x, y, z)
+        x, y, z = x + center[i, 0], y + center[i, 1], z + center[i, 2]
+        x, y, z = x + time * linear[i, 0], y + time * linear[i, 1], z + time * linear[i, 2]
+        lx, ly, lz, lw = product(qx, qy, qz, qw, lx, ly, lz, lw)
+    position[side, 0], position[side, 1], position[side, 2] = x, y, z
+    rotation[side, 0], rotation[side, 1], rotation[side, 2], rotation[side, 3] = lx, ly, lz, lw

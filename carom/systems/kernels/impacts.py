@@ -131,8 +131,8 @@ def fly(
                         detected_rotation, at_a, at_b, deep,
                     )  # fmt: skip
                 foreseen = foresee_blow(
-                    p, beginning[number[m] + 1], now, h, sink, bend, center, linear, angular, time, acceleration,
-                    body_a, body_b, normal, deep, at_a, at_b, start_center, turned, resting,
+                    p, beginning[number[m] + 1], now, h, sink, strikes[p] > 0, bend, center, linear, angular, time,
+                    acceleration, body_a, body_b, normal, deep, at_a, at_b, start_center, turned, resting,
                 )  # fmt: skip
                 enter_time(soonest, leaves + m, foreseen)
                 continue

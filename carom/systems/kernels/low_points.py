@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import BETTER, BIAS, LOWER
+from carom.systems.constants import AS_LOW, BETTER, BIAS, LOWER
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.reduction import (
     MOST_POINTS,
@@ -47,10 +47,30 @@ def span_low(place, gaps, which, count, nx, ny, nz, least, near):
     if found < min(MOST_POINTS, count):
         for k in range(low - 1, -1, -1):
             swap(kept + k, count - low + k, place, gaps, which)
-        kept = extend_area(place, gaps, which, kept, MOST_POINTS - low, count - low, nx, ny, nz, least, near)
+        alike = min(near, max(gaps[0], 0.0) + AS_LOW)
+        kept = extend_area(place, gaps, which, kept, MOST_POINTS - low, count - low, nx, ny, nz, least, alike)
+        kept = extend_lowest(place, gaps, which, kept, MOST_POINTS - low, count - low, nx, ny, nz, least, near)
         for k in range(low):
             swap(kept + k, count - low + k, place, gaps, which)
     return kept + low
+
+
+@inlined
+def extend_lowest(place, gaps, which, kept, room, count, nx, ny, nz, least, near):
+    """Do what `extend_area` does, but the lowest points first, whatever area they add."""
+    last = count
+    while kept < min(room, last):
+        lowest = kept
+        for k in range(kept + 1, last):
+            lowest = k if gaps[k] < gaps[lowest] else lowest
+        if gaps[lowest] > near:
+            break
+        wider = extend_area(place, gaps, which, kept, kept + 1, last, nx, ny, nz, least, gaps[lowest])
+        if wider == kept:
+            last -= 1
+            swap(lowest, last, place, gaps, which)
+        kept = wider
+    return kept
 
 
 @inlined

@@ -11,36 +11,20 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import CAST_GAP, FAST, MEET, MOST_LOOKS, TRUST
+from carom.systems.constants import CAST_GAP, MEET, MOST_LOOKS
+from carom.systems.kernels.arriving import came_since, somebody_arrives, sought_to
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, write_place
 from carom.systems.kernels.distance import APART, FAR, MEETING
+from carom.systems.kernels.expansion import expand
 from carom.systems.kernels.fast_pairs import NEVER, between
-from carom.systems.kernels.frames import turned, turned_back
+from carom.systems.kernels.frames import put, turned, turned_back
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles
 from carom.systems.kernels.nearing import MOST_STEPS, near
-from carom.systems.kernels.parting_cores import part_from_half_space
-from carom.systems.kernels.spatial import cross, product, spun, turn
-
-
-@inlined
-def put(side, i, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation):
-    """Write where a shape of pair p is ``time`` seconds on, as its body moves and turns now."""
-    x, y, z = local_position[p, side, 0], local_position[p, side, 1], local_position[p, side, 2]
-    lx, ly, lz, lw = (
-        local_rotation[p, side, 0], local_rotation[p, side, 1], local_rotation[p, side, 2], local_rotation[p, side, 3]
-    )  # fmt: skip
-    if i >= 0:
-        qx, qy, qz, qw = spun(
-            turns[i, 0], turns[i, 1], turns[i, 2], turns[i, 3], angular[i, 0], angular[i, 1], angular[i, 2], time
-        )
-        x, y, z = turn(qx, qy, qz, qw, x, y, z)
-        x, y, z = x + center[i, 0], y + center[i, 1], z + center[i, 2]
-        x, y, z = x + time * linear[i, 0], y + time * linear[i, 1], z + time * linear[i, 2]
-        lx, ly, lz, lw = product(qx, qy, qz, qw, lx, ly, lz, lw)
-    position[side, 0], position[side, 1], position[side, 2] = x, y, z
-    rotation[side, 0], rotation[side, 1], rotation[side, 2], rotation[side, 3] = lx, ly, lz, lw
+from carom.systems.kernels.parting_cores import normal_or_centers, part_from_half_space
+from carom.systems.kernels.polytope import MOST_CORNERS, MOST_FACES
+from carom.systems.kernels.spatial import cross
 
 
 @inlined
@@ -69,12 +53,14 @@ def time_of_way(way, speed, limit):
 @inlined
 def meet(
     p, i, o, limit, found, numbers, core, vertices, center, turns, linear, angular, felt,
-    local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+    detected_center, detected_turns, bodies_reach, local_position, local_rotation, position, rotation,
+    place, corner, name, weight, seen, corners, face, plane, rim,
 ):  # fmt: skip
     """Return when the two cores of pair p are to be looked at again (s, NEVER if not within ``limit``).
 
     That is where they have come so near that their contact is to be found, or, where they are near already and it is
-    ``found``, after they may have moved as far as it is trusted, which is returned too (m), else 0.
+    ``found``, after they may have moved as far as it is trusted, which is returned too (m), else 0. And now, where
+    points arrive that were too far to be found.
     """
     trust, around, time = numbers[p, 3], core[AROUND] + core[CORE + AROUND], 0.0
     pull, most = most_of(p, i, o, limit, numbers, linear, angular, felt)
@@ -95,6 +81,17 @@ def meet(
             return NEVER, 0.0
         gap = 0.0 if state == MEETING else gap - around
         if found and time == 0.0 and gap <= trust:
+            sought = sought_to(p, i, o, numbers, bodies_reach)
+            if most * limit + came_since(p, i, o, numbers, center, turns, detected_center, detected_turns) > sought:
+                if state == MEETING:
+                    mx, my, mz = normal_or_centers(place, 0.0, 0.0, 0.0)
+                    _, mx, my, mz, _, _, _ = expand(core, place, vertices, mx, my, mz, corners, face, plane, rim)
+                mx, my, mz = turned(rotation, 0, mx, my, mz)
+                if somebody_arrives(
+                    p, i, o, limit, mx, my, mz, sought, core, vertices, center, turns, linear, angular,
+                    detected_center, detected_turns, local_position, local_rotation, position, rotation, place,
+                ):  # fmt: skip
+                    return 0.0, 0.0
             return time_of_way(trust, most, limit), trust
         if gap <= MEET * trust:
             return time, 0.0
@@ -109,28 +106,6 @@ def meet(
     return time, 0.0
 
 
-@inlined
-def covered_by(p, i, o, numbers, reach, center, turns, detected_center, detected_turns):
-    """Return by how much (m) pair p may still move before points touch that were too far to be contacts.
-
-    Those were sought as far as both bodies ``reach``, or as the pair had to come to be fast, whichever is farther.
-    """
-    covered = max((reach[i] if i >= 0 else 0.0) + (reach[o] if o >= 0 else 0.0), FAST / TRUST * numbers[p, 3])
-    squared = 0.0
-    for k in range(3):
-        way = (center[i, k] - detected_center[i, k]) if i >= 0 else 0.0
-        way -= (center[o, k] - detected_center[o, k]) if o >= 0 else 0.0
-        squared += way * way
-    covered -= sqrt(squared)
-    for side in range(2):
-        body, cosine = i if side == 0 else o, 0.0  # of half the angle by which it has turned
-        for k in range(4 if body >= 0 else 0):
-            cosine += turns[body, k] * detected_turns[body, k]
-        if body >= 0:
-            covered -= 2.0 * sqrt(max(0.0, 1.0 - cosine * cosine)) * numbers[p, side]
-    return max(0.0, covered)
-
-
 @kernel("room", "near", "left", "times", makes_arrays=True, within=True)
 def foresee_meetings(
     span, first_only, found, center, turns, linear, angular, felt, detected_center, detected_turns, reach,
@@ -141,13 +116,15 @@ def foresee_meetings(
 
     NEVER if not in ``span``. Where contacts have been ``found``, who has been ``near`` ever since is trusted for a way
     that is written into ``left`` (m), but of meshes, of which some triangles may be near and others not. Else it is for
-    what is left of that. Nor is he trusted farther than contacts were sought (`covered_by`) where bodies had been
-    ``detected``. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both shapes about
-    the centres of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and three more for
-    a triangle of a mesh, which is the first of a pair that has one of ``roots``.
+    what is left of that. Points arrive that were farther apart than contacts were sought, as bodies ``reach``, where
+    they were ``detected``. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both
+    shapes about the centres of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and
+    three more for a triangle of a mesh, which is the first of a pair that has one of ``roots``.
     """
     place = np.empty(PLACE)
     corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
+    corners, face = np.empty(6 * MOST_CORNERS), np.empty(3 * MOST_FACES, np.int64)
+    plane, rim = np.empty(4 * MOST_FACES), np.empty(2 * 3 * MOST_FACES, np.int64)
     position, rotation, touched = np.empty((2, 3)), np.empty((2, 4)), np.empty(FEW, np.uint32)
     sooner = span
     for p in range(len(bodies)):
@@ -163,7 +140,8 @@ def foresee_meetings(
         elif roots[p] < 0:
             soonest, trusted = meet(
                 p, i, o, limit, known, numbers, core, room, center, turns, linear, angular, felt,
-                local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+                detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,
+                place, corner, name, weight, seen, corners, face, plane, rim,
             )  # fmt: skip
             left[p] = trusted
         else:
@@ -181,13 +159,10 @@ def foresee_meetings(
                     room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * touched[c] + k]
                 time, way = meet(
                     p, i, o, min(limit, soonest), known, numbers, core, room, center, turns, linear, angular, felt,
-                    local_position, local_rotation, position, rotation, place, corner, name, weight, seen,
+                    detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,
+                    place, corner, name, weight, seen, corners, face, plane, rim,
                 )  # fmt: skip
                 soonest, trusted = min(soonest, time), max(trusted, way)
         near[p] = near[p] and (trusted > 0.0 or not found)
-        if near[p]:
-            covered = covered_by(p, i, o, numbers, reach, center, turns, detected_center, detected_turns)
-            most = most_of(p, i, o, limit, numbers, linear, angular, felt)[1]
-            soonest = min(soonest, time_of_way(covered, most, limit))
         times[p] = soonest
         sooner = min(sooner, soonest)

@@ -1,0 +1,81 @@
+"""Arriving: points of fast pairs that were too far to be contacts when these were sought, and touch in a substep."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+# mypy: disable-error-code="no-untyped-def"
+from carom.systems.constants import FAST, TRUST
+from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, most_overlap, write_place
+from carom.systems.kernels.frames import placed, put, turned_back
+from carom.systems.kernels.kernel import inlined
+from carom.systems.kernels.parting_cores import part_from_half_space
+
+
+@inlined
+def sought_to(p, i, o, numbers, reach):
+    """Return how far (m) contacts of pair p were sought: both bodies' ``reach``, or how far the fast come at least."""
+    together = (reach[i] if i >= 0 else 0.0) + (reach[o] if o >= 0 else 0.0)
+    return max(together, FAST / TRUST * numbers[p, 3])
+
+
+@inlined
+def came_since(p, i, o, numbers, center, turns, detected_center, detected_turns):
+    """Return how far (m) any two points of pair p may have come nearer since bodies were where they were detected."""
+    squared, by_turning = 0.0, 0.0
+    for k in range(3):
+        way = (center[i, k] - detected_center[i, k]) if i >= 0 else 0.0
+        way -= (center[o, k] - detected_center[o, k]) if o >= 0 else 0.0
+        squared += way * way
+    for side in range(2):
+        body, cosine = i if side == 0 else o, 0.0  # of half the angle by which it has turned
+        for k in range(4 if body >= 0 else 0):
+            cosine += turns[body, k] * detected_turns[body, k]
+        if body >= 0:
+            by_turning += 2.0 * sqrt(max(0.0, 1.0 - cosine * cosine)) * numbers[p, side]
+    return sqrt(squared) + by_turning
+
+
+@inlined
+def somebody_arrives(
+    p, i, o, limit, nx, ny, nz, sought, core, vertices, center, turns, linear, angular,
+    detected_center, detected_turns, local_position, local_rotation, position, rotation, place,
+):  # fmt: skip
+    """Tell whether points of pair p touch within ``limit`` (s) that were farther apart than contacts were sought.
+
+    ``sought`` (m) is along n (world), where bodies were detected; what is still as far now is not meant.
+    """
+    around = core[AROUND] + core[CORE + AROUND]
+    put(0, i, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+    put(1, o, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+    write_place(position, rotation, 0, 1, place)
+    if core[CORE + KIND] == HALF_SPACE:
+        gap, mx, my, mz, ax, ay, az = part_from_half_space(core, place, vertices)
+        bx, by, bz = ax + gap * mx, ay + gap * my, az + gap * mz
+    else:
+        mx, my, mz = turned_back(rotation, 0, nx, ny, nz)
+        bx, by, bz, ax, ay, az = most_overlap(core, place, vertices, mx, my, mz)
+        gap = -(mx * bx + my * by + mz * bz)
+        bx, by, bz = ax - bx, ay - by, az - bz
+    if gap > around:
+        return False
+    x, y, z = placed(position, rotation, 0, bx, by, bz)
+    bx, by, bz = turned_back(rotation, 1, x - position[1, 0], y - position[1, 1], z - position[1, 2])
+    put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+    put(1, o, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+    if apart_along(nx, ny, nz, position, rotation, ax, ay, az, bx, by, bz) - around > sought:
+        return False
+    for side in range(2):
+        put(
+            side, i if side == 0 else o, 0.0, detected_center, detected_turns, linear, angular,
+            local_position, local_rotation, p, position, rotation,
+        )  # fmt: skip
+    return apart_along(nx, ny, nz, position, rotation, ax, ay, az, bx, by, bz) - around > sought
+
+
+@inlined
+def apart_along(nx, ny, nz, position, rotation, ax, ay, az, bx, by, bz):
+    """Return how far (m) point b of the second is from point a of the first along n, each given in its own frame."""
+    x, y, z = placed(position, rotation, 0, ax, ay, az)
+    ux, uy, uz = placed(position, rotation, 1, bx, by, bz)
+    return nx * (ux - x) + ny * (uy - y) + nz * (uz - z)
