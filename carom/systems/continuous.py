@@ -72,7 +72,7 @@ class Fast(Resource):
         times, agrees = self._times(world, center, span, found=True), np.empty(len(fast), np.bool_)
         find_agreeing(
             given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
-            pose.body_row, center, motion.linear, motion.angular, agrees,
+            pose.body_row, world[Flight].reach, center, motion.linear, motion.angular, agrees,
         )  # fmt: skip
         self.all.asked[:], self.all.left[agrees] = ~agrees, 0.0
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import MEET
+from carom.systems.kernels.arriving import sought_to
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.fast_pairs import NEVER, between, motion_of
 from carom.systems.kernels.kernel import kernel, woven
@@ -27,7 +28,7 @@ def closing_of(c, i, o, normal, point, center, linear, angular):
 
 @kernel("agrees")
 def find_agreeing(
-    pairs, numbers, times, span, row_a, row_b, normal, depth, point, body_row, center, linear, angular, agrees
+    pairs, numbers, times, span, row_a, row_b, normal, depth, point, body_row, reach, center, linear, angular, agrees
 ):
     """Tell which pairs need nobody to look: their contacts, followed straight on, say when they meet just as well.
 
@@ -55,6 +56,7 @@ def find_agreeing(
             agrees[p] = turning * span <= numbers[p, 3]
         else:
             agrees[p] = abs(straight - times[p]) * most <= numbers[p, 3] or straight == times[p]
+            agrees[p] &= straight == NEVER or most * span <= sought_to(p, i, o, numbers, reach)
 
 
 @kernel("asked", within=True)
