@@ -38,6 +38,10 @@ GORGE = 6.0
 # low they are. Larger: bodies roll onto corners that are left out. Smaller: as they rock, the choice changes.
 AS_LOW = 1e-3
 
+# Further points of a rim that leans, of those that do not touch. Fewer: drums roll 1 to 2 cm in between the others.
+# More: piles of cylinders take longer to come to rest.
+ROLLED_ONTO = 2
+
 # Part of SAME_PLACE by which a point within a manifold is to be lower than what the others span to be one of it too.
 # Larger: bodies sink onto ridges that are left out, and rock; smaller: noise in vertices gives points of its own.
 LOWER = 1e-2

@@ -10,10 +10,10 @@ from carom.systems.kernels.footprints import points_between
 from carom.systems.kernels.frames import turned
 from carom.systems.kernels.hulls_narrow import most_of
 from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.low_points import reduce_round
 from carom.systems.kernels.nearing import MOST_STEPS
 from carom.systems.kernels.parting_cores import part
 from carom.systems.kernels.polytope import MOST_CORNERS, MOST_FACES
-from carom.systems.kernels.reduction import reduce_area
 from carom.systems.kernels.writing import write_points
 from carom.systems.shapes.rim import RIM_POINTS
 
@@ -54,7 +54,7 @@ def refine_answers(
             core, place, hulls, gap, nx, ny, nz, px, py, pz, reach,
             one, one_tag, one_plane, two, two_tag, two_plane, spot, gaps, names,
         )  # fmt: skip
-        found = reduce_area(spot, gaps, names, found, nx, ny, nz)
+        found = reduce_round(spot, gaps, names, found, nx, ny, nz)
         if found == 1:
             names[0] = 0  # a lone point is the pair itself, however the bodies roll
         for c in range(found):

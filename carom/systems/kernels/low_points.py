@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import AS_LOW, BETTER, BIAS, LOWER
+from carom.systems.constants import AS_LOW, BETTER, BIAS, LOWER, ROLLED_ONTO
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.reduction import (
     MOST_POINTS,
@@ -11,6 +11,7 @@ from carom.systems.kernels.reduction import (
     alternate,
     extend_area,
     put_deepest_first,
+    span_area,
     span_roughly,
     swap,
 )
@@ -29,6 +30,26 @@ def reduce_lows(place, gaps, names, count, nx, ny, nz):
         return count
     put_deepest_first(place, gaps, names, count)
     kept = span_low(place, gaps, names, count, nx, ny, nz, BIAS, FAR)
+    if kept > SPANNING:
+        alternate(names, kept)
+    return kept
+
+
+@inlined
+def reduce_round(place, gaps, names, count, nx, ny, nz):
+    """Do what `reduce_area` does for rims: where they lean, with the lowest two (ROLLED_ONTO) of the others.
+
+    Between points that are spread all around, bodies that roll on their rim would sink in by what these leave out.
+    """
+    if count <= SPANNING:
+        return count
+    put_deepest_first(place, gaps, names, count)
+    kept, highest = span_area(place, gaps, names, count, nx, ny, nz, BIAS), gaps[0]
+    for k in range(1, kept):
+        highest = max(highest, gaps[k])
+    if highest > gaps[0] + AS_LOW:
+        room = min(MOST_POINTS, max(kept, SPANNING + ROLLED_ONTO))
+        kept = extend_lowest(place, gaps, names, kept, room, count, nx, ny, nz, BIAS, FAR)
     if kept > SPANNING:
         alternate(names, kept)
     return kept
