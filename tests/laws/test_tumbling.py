@@ -123,7 +123,7 @@ def test_corners_that_were_far_when_contacts_were_found_do_not_come_in(
 
 @pytest.mark.parametrize("floor", ["plane", "box"])
 def test_drums_that_roll_on_their_rims_do_not_sink_in(floor: str) -> None:
-    """They came in by 15 to 40 mm onto the plane, between points spread all around the rim; now 3 mm at most."""
+    """They came in by 17 to 40 mm onto the plane, between points spread all around the rim; now 3 mm at most."""
     for seed in (14, 55, 81):
         simulation, body, shape = thrown("drum", floor, seed, checked=False, material=ROUGH, higher=1.0)
         for _ in range(120):

@@ -55,3 +55,11 @@ MEASURED = 1e-6
 # Degrees, and part of the smaller size: a stand-in whose deepest point differs from FCL's by a larger turn or depth
 # disagrees with it. Larger would pass faults that show in rolling; smaller, what rounding leaves.
 AUDITED_TURN, AUDITED_DEPTH = 0.5, 3e-6
+
+# m. Points that are no higher above the lowest one stand for an area by how much of it they span, further ones by how
+# low they are. Larger: bodies roll onto corners that are left out. Smaller: as they rock, the choice changes.
+AS_LOW = 1e-3
+
+# Further points of a rim that leans, of those that do not touch. Fewer: drums roll 1 to 2 cm in between the others.
+# More: piles of cylinders take longer to come to rest.
+ROLLED_ONTO = 2

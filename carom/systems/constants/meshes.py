@@ -34,14 +34,6 @@ BETTER = 1e-3
 # into narrow gorges falls on.
 GORGE = 6.0
 
-# m. Points that are no higher above the lowest one stand for an area by how much of it they span, further ones by how
-# low they are. Larger: bodies roll onto corners that are left out. Smaller: as they rock, the choice changes.
-AS_LOW = 1e-3
-
-# Further points of a rim that leans, of those that do not touch. Fewer: drums roll 1 to 2 cm in between the others.
-# More: piles of cylinders take longer to come to rest.
-ROLLED_ONTO = 2
-
 # Part of SAME_PLACE by which a point within a manifold is to be lower than what the others span to be one of it too.
 # Larger: bodies sink onto ridges that are left out, and rock; smaller: noise in vertices gives points of its own.
 LOWER = 1e-2

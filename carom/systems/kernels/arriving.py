@@ -7,7 +7,7 @@ from math import sqrt
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import FAST, TRUST
 from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, most_overlap, write_place
-from carom.systems.kernels.frames import placed, put, turned_back
+from carom.systems.kernels.frames import placed, put_both, turned_back
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.parting_cores import part_from_half_space
 
@@ -46,8 +46,7 @@ def somebody_arrives(
     ``sought`` (m) is along n (world), where bodies were detected; what is still as far now is not meant.
     """
     around = core[AROUND] + core[CORE + AROUND]
-    put(0, i, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
-    put(1, o, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+    put_both(i, o, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
     write_place(position, rotation, 0, 1, place)
     if core[CORE + KIND] == HALF_SPACE:
         gap, mx, my, mz, ax, ay, az = part_from_half_space(core, place, vertices)
@@ -61,15 +60,13 @@ def somebody_arrives(
         return False
     x, y, z = placed(position, rotation, 0, bx, by, bz)
     bx, by, bz = turned_back(rotation, 1, x - position[1, 0], y - position[1, 1], z - position[1, 2])
-    put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
-    put(1, o, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+    put_both(i, o, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
     if apart_along(nx, ny, nz, position, rotation, ax, ay, az, bx, by, bz) - around > sought:
         return False
-    for side in range(2):
-        put(
-            side, i if side == 0 else o, 0.0, detected_center, detected_turns, linear, angular,
-            local_position, local_rotation, p, position, rotation,
-        )  # fmt: skip
+    put_both(
+        i, o, 0.0, detected_center, detected_turns, linear, angular,
+        local_position, local_rotation, p, position, rotation,
+    )  # fmt: skip
     return apart_along(nx, ny, nz, position, rotation, ax, ay, az, bx, by, bz) - around > sought
 
 

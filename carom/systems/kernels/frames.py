@@ -43,3 +43,10 @@ def put(side, i, time, center, turns, linear, angular, local_position, local_rot
         lx, ly, lz, lw = product(qx, qy, qz, qw, lx, ly, lz, lw)
     position[side, 0], position[side, 1], position[side, 2] = x, y, z
     rotation[side, 0], rotation[side, 1], rotation[side, 2], rotation[side, 3] = lx, ly, lz, lw
+
+
+@inlined
+def put_both(i, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation):
+    """Write where both shapes of pair p are, of bodies i and o, as `put` does."""
+    put(0, i, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+    put(1, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)

@@ -18,7 +18,7 @@ from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, w
 from carom.systems.kernels.distance import APART, FAR, MEETING
 from carom.systems.kernels.expansion import expand
 from carom.systems.kernels.fast_pairs import NEVER, between
-from carom.systems.kernels.frames import put, turned, turned_back
+from carom.systems.kernels.frames import put, put_both, turned, turned_back
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles
 from carom.systems.kernels.nearing import MOST_STEPS, near
@@ -66,8 +66,7 @@ def meet(
     pull, most = most_of(p, i, o, limit, numbers, linear, angular, felt)
     nx, ny, nz = 0.0, 1.0, 0.0
     for _ in range(MOST_LOOKS):
-        put(0, i, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
-        put(1, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
+        put_both(i, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
         write_place(position, rotation, 0, 1, place)
         reach = most * (limit - time) + trust + around
         if core[CORE + KIND] == HALF_SPACE:

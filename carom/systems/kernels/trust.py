@@ -33,7 +33,8 @@ def find_agreeing(
     """Tell which pairs need nobody to look: their contacts, followed straight on, say when they meet just as well.
 
     That is so where both times are the same, but for as long as the bodies may move by what a contact is trusted, and
-    for what is near already as long as nobody turns by more than that. Contacts are in order of pair, as pairs are.
+    for what is near already as long as nobody turns by more than that; and no corner may come that was too far to be a
+    contact, as bodies ``reach``. Contacts are in order of pair, as pairs are.
     """
     c = 0
     for p in range(len(pairs)):
