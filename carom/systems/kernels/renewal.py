@@ -79,11 +79,11 @@ def renew_contacts(
         rows_of(spinning), rows_of(surface), rows_of(kind),
     )  # fmt: skip
     runs, aside = moves_of(begin, end, match)
-    room, further = lift(held, match, aside), lift(of_recycled, match, aside[: len(aside) if recycled else 0])
+    their_runs, their_aside = moves_of(begin, end if recycled else begin, recycled_from)
+    room, further = lift(held, match, aside), lift(of_recycled, recycled_from, their_aside)
     wait_for_all(crew, 1)
     carry(held, runs, aside, room)
-    if recycled:
-        carry(of_recycled, runs, aside, further)
+    carry(of_recycled, their_runs, their_aside, further)
     changed[crew[1]] = len(runs) > 0 or len(aside) > 0
     for c in range(begin, end):
         if recycled_from[c] >= 0:
