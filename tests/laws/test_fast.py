@@ -189,6 +189,19 @@ def test_two_bullets_swap_their_velocities(collider: dict[str, Any]) -> None:
         assert simulation["right"].motion.linear == pytest.approx([300.0, 0.0, 0.0], abs=1e-6)
 
 
+def test_who_falls_and_turns_beside_a_wall_is_found_once_a_step() -> None:
+    """A cube that glides along it 1 cm away, at 12 m/s and 10 rad/s: its contacts stay on the face, and it goes on."""
+    simulation = Simulation(gravity=(0.0, 0.0, 0.0))
+    simulation.add(collider={"box": {"size": (1.0, 8.0, 8.0)}}, material=SMOOTH)
+    place, falls = {"position": (0.76, 2.0, 0.0)}, {"linear": (0.0, -12.0, 0.0), "angular": (10.0, 0.0, 0.0)}
+    cube = simulation.add(collider={"box": {"size": (0.5, 0.5, 0.5)}}, body={}, transform=place, motion=falls)
+    simulation.step(10)
+    assert simulation.world[Fast].all.asked.tolist() == [True]
+    assert simulation.world[Answered].detections == 10
+    assert simulation[cube].motion.linear == pytest.approx(falls["linear"], abs=1e-12)
+    assert simulation[cube].transform.position == pytest.approx((0.76, 0.0, 0.0), abs=1e-12)
+
+
 @pytest.mark.parametrize("spin", [(0.0, 0.0, 0.0), (0.0, 0.0, 20.0)])
 def test_who_only_passes_strikes_nobody(spin: tuple[float, float, float]) -> None:
     """A cube that flies 3 cm over an edge of another goes straight on, although from afar it seemed to strike it."""

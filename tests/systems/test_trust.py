@@ -8,7 +8,7 @@ import pytest
 from carom.ecs import Transform
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
-from carom.systems.constants import MEET
+from carom.systems.constants import GLIDING, MEET
 from carom.systems.constants import TRUST as TRUST_PART
 from carom.systems.continuous import Fast
 from carom.systems.detection.bounds import reach_within
@@ -34,13 +34,15 @@ def spend(
 
 @pytest.mark.parametrize(("linear", "before"), [(ALONG, ALONG), (STILL, ALONG), (ALONG, STILL)])
 def test_who_is_looked_after_spends_the_way_it_may_have_come(linear: Floats, before: Floats) -> None:
-    """At the greater of its speeds before and now: when it was struck is not asked."""
-    assert spend(asked=True, linear=linear, before=before) == (True, pytest.approx(TRUST - 0.002 * 4.0, rel=1e-12))
+    """At the greater of its speeds before and now, since when it was struck is not asked; gliding counts little."""
+    left = pytest.approx(TRUST - GLIDING * 0.002 * 4.0, rel=1e-12)
+    assert spend(asked=True, linear=linear, before=before) == (True, left)
 
 
 def test_turning_counts_at_the_reach() -> None:
-    """4 m/s and 4 rad/s half a metre from the centre are 6 m/s."""
-    assert spend(asked=True, angular=ACROSS)[1] == pytest.approx(TRUST - 0.002 * 6.0, rel=1e-12)
+    """4 rad/s half a metre from the centre are 2 m/s, all of which count; 4 m/s beside it do in part."""
+    left = TRUST - 0.002 * (GLIDING * 4.0 + 2.0)
+    assert spend(asked=True, angular=ACROSS)[1] == pytest.approx(left, rel=1e-12)
 
 
 def test_only_what_moves_against_each_other_counts() -> None:
@@ -52,12 +54,12 @@ def test_only_what_moves_against_each_other_counts() -> None:
     for now, before in ((both, stopped), (stopped, both)):
         lefts[:] = TRUST
         spend_trust(0.002, pair, numbers, now, still, before, still, lefts)
-        assert lefts == pytest.approx(TRUST - 0.002 * 4.0, rel=1e-12)
+        assert lefts == pytest.approx(TRUST - GLIDING * 0.002 * 4.0, rel=1e-12)
 
 
 def test_no_more_is_spent_than_there_is() -> None:
     """What is 0 is far."""
-    assert spend(asked=True, left=0.001) == (True, 0.0)
+    assert spend(asked=True, angular=ACROSS, left=0.001) == (True, 0.0)
 
 
 def test_who_goes_straight_on_needs_nobody_to_look() -> None:

@@ -11,7 +11,7 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import CAST_GAP, MEET, MOST_LOOKS
+from carom.systems.constants import CAST_GAP, GLIDING, MEET, MOST_LOOKS
 from carom.systems.kernels.arriving import came_since, somebody_arrives, sought_to
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, write_place
@@ -38,10 +38,14 @@ def across(i, nx, ny, nz, angular):
 
 @inlined
 def most_of(p, i, o, limit, numbers, linear, angular, felt):
-    """Return by how much forces may hasten pair p within ``limit`` (s), and how fast any two points may close then."""
+    """Return by how much forces may hasten pair p within ``limit`` (s), and how fast any two points may close then.
+
+    And how fast trust in contacts goes, which stay on their faces while bodies glide.
+    """
     pull = (length_of(i, felt) + length_of(o, felt)) * limit
     turning = length_of(i, angular) * numbers[p, 0] + length_of(o, angular) * numbers[p, 1]
-    return pull, between(i, o, linear, linear) + turning + pull
+    gliding = between(i, o, linear, linear) + pull
+    return pull, gliding + turning, GLIDING * gliding + turning
 
 
 @inlined
@@ -52,18 +56,18 @@ def time_of_way(way, speed, limit):
 
 @inlined
 def meet(
-    p, i, o, limit, found, numbers, core, vertices, center, turns, linear, angular, felt,
+    p, i, o, limit, found, ends, numbers, core, vertices, center, turns, linear, angular, felt,
     detected_center, detected_turns, bodies_reach, local_position, local_rotation, position, rotation,
     place, corner, name, weight, seen, corners, face, plane, rim,
 ):  # fmt: skip
     """Return when the two cores of pair p are to be looked at again (s, NEVER if not within ``limit``).
 
     That is where they have come so near that their contact is to be found, or, where they are near already and it is
-    ``found``, after they may have moved as far as it is trusted, which is returned too (m), else 0. And now, where
-    points arrive that were too far to be found.
+    ``found``, after they may have moved as far as it is trusted, which is returned too (m), else 0: how far they glide
+    counts wholly where a face ``ends``. And now, where points arrive that were too far to be found.
     """
     trust, around, time = numbers[p, 3], core[AROUND] + core[CORE + AROUND], 0.0
-    pull, most = most_of(p, i, o, limit, numbers, linear, angular, felt)
+    pull, most, spent = most_of(p, i, o, limit, numbers, linear, angular, felt)
     nx, ny, nz = 0.0, 1.0, 0.0
     for _ in range(MOST_LOOKS):
         put_both(i, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
@@ -91,7 +95,7 @@ def meet(
                     detected_center, detected_turns, local_position, local_rotation, position, rotation, place,
                 ):  # fmt: skip
                     return 0.0, 0.0
-            return time_of_way(trust, most, limit), trust
+            return time_of_way(trust, most if ends else spent, limit), trust
         if gap <= MEET * trust:
             return time, 0.0
         nx, ny, nz = mx, my, mz
@@ -135,10 +139,10 @@ def foresee_meetings(
         if not known and left[p] > 0.0:
             soonest = 0.0
             if left[p] > MEET * numbers[p, 3]:
-                soonest = time_of_way(left[p], most_of(p, i, o, limit, numbers, linear, angular, felt)[1], limit)
+                soonest = time_of_way(left[p], most_of(p, i, o, limit, numbers, linear, angular, felt)[2], limit)
         elif roots[p] < 0:
             soonest, trusted = meet(
-                p, i, o, limit, known, numbers, core, room, center, turns, linear, angular, felt,
+                p, i, o, limit, known, False, numbers, core, room, center, turns, linear, angular, felt,
                 detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,
                 place, corner, name, weight, seen, corners, face, plane, rim,
             )  # fmt: skip
@@ -157,8 +161,8 @@ def foresee_meetings(
                 for k in range(9):
                     room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * touched[c] + k]
                 time, way = meet(
-                    p, i, o, min(limit, soonest), known, numbers, core, room, center, turns, linear, angular, felt,
-                    detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,
+                    p, i, o, min(limit, soonest), known, True, numbers, core, room, center, turns, linear, angular,
+                    felt, detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,
                     place, corner, name, weight, seen, corners, face, plane, rim,
                 )  # fmt: skip
                 soonest, trusted = min(soonest, time), max(trusted, way)

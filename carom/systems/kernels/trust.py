@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import MEET
+from carom.systems.constants import GLIDING, MEET
 from carom.systems.kernels.arriving import sought_to
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.fast_pairs import NEVER, between, motion_of
@@ -79,11 +79,12 @@ def ask_straying(time, bodies, numbers, linear, angular, before_linear, before_a
 def spend_trust(elapsed, bodies, numbers, linear, angular, before_linear, before_angular, left):
     """Take from what is ``left`` of the way (m) for which contacts of pairs are trusted what bodies went since a look.
 
-    That was ``elapsed`` seconds ago; velocities ``before`` are those when pairs were found.
+    That was ``elapsed`` seconds ago, and how far they glide counts little (GLIDING); velocities ``before`` are those
+    when pairs were found.
     """
     for p in range(len(bodies)):
         i, o = bodies[p, 0], bodies[p, 1]
-        came = max(
+        came = GLIDING * max(
             between(i, o, linear, linear), between(i, o, linear, before_linear),
             between(i, o, before_linear, linear), between(i, o, before_linear, before_linear),
         )  # fmt: skip
