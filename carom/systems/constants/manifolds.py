@@ -60,6 +60,14 @@ AUDITED_TURN, AUDITED_DEPTH = 0.5, 3e-6
 # low they are. Larger: bodies roll onto corners that are left out. Smaller: as they rock, the choice changes.
 AS_LOW = 1e-3
 
+# Part of its radius by which the contact of a rim or an ellipsoid may go on in half a step; what goes farther comes to
+# lie flat. Larger: its contact is where nothing is yet. Smaller: coins that are about to come to rest sink in.
+ROLLED_ON = 0.5
+
+# Part of its radius within which a contact is that of the lowest point of an end. Larger: points of a rim go on that
+# turn with their body. Smaller: rounding holds it where it was.
+ROLLING_POINT = 1e-3
+
 # Further points of a rim that leans, of those that do not touch. Fewer: drums roll 1 to 2 cm in between the others.
 # More: piles of cylinders take longer to come to rest.
 ROLLED_ONTO = 2

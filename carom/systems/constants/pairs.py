@@ -23,7 +23,8 @@ MOST_WIDENED = 16
 # Larger: slower from there on. Smaller: piles, which have up to 12, are detected anew in every substep.
 CROWDED = 16
 
-# Part of a gap by which a pair has to come nearer no more before it is measured again, for what ways are rounded by.
+# Part of a gap by which a pair has to come nearer no more before it is measured again, and of a trust below which
+# nothing is left of it, for what ways are rounded by.
 # Smaller: contacts might be overlooked. Larger: pairs are measured in vain.
 APART_MARGIN = 1e-6
 

@@ -96,7 +96,7 @@ def detect(world: World, left: float, soon: float) -> None:
     if len(found.row_a) or len(fast[0]):
         np.copyto(world[Flight].detected_rotation, world[Transform].rotation)
     world[Fast].find(world, *fast, free, found, left)
-    store(world, without_seams(world, world[Fast].trusted(world, found)))
+    store(world, without_seams(world, world[Fast].trusted(world, found)), left)
 
 
 def find(world: World, pairs: Integers, span: float) -> Found:
@@ -112,19 +112,19 @@ def find(world: World, pairs: Integers, span: float) -> Found:
     return measure_what_moved(world, *world[Apart].without(world, pairs, reaches), span if some else 0.0)
 
 
-def store(world: World, found: Found) -> None:
-    """Write the contact table, matched with the one before."""
+def store(world: World, found: Found, left: float) -> None:
+    """Write the contact table, matched with the one before, which holds for ``left`` seconds."""
     old_count, count, resting = world[Contact].count, len(found.row_a), world[Resting]
     known = resting.knows(world)
     if not known:
         resting.belts = bool(world[Collider].surface_velocity.any())
     world.resize(Contact, count)
-    places, same = fill(world, found, old_count, known=known) if count or old_count else (False, False)
+    places, same = fill(world, found, old_count, left, known=known) if count or old_count else (False, False)
     group_contacts(world, places=places, same=same)
     resting.structure, resting.awake = world.structure, world[Awake].now(world)
 
 
-def fill(world: World, found: Found, old_count: int, *, known: bool) -> tuple[bool, bool]:
+def fill(world: World, found: Found, old_count: int, left: float, *, known: bool) -> tuple[bool, bool]:
     """Write what is known of contacts, and what follows from it, into the contact table.
 
     Where all are ``known``, nothing was done from outside since the table before of ``old_count`` contacts. Return
@@ -133,7 +133,7 @@ def fill(world: World, found: Found, old_count: int, *, known: bool) -> tuple[bo
     """
     moved, changed = (False, False)
     if not isinstance(found, Complete):
-        moved, changed = complete(world, found, old_count, known=known)
+        moved, changed = complete(world, found, old_count, left, known=known)
     contact = world[Contact]
     crushed = let_go_of_crushed(
         world[Awake].now(world), contact.count, contact.body_a, contact.body_b, contact.depth,
@@ -144,7 +144,7 @@ def fill(world: World, found: Found, old_count: int, *, known: bool) -> tuple[bo
     return places, places and not (changed or crushed)
 
 
-def complete(world: World, found: Found, old_count: int, *, known: bool) -> tuple[bool, bool]:
+def complete(world: World, found: Found, old_count: int, left: float, *, known: bool) -> tuple[bool, bool]:
     """Replace the contacts by those found, with what follows from their colliders.
 
     Tell whether any has another place in the table, and whether any of it changed.
@@ -155,13 +155,13 @@ def complete(world: World, found: Found, old_count: int, *, known: bool) -> tupl
     match = found.old if isinstance(found, Kept) else renew(world, crew, found, old_count, changed)
     moved = any(changed.tolist())
     complete_contacts(
-        crew, contact.count, match, found.old, known, world[Resting].belts, changed,
+        crew, contact.count, match, found.old, known, world[Resting].belts, 0.5 * left, changed,
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
         collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, world[Flight].detected_center, world[Transform].rotation,
-        world[Flight].reach, world[Motion].asleep, world[Stream].passes, world[RigidBody].inverse_mass,
-        material.friction, material.restitution, material.rolling_friction, material.spinning_friction,
-        material.friction_combine, material.restitution_combine, collider.surface_velocity,
+        world[Flight].reach, world[Motion].asleep, world[Stream].passes, world[Motion].angular,
+        world[RigidBody].inverse_mass, material.friction, material.restitution, material.rolling_friction,
+        material.spinning_friction, material.friction_combine, material.restitution_combine, collider.surface_velocity,
         contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface,
         contact.body_a, contact.body_b, contact.offset_a, contact.offset_b, contact.share,
         contact.kind, contact.ball, contact.other, contact.sign, contact.radius, contact.extent,

@@ -5,9 +5,20 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import FAST, TRUST
-from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, most_overlap, write_place
-from carom.systems.kernels.frames import placed, put_both, turned_back
+from carom.systems.constants import AS_LOW, FAST, ROLLED_ON, TRUST
+from carom.systems.kernels.cores import (
+    AROUND,
+    CONE,
+    CORE,
+    CYLINDER,
+    EXTENT,
+    HALF_SPACE,
+    KIND,
+    farthest,
+    most_overlap,
+    write_place,
+)
+from carom.systems.kernels.frames import placed, put_both, turned, turned_back
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.parting_cores import part_from_half_space
 
@@ -43,7 +54,8 @@ def somebody_arrives(
 ):  # fmt: skip
     """Tell whether points of pair p touch within ``limit`` (s) that were farther apart than contacts were sought.
 
-    ``sought`` (m) is along n (world), where bodies were detected; what is still as far now is not meant.
+    ``sought`` (m) is along n (world), where bodies were detected; what is still as far now is not meant. So do points
+    of a rim that leans, far from where that was lowest then.
     """
     around = core[AROUND] + core[CORE + AROUND]
     put_both(i, o, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
@@ -58,6 +70,13 @@ def somebody_arrives(
         bx, by, bz = ax - bx, ay - by, az - bz
     if gap > around:
         return False
+    for side in range(2):
+        if is_round(core, side) and has_rolled(
+            side, p, i, o, limit, nx, ny, nz, core, vertices, center, linear, angular,
+            detected_center, detected_turns, local_position, local_rotation, position, rotation,
+        ):  # fmt: skip
+            return True
+    put_both(i, o, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
     x, y, z = placed(position, rotation, 0, bx, by, bz)
     bx, by, bz = turned_back(rotation, 1, x - position[1, 0], y - position[1, 1], z - position[1, 2])
     put_both(i, o, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
@@ -68,6 +87,49 @@ def somebody_arrives(
         local_position, local_rotation, p, position, rotation,
     )  # fmt: skip
     return apart_along(nx, ny, nz, position, rotation, ax, ay, az, bx, by, bz) - around > sought
+
+
+@inlined
+def is_round(core, side):
+    """Tell whether a core is such as may touch with any point of a rim."""
+    return core[side * CORE + KIND] == CYLINDER or core[side * CORE + KIND] == CONE
+
+
+@inlined
+def has_rolled(
+    side, p, i, o, limit, nx, ny, nz, core, vertices, center, linear, angular,
+    detected_center, detected_turns, local_position, local_rotation, position, rotation,
+):  # fmt: skip
+    """Tell whether a rim leans by ``limit`` (s), far from where it was lowest along n when bodies were detected.
+
+    Both shapes are where they are by then; they are put where they were.
+    """
+    body = i if side == 0 else o
+    if body < 0:
+        return False
+    x, y, z = outermost(side, nx, ny, nz, core, vertices, position, rotation)
+    ux, uy, uz = turned(rotation, side, 0.0, 1.0, 0.0)
+    upright = nx * ux + ny * uy + nz * uz
+    put_both(
+        i, o, 0.0, detected_center, detected_turns, linear, angular,
+        local_position, local_rotation, p, position, rotation,
+    )  # fmt: skip
+    tx, ty, tz = outermost(side, nx, ny, nz, core, vertices, position, rotation)
+    x -= tx + center[body, 0] + limit * linear[body, 0] - detected_center[body, 0]
+    y -= ty + center[body, 1] + limit * linear[body, 1] - detected_center[body, 1]
+    z -= tz + center[body, 2] + limit * linear[body, 2] - detected_center[body, 2]
+    along = nx * x + ny * y + nz * z
+    squared, farthest_on = x * x + y * y + z * z - along * along, ROLLED_ON * core[side * CORE + EXTENT]
+    return squared > farthest_on * farthest_on and (1.0 - upright * upright) * squared > AS_LOW * AS_LOW
+
+
+@inlined
+def outermost(side, nx, ny, nz, core, vertices, position, rotation):
+    """Return the point (world) of a core that is farthest along n, which leads from the first to the second."""
+    sense = 1.0 - 2.0 * side
+    x, y, z = turned_back(rotation, side, sense * nx, sense * ny, sense * nz)
+    x, y, z = farthest(core, side * CORE, vertices, x, y, z)
+    return placed(position, rotation, side, x, y, z)
 
 
 @inlined

@@ -7,12 +7,15 @@ import numpy as np
 # mypy: disable-error-code="no-untyped-def"
 from carom.ecs.components.material import Combine
 from carom.systems.kernels.balls import BOX, HALF_SPACE
+from carom.systems.kernels.blow_points import is_smooth
 from carom.systems.kernels.cores import CONE_SHAPE, CONVEX_SHAPE, CYLINDER_SHAPE, ELLIPSOID_SHAPE
 from carom.systems.kernels.crew import runs_of, shared
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent, reach_of_pair
 from carom.systems.kernels.offsets import find_offsets, find_shares
+from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
 from carom.systems.kernels.recycling import seat_pair, turned
+from carom.systems.kernels.rolling import roll_on
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
 
@@ -40,10 +43,10 @@ def combined(x, y, rule_x, rule_y, default):
     "other_position", "other_rotation", "seat_a", "seat_b", "lean_a", "lean_b", "seat_depth", "seat_reach", "form",
 )  # fmt: skip
 def complete_contacts(
-    crew, count, match, recycled_from, known, belts, changed, normal, depth, point, row_a, row_b,
+    crew, count, match, recycled_from, known, belts, middle, changed, normal, depth, point, row_a, row_b,
     body_row, shape, size, geometry, bound_half, bound_radius, pose_position, pose_rotation, center, rotation,
-    reach, asleep, passes, inverse_mass, material_friction, material_restitution, material_rolling, material_spinning,
-    friction_rule, restitution_rule, surface_velocity,
+    reach, asleep, passes, angular, inverse_mass, material_friction, material_restitution, material_rolling,
+    material_spinning, friction_rule, restitution_rule, surface_velocity,
     friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b, share,
     kind, ball, other, sign, radius, extent, other_position, other_rotation,
     seat_a, seat_b, lean_a, lean_b, seat_depth, seat_reach, form,
@@ -51,7 +54,8 @@ def complete_contacts(
     """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
     Of those that were not recycled (``recycled_from`` is below 0), also where they are on the two shapes; of others
-    `recycle_contacts` says their offsets. Exact are balls about their body's centre of mass against balls, boxes
+    `recycle_contacts` says their offsets. The one contact of what is round and a face is where it is in the ``middle``
+    (s) of what is foreseen. Exact are balls about their body's centre of mass against balls, boxes
     likewise centred, and half spaces. Where all are ``known``, what follows from shapes and materials, and where others
     stand, is there of pairs that are where they were (``match``), and what does not hang on exact arcs of those
     recycled. Each thread tells in ``changed`` whether it was not, or a surface runs; without ``belts`` none does.
@@ -114,6 +118,15 @@ def complete_contacts(
         if not recycled:
             find_offsets(first, end, a, b, normal, depth, point, body_row, pose_position, center, offset_a, offset_b)
             find_shares(first, end, a, b, normal, shape, pose_rotation, share)
+            for i, o, body, outward, flat, offset, offset_other in (
+                (a, b, on_a, 1.0, 0.0, offset_a, offset_b), (b, a, on_b, -1.0, 1.0, offset_b, offset_a),
+            ):  # fmt: skip
+                land = shape[o] == MESH_SHAPE or shape[o] == FIELD_SHAPE
+                if body >= 0 and (land or share[first] == flat) and is_smooth(i, shape):
+                    roll_on(
+                        first, end, i, body, outward, middle, shape, size, pose_position, pose_rotation, center,
+                        angular, normal, offset, offset_other,
+                    )  # fmt: skip
 
 
 @woven

@@ -111,23 +111,25 @@ def farthest(core, at, vertices, x, y, z):
             if along > most:
                 best, most = k, along
         return vertices[best, 0], vertices[best, 1], vertices[best, 2]
-    if kind in (CYLINDER, CONE):
-        across = sqrt(x * x + z * z)
-        if kind == CONE and 2.0 * b * y > a * across:
-            return 0.0, b, 0.0
-        end = b if kind == CYLINDER and y >= 0.0 else -b
-        if across > 0.0:
-            return a * x / across, end, a * z / across
-        return a, end, 0.0
-    if kind == ELLIPSOID:
-        a, b, c = a * x, b * y, c * z
-        scale = 1.0 / sqrt(a * a + b * b + c * c)
-        return (
-            a * scale * core[at + EXTENT],
-            b * scale * core[at + EXTENT + 1],
-            c * scale * core[at + EXTENT + 2],
-        )
+    if kind in (CYLINDER, CONE, ELLIPSOID):
+        return farthest_of_round(kind, a, b, c, x, y, z)
     return a if x >= 0.0 else -a, b if y >= 0.0 else -b, c if z >= 0.0 else -c
+
+
+@woven
+def farthest_of_round(kind, a, b, c, x, y, z):
+    """Return the point of a cylinder, cone or ellipsoid of these extents that is farthest along a direction."""
+    if kind == ELLIPSOID:
+        u, v, w = a * x, b * y, c * z
+        scale = 1.0 / sqrt(u * u + v * v + w * w)
+        return u * scale * a, v * scale * b, w * scale * c
+    across = sqrt(x * x + z * z)
+    if kind == CONE and 2.0 * b * y > a * across:
+        return 0.0, b, 0.0
+    end = b if kind == CYLINDER and y >= 0.0 else -b
+    if across > 0.0:
+        return a * x / across, end, a * z / across
+    return a, end, 0.0
 
 
 @inlined

@@ -12,7 +12,7 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import CAST_GAP, GLIDING, MEET, MOST_LOOKS
-from carom.systems.kernels.arriving import came_since, somebody_arrives, sought_to
+from carom.systems.kernels.arriving import came_since, is_round, somebody_arrives, sought_to
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, write_place
 from carom.systems.kernels.distance import APART, FAR, MEETING
@@ -85,7 +85,8 @@ def meet(
         gap = 0.0 if state == MEETING else gap - around
         if found and time == 0.0 and gap <= trust:
             sought = sought_to(p, i, o, numbers, bodies_reach)
-            if most * limit + came_since(p, i, o, numbers, center, turns, detected_center, detected_turns) > sought:
+            came = came_since(p, i, o, numbers, center, turns, detected_center, detected_turns)
+            if most * limit + came > sought or (came > 0.0 and (is_round(core, 0) or is_round(core, 1))):
                 if state == MEETING:
                     mx, my, mz = normal_or_centers(place, 0.0, 0.0, 0.0)
                     _, mx, my, mz, _, _, _ = expand(core, place, vertices, mx, my, mz, corners, face, plane, rim)

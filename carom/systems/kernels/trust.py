@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import GLIDING, MEET
+from carom.systems.constants import APART_MARGIN, GLIDING, MEET
 from carom.systems.kernels.arriving import sought_to
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.fast_pairs import NEVER, between, motion_of
@@ -91,4 +91,5 @@ def spend_trust(elapsed, bodies, numbers, linear, angular, before_linear, before
         for side in range(2):
             body, reach = bodies[p, side], numbers[p, side]
             came += max(length_of(body, angular), length_of(body, before_angular)) * reach
-        left[p] = max(0.0, left[p] - came * elapsed)
+        rest = left[p] - came * elapsed
+        left[p] = rest if rest > APART_MARGIN * numbers[p, 3] else 0.0  # most often all of it, but for rounding
