@@ -123,8 +123,11 @@ def test_corners_that_were_far_when_contacts_were_found_do_not_come_in(
 
 @pytest.mark.parametrize("floor", ["plane", "box"])
 def test_drums_that_roll_on_their_rims_do_not_sink_in(floor: str) -> None:
-    """They came in by 17 to 40 mm onto the plane, between points spread all around the rim; now 3 mm at most."""
-    for seed in (14, 55, 81):
+    """They came in by 9 to 40 mm, between points spread all around the rim, or since its lowest one rolls on in a step.
+
+    Those that wobble stayed as deep for a second: each step they were lifted by what they came down elsewhere.
+    """
+    for seed in (1, 14, 19, 29, 31, 55, 78, 81, 137):
         simulation, body, shape = thrown("drum", floor, seed, checked=False, material=ROUGH, higher=1.0)
         for _ in range(120):
             simulation.step()

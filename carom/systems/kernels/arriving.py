@@ -72,11 +72,10 @@ def somebody_arrives(
         return False
     for side in range(2):
         if is_round(core, side) and has_rolled(
-            side, p, i, o, limit, nx, ny, nz, core, vertices, center, linear, angular,
+            side, p, i, o, limit, nx, ny, nz, core, vertices, center, turns, linear, angular,
             detected_center, detected_turns, local_position, local_rotation, position, rotation,
         ):  # fmt: skip
             return True
-    put_both(i, o, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
     x, y, z = placed(position, rotation, 0, bx, by, bz)
     bx, by, bz = turned_back(rotation, 1, x - position[1, 0], y - position[1, 1], z - position[1, 2])
     put_both(i, o, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
@@ -97,12 +96,12 @@ def is_round(core, side):
 
 @inlined
 def has_rolled(
-    side, p, i, o, limit, nx, ny, nz, core, vertices, center, linear, angular,
+    side, p, i, o, limit, nx, ny, nz, core, vertices, center, turns, linear, angular,
     detected_center, detected_turns, local_position, local_rotation, position, rotation,
 ):  # fmt: skip
     """Tell whether a rim leans by ``limit`` (s), far from where it was lowest along n when bodies were detected.
 
-    Both shapes are where they are by then; they are put where they were.
+    Both shapes are where they are by then, and are left there.
     """
     body = i if side == 0 else o
     if body < 0:
@@ -115,6 +114,7 @@ def has_rolled(
         local_position, local_rotation, p, position, rotation,
     )  # fmt: skip
     tx, ty, tz = outermost(side, nx, ny, nz, core, vertices, position, rotation)
+    put_both(i, o, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
     x -= tx + center[body, 0] + limit * linear[body, 0] - detected_center[body, 0]
     y -= ty + center[body, 1] + limit * linear[body, 1] - detected_center[body, 1]
     z -= tz + center[body, 2] + limit * linear[body, 2] - detected_center[body, 2]
