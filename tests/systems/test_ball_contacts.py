@@ -98,7 +98,7 @@ def test_they_are_found_as_they_are_measured(crowd: tuple[World, Integers, Float
 def test_what_the_table_holds_is_placed_in_it(crowd: tuple[World, Integers, Floats]) -> None:
     """All of them, moved on by a little; one that is no more leaves the table as it is, and so does one that comes."""
     world, pairs, reaches = crowd
-    store(world, measure_pairs(world, pairs, reaches))
+    store(world, measure_pairs(world, pairs, reaches), 0.0)
     count, held = world[Contact].count, table(world)
     shift(world, pairs[0, 1])
     wanted = measure_pairs(world, pairs, reaches)
@@ -115,7 +115,7 @@ def test_what_the_table_holds_is_placed_in_it(crowd: tuple[World, Integers, Floa
     assert are_the_same(found, wanted)
     assert are_the_same(table(world), wanted)
     shift(world, pairs[0, 1])
-    store(world, measure_pairs(world, pairs[others], reaches[others]))
+    store(world, measure_pairs(world, pairs[others], reaches[others]), 0.0)
     held = table(world)
     more = find_balls(world, pairs, reaches)
     assert are_the_same(more, measure_pairs(world, pairs, reaches))
@@ -127,7 +127,7 @@ def test_what_the_table_holds_stays_until_it_is_farther(crowd: tuple[World, Inte
     """By a quarter of what both reach, else contacts of what lies would come and go; others do not come."""
     world, pairs, reaches = crowd
     wanted = measure_pairs(world, pairs, reaches)
-    store(world, wanted)
+    store(world, wanted, 0.0)
     less = reaches / 1.2
     assert len(measure_pairs(world, pairs, less).row_a) < len(wanted.row_a)
     assert are_the_same(find_balls(world, pairs, less), wanted)
@@ -137,7 +137,7 @@ def test_what_the_table_holds_stays_until_it_is_farther(crowd: tuple[World, Inte
     assert are_the_same(find_balls(world, pairs, less), farther)
     gone = next(k for k, depth in enumerate(farther.depth) if -depth > less[place_of(farther, k, pairs)])
     others = np.arange(len(farther.row_a)) != gone
-    store(world, farther.take(others))
+    store(world, farther.take(others), 0.0)
     assert are_the_same(find_balls(world, pairs, less), farther.take(others))
 
 
@@ -146,7 +146,7 @@ def test_it_stays_as_long_whoever_finds_it(
 ) -> None:
     """What follows does not hang on whether somebody knows that all contacts are of balls, as after a snapshot."""
     world, pairs, reaches = crowd
-    store(world, measure_pairs(world, pairs, reaches))
+    store(world, measure_pairs(world, pairs, reaches), 0.0)
     wanted = find_balls(world, pairs, reaches / 1.5)
     assert wanted is not None
     assert not isinstance(wanted, Kept)
@@ -158,13 +158,13 @@ def test_what_follows_from_where_they_are_is_there(crowd: tuple[World, Integers,
     """As it is of what is found anew, to the last bit; not where a surface runs, or a ball rolls about no centre."""
     world, pairs, reaches = crowd
     contact, columns = world[Contact], ("offset_a", "offset_b", "share")
-    store(world, measure_pairs(world, pairs, reaches))
+    store(world, measure_pairs(world, pairs, reaches), 0.0)
     shift(world, pairs[0, 1])
     found = find_balls(world, pairs, reaches)
     assert isinstance(found, Complete)
     placed = [getattr(contact, name)[: contact.count].copy() for name in columns]
     assert np.unique(placed[2]).tolist() == [0.0, 0.5, 1.0]
-    assert fill(world, Kept(*found), contact.count, known=True)
+    assert fill(world, Kept(*found), contact.count, 0.0, known=True)
     for name, column in zip(columns, placed, strict=True):
         assert getattr(contact, name)[: contact.count].tobytes() == column.tobytes()
     world[Resting].belts = True
@@ -180,7 +180,7 @@ def test_what_follows_from_where_they_are_is_there(crowd: tuple[World, Integers,
 def test_what_the_table_holds_otherwise_is_not(fault: str, crowd: tuple[World, Integers, Floats]) -> None:
     """Points of another feature, of FCL, or of somebody else in that row are others."""
     world, pairs, reaches = crowd
-    store(world, measure_pairs(world, pairs, reaches))
+    store(world, measure_pairs(world, pairs, reaches), 0.0)
     getattr(world[Contact], fault)[world[Contact].count // 2] += 1
     found = find_balls(world, pairs, reaches)
     assert are_the_same(found, measure_pairs(world, pairs, reaches))
@@ -190,7 +190,7 @@ def test_what_the_table_holds_otherwise_is_not(fault: str, crowd: tuple[World, I
 def test_others_have_to_see_to_what_is_unsound_or_no_ball(crowd: tuple[World, Integers, Floats]) -> None:
     """A pose that is not finite, a normal that is not of length 1, a capsule: the table stays as it is."""
     world, pairs, reaches = crowd
-    store(world, measure_pairs(world, pairs, reaches))
+    store(world, measure_pairs(world, pairs, reaches), 0.0)
     held, pose, before = table(world), world[ColliderPose], world[Answered].kernels
     capsule = np.array([(pairs[-1, 1], world.row_numbers(Collider)[-1])])
     assert find_balls(world, np.concatenate([pairs, capsule]), np.append(reaches, 0.0)) is None
