@@ -105,7 +105,7 @@ def test_bodies_come_to_rest_at_the_bottom_of_an_icy_valley(steep: float) -> Non
     assert np.abs(motion.linear[rows]).max() < 1e-4
 
 
-@pytest.mark.parametrize("seed", [2, 3, 4, 13, 17, 23, 31, 33, 36, 37, 55])
+@pytest.mark.parametrize("seed", [1, 2, 3, 4, 13, 17, 23, 31, 33, 36, 37, 55])
 def test_a_hull_that_slides_down_one_side_of_a_valley_does_not_swing_through_the_other(seed: int) -> None:
     """Flat hulls that come 6 cm in a step touch it first, while the other side is too far to be trusted.
 

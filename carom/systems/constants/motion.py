@@ -14,7 +14,7 @@ TRUST = 0.25
 
 # Part of the way that bodies glide that counts against what contacts are trusted: all of it where they turn, or where a
 # face of a mesh may end. Larger: whoever falls fast beside a wall has all contacts found anew in each substep. Smaller:
-# the fastest glide past edges, and are found on the other side of walls.
+# what glides over an edge at hundreds of m/s is struck by the face that has ended there.
 GLIDING = 0.25
 
 # Part of that at which a body on its way is near enough for its contact to be found. Smaller: more steps to come there.
