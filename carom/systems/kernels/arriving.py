@@ -49,13 +49,13 @@ def came_since(p, i, o, numbers, center, turns, detected_center, detected_turns)
 
 @inlined
 def somebody_arrives(
-    p, i, o, limit, nx, ny, nz, sought, core, vertices, center, turns, linear, angular,
+    p, i, o, limit, nx, ny, nz, sought, rolls, core, vertices, center, turns, linear, angular,
     detected_center, detected_turns, local_position, local_rotation, position, rotation, place,
 ):  # fmt: skip
     """Tell whether points of pair p touch within ``limit`` (s) that were farther apart than contacts were sought.
 
     ``sought`` (m) is along n (world), where bodies were detected; what is still as far now is not meant. So do points
-    of a rim that leans, far from where that was lowest then.
+    of a rim that ``rolls`` and leans, far from where that was lowest then.
     """
     around = core[AROUND] + core[CORE + AROUND]
     put_both(i, o, limit, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
@@ -71,7 +71,7 @@ def somebody_arrives(
     if gap > around:
         return False
     for side in range(2):
-        if is_round(core, side) and has_rolled(
+        if rolls and is_round(core, side) and has_rolled(
             side, p, i, o, limit, nx, ny, nz, core, vertices, center, turns, linear, angular,
             detected_center, detected_turns, local_position, local_rotation, position, rotation,
         ):  # fmt: skip

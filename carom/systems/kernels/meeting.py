@@ -86,13 +86,14 @@ def meet(
         if found and time == 0.0 and gap <= trust:
             sought = sought_to(p, i, o, numbers, bodies_reach)
             came = came_since(p, i, o, numbers, center, turns, detected_center, detected_turns)
-            if most * limit + came > sought or (came > 0.0 and (is_round(core, 0) or is_round(core, 1))):
+            rolls = came > MEET * trust and (is_round(core, 0) or is_round(core, 1))  # not where they were just found
+            if most * limit + came > sought or rolls:
                 if state == MEETING:
                     mx, my, mz = normal_or_centers(place, 0.0, 0.0, 0.0)
                     _, mx, my, mz, _, _, _ = expand(core, place, vertices, mx, my, mz, corners, face, plane, rim)
                 mx, my, mz = turned(rotation, 0, mx, my, mz)
                 if somebody_arrives(
-                    p, i, o, limit, mx, my, mz, sought, core, vertices, center, turns, linear, angular,
+                    p, i, o, limit, mx, my, mz, sought, rolls, core, vertices, center, turns, linear, angular,
                     detected_center, detected_turns, local_position, local_rotation, position, rotation, place,
                 ):  # fmt: skip
                     return 0.0, 0.0
