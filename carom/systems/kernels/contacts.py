@@ -54,8 +54,8 @@ def complete_contacts(
     """Fill in what follows from the two colliders: bodies, offsets, material, surface, and whether impacts are exact.
 
     Of those that were not recycled (``recycled_from`` is below 0), also where they are on the two shapes; of others
-    `recycle_contacts` says their offsets. The one contact of what is round and a face is where it is in the ``middle``
-    (s) of what is foreseen. Exact are balls about their body's centre of mass against balls, boxes
+    `recycle_contacts` says their offsets. Contacts of what is round and a face are where they will have rolled on to in
+    the ``middle`` (s) of what is foreseen. Exact are balls about their body's centre of mass against balls, boxes
     likewise centred, and half spaces. Where all are ``known``, what follows from shapes and materials, and where others
     stand, is there of pairs that are where they were (``match``), and what does not hang on exact arcs of those
     recycled. Each thread tells in ``changed`` whether it was not, or a surface runs; without ``belts`` none does.
