@@ -96,7 +96,7 @@ def test_all_that_rolls_is_slowed_by_the_torque_stated(shape: object, rotation: 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_an_ellipsoid_that_rolls_gains_no_energy(seed: int) -> None:
-    """However it rocks: its contact goes on with it; held where it was at the start of a step, it gave 1 % a second.
+    """However it rocks: its contact goes on with it. Held where a step began, it gave up to 0.7 % a second.
 
     It loses up to 2 % in 3 s, in part by what slips.
     """
