@@ -59,7 +59,7 @@ def test_only_what_moves_against_each_other_counts() -> None:
 
 def test_no_more_is_spent_than_there_is() -> None:
     """What is 0 is far."""
-    assert spend(asked=True, angular=ACROSS, left=0.001) == (True, 0.0)
+    assert spend(asked=True, left=0.001) == (True, 0.0)
 
 
 def test_who_goes_straight_on_needs_nobody_to_look() -> None:

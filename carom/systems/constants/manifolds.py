@@ -61,7 +61,8 @@ AUDITED_TURN, AUDITED_DEPTH = 0.5, 3e-6
 AS_LOW = 1e-3
 
 # Part of its radius by which the contact of a rim or an ellipsoid may go on in half a step; what goes farther comes to
-# lie flat. Larger: its contact is where nothing is yet. Smaller: coins that are about to come to rest sink in.
+# lie flat, and where it leans is found anew. Larger: its contact is where nothing is yet. Smaller: coins that are about
+# to come to rest sink in.
 ROLLED_ON = 0.5
 
 # Part of its radius within which a contact is that of the lowest point of an end. Larger: points of a rim go on that
