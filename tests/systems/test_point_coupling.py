@@ -19,7 +19,7 @@ def couple_and_part(m, impulse, offset, inverse_mass, inverse_inertia, principal
     """Couple points of body 0 and of none, and part them by an impulse at point m."""
     for body in (0, -1):
         couple_points(
-            body, 0, len(offset), offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling
+            body, np.arange(len(offset)), offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling
         )  # fmt: skip
     part_points(m, impulse[0], impulse[1], impulse[2], coupling, slips)
 

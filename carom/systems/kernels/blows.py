@@ -97,25 +97,25 @@ def blow(
     """
     a, b = body_a[first], body_b[first]
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
-    n = end - first
-    ease, least, given, aside = np.zeros(n), np.zeros(n), np.zeros((n, 4)), np.zeros(n)
-    coupling, slips, start, way = np.zeros((n, n, 9)), np.zeros((n, 3)), np.zeros((n, 4)), np.zeros((n, 4))
-    for m in range(n):
-        c = first + m
+    touching, n = np.empty(end - first, np.int64), 0
+    for c in range(first, end):
         if -depth_now(c, a, b, normal, deep, at_a, at_b, start_center, center, turned) <= TOUCH:
             meet(
                 c, a, b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, center, turned,
                 share,
             )  # fmt: skip
-            ease[m] = 1.0  # it touches
+            touching[n], n = c, n + 1
+    touching = touching[:n]
+    ease, least, given, aside = np.empty(n), np.zeros(n), np.zeros((n, 4)), np.zeros(n)
+    coupling, slips, start, way = np.zeros((n, n, 9)), np.empty((n, 3)), np.zeros((n, 4)), np.zeros((n, 4))
     for body, at in ((a, at_a), (b, at_b)):
         couple_points(
-            body, first, n, at, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling
+            body, touching, at, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling
         )  # fmt: skip
     speed = 0.0
     for m in range(n):
-        ease[m] *= hardness(yields_at(m, nx, ny, nz, coupling), a, b, inverse_mass)
-        slips[m, 0], slips[m, 1], slips[m, 2] = slip_of_pair(first + m, a, b, at_a, at_b, linear, angular)
+        ease[m] = hardness(yields_at(m, nx, ny, nz, coupling), a, b, inverse_mass)
+        slips[m, 0], slips[m, 1], slips[m, 2] = slip_of_pair(touching[m], a, b, at_a, at_b, linear, angular)
         if ease[m] > 0.0:
             speed = max(speed, -(nx * slips[m, 0] + ny * slips[m, 1] + nz * slips[m, 2]))
     if speed <= APPROACH:
@@ -136,7 +136,7 @@ def blow(
             for m in range(n):
                 if ease[m] == 0.0:
                     continue
-                c = first + m
+                c = touching[m]
                 sx, sy, sz = slips[m, 0], slips[m, 1], slips[m, 2]
                 before = given[m, 0]
                 step = ease[m]
@@ -166,7 +166,7 @@ def blow(
     for m in range(n):
         j = given[m, 0]
         push_pair(
-            first + m, a, b, j * nx + given[m, 1], j * ny + given[m, 2], j * nz + given[m, 3], at_a, at_b,
+            touching[m], a, b, j * nx + given[m, 1], j * ny + given[m, 2], j * nz + given[m, 3], at_a, at_b,
             linear, angular, inverse_mass, inverse_inertia, principal, freedom, rotation,
         )  # fmt: skip
     if bounce == 0.0:  # what presses them is taken out of their arcs, as a contact force would
@@ -176,7 +176,7 @@ def blow(
             stop_pressing(a, b, -nx, -ny, -nz, inverse_mass, freedom, acceleration)
     total, px, py, pz, fx, fy, fz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for m in range(n):
-        c, j = first + m, given[m, 0]
+        c, j = touching[m], given[m, 0]
         total += j
         at = at_a if a >= 0 else at_b
         px, py, pz = px + j * at[c, 0], py + j * at[c, 1], pz + j * at[c, 2]

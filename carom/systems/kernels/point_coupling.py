@@ -9,23 +9,23 @@ from carom.systems.kernels.spatial import cross
 
 
 @inlined
-def couple_points(i, first, count, offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling):
-    """Add what body i, which may be none, has to do with it to ``coupling`` (count, count, 9).
+def couple_points(i, contacts, offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling):
+    """Add what body i, which may be none, has to do with it to ``coupling`` (n, n, 9) of n contacts.
 
     ``coupling[m, o]`` is the 3 x 3 matrix, row by row, by which a unit impulse at point m moves the body at point o:
-    m^-1 e + (I^-1 (r_m x e)) x r_o for each axis e. ``offset`` of the contacts from ``first`` on are the points.
+    m^-1 e + (I^-1 (r_m x e)) x r_o for each axis e. Points are the ``offset`` of contacts.
     """
     if i < 0:
         return
     xx, xy, xz, yy, yz, zz = inverse_inertia_of(i, inverse_inertia, principal, freedom, rotation)
-    for m in range(count):
-        rx, ry, rz = offset[first + m, 0], offset[first + m, 1], offset[first + m, 2]
+    for m, c in enumerate(contacts):
+        rx, ry, rz = offset[c, 0], offset[c, 1], offset[c, 2]
         for axis in range(3):
             ex, ey, ez = 1.0 if axis == 0 else 0.0, 1.0 if axis == 1 else 0.0, 1.0 if axis == 2 else 0.0
             tx, ty, tz = cross(rx, ry, rz, ex, ey, ez)
             wx, wy, wz = xx * tx + xy * ty + xz * tz, xy * tx + yy * ty + yz * tz, xz * tx + yz * ty + zz * tz
-            for o in range(count):
-                vx, vy, vz = cross(wx, wy, wz, offset[first + o, 0], offset[first + o, 1], offset[first + o, 2])
+            for o, other in enumerate(contacts):
+                vx, vy, vz = cross(wx, wy, wz, offset[other, 0], offset[other, 1], offset[other, 2])
                 coupling[m, o, axis] += vx + inverse_mass[i] * freedom[i, 0] * ex
                 coupling[m, o, 3 + axis] += vy + inverse_mass[i] * freedom[i, 1] * ey
                 coupling[m, o, 6 + axis] += vz + inverse_mass[i] * freedom[i, 2] * ez
@@ -50,7 +50,7 @@ def parted(m, o, jx, jy, jz, coupling):
 
 @inlined
 def part_points(m, jx, jy, jz, coupling, slips):
-    """Change the velocities at which bodies part at all points, ``slips`` (count, 3), by an impulse at point m."""
+    """Change the velocities at which bodies part at all points, ``slips`` (n, 3), by an impulse at point m."""
     for o in range(len(slips)):
         x, y, z = parted(m, o, jx, jy, jz, coupling)
         slips[o, 0] += x
