@@ -115,6 +115,22 @@ def test_an_ellipsoid_that_rolls_gains_no_energy(seed: int) -> None:
     assert 0.98 < total_energy(simulation.world) / before < 1.0
 
 
+@pytest.mark.parametrize("shape", ["cylinder", "cone"])
+def test_what_spins_flat_on_its_end_stays_as_upright_as_it_was(shape: str) -> None:
+    """A lean of rounding is none: no point of the rim rolls on as if it were the lowest."""
+    simulation, smooth = Simulation(), {"friction": 0.0}
+    simulation.add(collider={"plane": {}}, material=smooth)
+    top = simulation.add(
+        collider={shape: {"radius": 0.4, "length": 0.5}}, body={}, material=smooth,
+        transform={"position": (0.0, 0.25, 0.0), "rotation": (5e-13, 0.0, 0.0, 1.0)},
+        motion={"linear": (1.0, 0.0, 0.0), "angular": (0.0, 30.0, 0.0)},
+    )  # fmt: skip
+    for _ in range(180):
+        simulation.step()
+        axis = quaternion.rotate(np.array(simulation[top].transform.rotation), np.array([0.0, 1.0, 0.0]))
+        assert np.hypot(axis[0], axis[2]) < 2e-12
+
+
 def test_the_smaller_of_two_that_roll_on_each_other_says_how_long_the_lever_is() -> None:
     """A marble on a planet is slowed as on a plane."""
     simulation = Simulation()

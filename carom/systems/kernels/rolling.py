@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import ROLLED_ON, ROLLING_POINT
+from carom.systems.constants import AS_LOW, ROLLED_ON, ROLLING_POINT
 from carom.systems.kernels.cores import CONE_SHAPE, ELLIPSOID, ELLIPSOID_SHAPE, farthest_of_round
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.spatial import product, spun, turn
@@ -20,15 +20,19 @@ def roll_on(
     Other points of a rim or an ellipsoid touch then: held where they touched at first, drums that wobble would sink by
     what their lowest point has turned on by. Those are moved that are lowest at their end, with the ``offset`` from the
     body and that of the other. The normal leads out of the collider where ``outward`` is 1, else -1. Not moved is what
-    comes to lie flat, and touches elsewhere.
+    comes to lie flat, and touches elsewhere, and rims that lie as flat as rounding tells: all of them are as low.
     """
     dx, dy, dz, dw = spun(0.0, 0.0, 0.0, 1.0, angular[body, 0], angular[body, 1], angular[body, 2], time)
     qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]
     px, py, pz, pw = product(dx, dy, dz, dw, qx, qy, qz, qw)
     sx, sy, sz = position[i, 0] - center[body, 0], position[i, 1] - center[body, 1], position[i, 2] - center[body, 2]
     tx, ty, tz = turn(dx, dy, dz, dw, sx, sy, sz)
+    ax, ay, az = turn(qx, qy, qz, qw, 0.0, 1.0, 0.0)
     for c in range(first, end):
         nx, ny, nz = outward * normal[c, 0], outward * normal[c, 1], outward * normal[c, 2]
+        upright = nx * ax + ny * ay + nz * az
+        if shape[i] != ELLIPSOID_SHAPE and (1.0 - upright * upright) * size[i, 0] ** 2 <= AS_LOW * AS_LOW:
+            continue
         _, upper, _ = turn(-qx, -qy, -qz, qw, offset[c, 0] - sx, offset[c, 1] - sy, offset[c, 2] - sz)
         x, y, z = lowest(i, upper, qx, qy, qz, qw, nx, ny, nz, shape, size)
         x, y, z = x + sx, y + sy, z + sz

@@ -1,0 +1,65 @@
+"""Heavy bodies stand on light ones: they sink in by what the springs between them yield, and come to rest."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from carom.ecs import Motion, RigidBody, Transform
+from carom.systems.constants import LOADED, LOADED_RIGID, LOADED_RIGID_YIELD, LOADED_YIELD
+from carom.systems.simulation import Simulation
+from carom.systems.yielding import yielding
+
+G, H = 9.81, 1.0 / 240.0
+CORNER = 4.0  # what moves at a corner of a cube for each kg of it: its mass, and by 1/2 m about two axes of 1/6 kg m2
+
+
+def column(ratio: float, below: int, aside: float = 0.0) -> Simulation:
+    """Return a cube so many times as heavy as the cubes of 1 kg below it, of which it stands ``aside`` (m)."""
+    simulation = Simulation(sleeping=False)
+    simulation.add(collider={"plane": {}}, material={"friction": 0.5})
+    for k in range(below + 1):
+        heavy = k == below
+        simulation.add(
+            collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={"mass": ratio if heavy else 1.0},
+            material={"friction": 0.5}, transform={"position": (aside if heavy else 0.0, 0.5 + k, 0.0)},
+        )  # fmt: skip
+    return simulation
+
+
+def sunk(weight: float, inverse_masses: float, *, rigid: bool) -> float:
+    """Return how deep (m) the corners of a cube are that bear so many weights of 1 kg between these two bodies.
+
+    The impulse that a corner keeps, and what it leaves by, make up for what it yields (`aimed_at`).
+    """
+    rate, hardness = yielding(H)[rigid]
+    load, yields = (LOADED_RIGID, LOADED_RIGID_YIELD) if rigid else (LOADED, LOADED_YIELD)
+    bears = 0.25 * weight * G * CORNER * inverse_masses  # m/s2
+    lost = (1.0 - hardness) * bears + (hardness - 1.0 + yields) * max(0.0, bears - load)
+    return lost * H / (hardness * rate)
+
+
+@pytest.mark.parametrize("below", [1, 3])
+@pytest.mark.parametrize("ratio", [1.0, 10.0, 100.0, 250.0, 1000.0])
+def test_a_heavy_cube_sinks_in_by_what_springs_yield_that_bear_it(ratio: float, below: int) -> None:
+    """Of loads that piles do not reach they yield to less; to rounding, after 20 s."""
+    simulation = column(ratio, below)
+    simulation.step(1200)
+    world = simulation.world
+    rows = world.row_numbers(RigidBody)
+    height = np.diff(world[Transform].position[rows, 1], prepend=-0.5)
+    masses = [1.0] * below + [ratio]
+    for k in range(below + 1):
+        bodies = 1.0 / masses[k] + (1.0 / masses[k - 1] if k else 0.0)
+        assert 1.0 - height[k] == pytest.approx(sunk(sum(masses[k:]), bodies, rigid=k == 0), rel=1e-9, abs=1e-12)
+    assert np.abs(world[Motion].linear[rows]).max() < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("ratio", "below", "aside"), [(100.0, 1, 0.1), (100.0, 1, 0.2), (250.0, 1, 0.1), (250.0, 1, 0.2), (100.0, 3, 0.2)]
+)
+def test_a_heavy_cube_that_stands_aside_comes_to_rest(ratio: float, below: int, aside: float) -> None:
+    """Were contacts with the ground rigid under such loads, light cubes would rock on at decimetres a second."""
+    simulation = column(ratio, below, aside)
+    simulation.step(1200)
+    assert np.abs(simulation.world[Motion].linear).max() < 1e-3
