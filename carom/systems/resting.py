@@ -38,7 +38,7 @@ from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.threads import crew_for
-from carom.systems.yielding import Yielding, relax_sweeps, yielding
+from carom.systems.yielding import HARD, Yielding, relax_sweeps, yielding
 
 
 class Stage(NamedTuple):
@@ -215,12 +215,12 @@ class Resting(Resource):
 
     def relax(self, world: World, h: float) -> None:
         """Take the speed by which overlap left out of the velocities."""
-        linkage, hard = world[Linkage], (0.0, 1.0)
+        linkage = world[Linkage]
         if linkage.groups:
             self._pack_anew(world)  # all of them have moved
             self.placed = True
             linkage.measure(world, self.bodies)
-        self._solve(world, Stage("relax", relax_sweeps(world[Settings].substeps), h, hard, hard))
+        self._solve(world, Stage("relax", relax_sweeps(world[Settings].substeps), h, HARD, HARD))
 
     def _solve(self, world: World, stage: Stage) -> None:
         """Do all sweeps of a stage: at once where joints or contacts are alone and nobody is to hear of each.

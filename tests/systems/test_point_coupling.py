@@ -15,11 +15,13 @@ POINTS = 4
 
 
 @kernel("coupling", "slips")
-def couple_and_part(m, impulse, offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling, slips):
+def couple_and_part(
+    m, impulse, contacts, offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling, slips
+):
     """Couple points of body 0 and of none, and part them by an impulse at point m."""
     for body in (0, -1):
         couple_points(
-            body, np.arange(len(offset)), offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling
+            body, contacts, offset, inverse_mass, inverse_inertia, principal, freedom, rotation, coupling
         )  # fmt: skip
     part_points(m, impulse[0], impulse[1], impulse[2], coupling, slips)
 
@@ -52,7 +54,7 @@ def test_points_part_as_a_body_that_is_pushed_moves(
     body = np.array([0.7]), np.array([inverse_inertia]), turns[0], freedom, turns[1]
     for m in range(POINTS):
         slips, moved = np.zeros((POINTS, 3)), np.zeros((POINTS, 3))
-        couple_and_part(m, impulse, offset, *body, np.zeros((POINTS, POINTS, 9)), slips)
+        couple_and_part(m, impulse, np.arange(POINTS), offset, *body, np.zeros((POINTS, POINTS, 9)), slips)
         push_and_look(m, impulse, offset, *body, np.zeros((1, 3)), np.zeros((1, 3)), moved)
         assert np.abs(moved).max() > 0.1
         np.testing.assert_allclose(slips, moved, rtol=0.0, atol=1e-14)

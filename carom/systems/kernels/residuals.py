@@ -38,11 +38,11 @@ def find_residuals(begin, end, h, ends, soft, rigid, index_a, index_b, points, r
         for k in range(FOUND):
             store(found, FOUND * g + k, spread(0.0))
         if asks[g] != IDLE:
-            rate, hardness = soft if g < ends[0] else rigid
+            yielding = soft if g < ends[0] else rigid
             a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
             parting, slips = parting_of_any(row[g], asks[g], lanes, a, b)
             total, twisting = look_at_points(
-                row[g], points[g], 1.0 / h, rate, hardness, parting, lanes, FOUND * g, found
+                row[g], points[g], 1.0 / h, yielding, parting, lanes, FOUND * g, found
             )  # fmt: skip
             if asks[g] == BALLS:
                 look_at_balls(row[g], total, slips, lanes, FOUND * g, found)
@@ -61,22 +61,22 @@ def parting_of_any(r, asks, lanes, a, b):
 
 
 @woven
-def look_at_points(r, points, per_second, rate, hardness, parting, lanes, to, found):
+def look_at_points(r, points, per_second, yielding, parting, lanes, to, found):
     """Write what the points of a group have left open; return the sum of their impulses, and times their distances."""
-    one, zero, slow = spread(1.0), spread(0.0), leaving(points, rate, hardness, parting)
+    one, zero, slow = spread(1.0), spread(0.0), leaving(points, yielding[0], yielding[1], parting)
     total, twisting, largest, summed, opened, pushed = zero, zero, zero, zero, zero, zero
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
         there = choose(mass, choose(depth - spread(0.5 * ABSENT), one, zero), zero)
         parts = parting_at(q, lanes, parting) if points > 1 else parting[0]
-        target, stiff = aimed_at(depth, before, mass, parts, per_second, rate, slow, hardness)
+        target, stiff = aimed_at(depth, before, mass, parts, per_second, slow, yielding)
         after = larger(zero, target)
         change = larger(after - before, before - after)
         left = choose(there, change / larger(stiff, spread(TINY)), zero)
         largest, summed = larger(largest, left), summed + left
         opened = opened + choose(before, zero, there)
-        pushed = pushed + choose(depth * rate - PUSH_SPEED, there, zero)
+        pushed = pushed + choose(depth * yielding[0] - PUSH_SPEED, there, zero)
         total = total + before
         if points > 1:  # else it is the middle
             twisting = twisting + before * load(lanes, q + of.AWAY)

@@ -74,9 +74,10 @@ def press_groups(
     bodies that are not: ``stirred`` is the last sweep in which each was stirred. Whose manifold starts to press is
     stirred in the START_SWEEPS that follow. In the row of ``stirs`` that even or odd sweeps have, each thread tells
     whether others are to follow. ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield
-    (`aimed_at`). Those with something that cannot move come last, so that what is under a pile has the last word. Where
-    the substep ``begins`` with them, the impulses of the one before are applied first; where it has ``ended``, its
-    impulses are added to those of the step. Velocities of ``rows`` are packed before and unpacked behind.
+    (`aimed_at`); in sweeps that follow loads are those of a crash, and do not count. Those with something that cannot
+    move come last, so that what is under a pile has the last word. Where the substep ``begins`` with them, the impulses
+    of the one before are applied first; where it has ``ended``, its impulses are added to those of the step. Velocities
+    of ``rows`` are packed before and unpacked behind.
 
     A thread takes its part of each run of a level, waits for the others after that, and has two pages of ``scratch``.
     """
@@ -110,14 +111,15 @@ def press_groups(
                     if asks[g] == IDLE:
                         continue
                     fetch_next(g, end, of_a, of_b, bodies)
-                    rate, hardness = soft if g < ends[0] else rigid
+                    yielding = soft if g < ends[0] else rigid
                     if again:
+                        yielding = (yielding[0], yielding[1], 0.0, 0.0)
                         concerned = are_stirred(g, sweep - 1, index_a, index_b, stirred)
                         if not some(concerned):
                             continue
                         put_aside(g, row[g], points[g], asks[g], of_a, of_b, lanes, bodies, kept)
                     excess, starts = press(
-                        g, row[g], points[g], asks[g], 1.0 / h, rate, hardness, limit, g < ends[0],
+                        g, row[g], points[g], asks[g], 1.0 / h, yielding, limit, g < ends[0],
                         of_a, of_b, lanes, bodies, scratch,
                     )  # fmt: skip
                     if again:
@@ -161,7 +163,7 @@ def sum_impulses(r, points, lanes):
 
 
 @woven
-def press(g, r, points, asks, per_second, rate, hardness, limit, both_yield, index_a, index_b, lanes, bodies, scratch):
+def press(g, r, points, asks, per_second, yielding, limit, both_yield, index_a, index_b, lanes, bodies, scratch):
     """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling.
 
     All but rolling is found in the frames of manifolds, and what bodies move by is added up once.
@@ -170,18 +172,18 @@ def press(g, r, points, asks, per_second, rate, hardness, limit, both_yield, ind
     pressed before: friction turns bodies, against which points cannot press before the next sweep. Balls need none.
     """
     if asks == BALLS:
-        return press_balls(g, r, per_second, rate, hardness, limit, index_a, index_b, lanes, bodies), spread(0.0)
+        return press_balls(g, r, per_second, yielding, limit, index_a, index_b, lanes, bodies), spread(0.0)
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     parting, slipping = parting_of(r, lanes, a, b), slip(r, lanes, a, b)
     # Loops over a known number of points are unrolled.
     if points == 1:
-        solved = press_points(1, r, per_second, rate, hardness, limit, parting, lanes, scratch)
+        solved = press_points(1, r, per_second, yielding, limit, parting, lanes, scratch)
     elif points == 2:
-        solved = press_points(2, r, per_second, rate, hardness, limit, parting, lanes, scratch)
+        solved = press_points(2, r, per_second, yielding, limit, parting, lanes, scratch)
     elif points == 3:
-        solved = press_points(3, r, per_second, rate, hardness, limit, parting, lanes, scratch)
+        solved = press_points(3, r, per_second, yielding, limit, parting, lanes, scratch)
     else:
-        solved = press_points(4, r, per_second, rate, hardness, limit, parting, lanes, scratch)
+        solved = press_points(4, r, per_second, yielding, limit, parting, lanes, scratch)
     total, twisting, push, by_t, by_u, excess = solved
     if asks == ROLLING:
         a, b = pressed(r, lanes, a, b, push, by_t, by_u)
@@ -202,7 +204,7 @@ def press(g, r, points, asks, per_second, rate, hardness, limit, both_yield, ind
 
 
 @woven
-def press_points(points, r, per_second, rate, hardness, limit, parting, lanes, scratch):
+def press_points(points, r, per_second, yielding, limit, parting, lanes, scratch):
     """Solve the points of a group, of which bodies are ``parting`` so (`parting_of`).
 
     Return the sum of the impulses, that of each times its distance from the middle, by how much the sum has changed,
@@ -212,12 +214,12 @@ def press_points(points, r, per_second, rate, hardness, limit, parting, lanes, s
     all need alike comes first, then one after the other what it lacks.
     """
     zero = spread(0.0)
-    slow = leaving(points, rate, hardness, parting)
+    slow = leaving(points, yielding[0], yielding[1], parting)
     for p in range(points):
         q, x = r + MANIFOLD_ROWS + POINT_ROWS * p, SCRATCH_ROWS * p
         depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
         parts = parting_at(q, lanes, parting) if points > 1 else parting[0]
-        target, stiff = aimed_at(depth, before, mass, parts, per_second, rate, slow, hardness)
+        target, stiff = aimed_at(depth, before, mass, parts, per_second, slow, yielding)
         store(scratch, x + IMPULSE, before)
         store(scratch, x + TARGET, target)
         store(scratch, x + STIFF, stiff)

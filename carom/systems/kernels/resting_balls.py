@@ -82,7 +82,7 @@ def press_balls_warm(g, r, index_a, index_b, lanes, bodies):
 
 
 @woven
-def press_balls(g, r, per_second, rate, hardness, limit, index_a, index_b, lanes, bodies):
+def press_balls(g, r, per_second, yielding, limit, index_a, index_b, lanes, bodies):
     """Solve a group once, as `press_points` and `rub` do: what parts balls does not rub them, so that both are one.
 
     Return more than 0 where that changes how fast they part by more than the ``limit`` (m/s).
@@ -91,7 +91,7 @@ def press_balls(g, r, per_second, rate, hardness, limit, index_a, index_b, lanes
     q, zero = r + MANIFOLD_ROWS, spread(0.0)
     depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
     parts, slips = parting_of_balls(r, lanes, a, b)
-    after = larger(zero, aimed_at(depth, before, mass, parts, per_second, rate, rate, hardness)[0])
+    after = larger(zero, aimed_at(depth, before, mass, parts, per_second, yielding[0], yielding)[0])
     store(lanes, q + of.WARM, after)
     f = three(lanes, r + of.RUB)
     new = minus(f, times(load(lanes, r + of.GIVE), slips))

@@ -3,16 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import (
-    HARD_GAP,
-    LOADED,
-    LOADED_RIGID,
-    LOADED_RIGID_YIELD,
-    LOADED_YIELD,
-    PUSH_SPEED,
-    ROCKING,
-    ROCKING_DEPTH,
-)
+from carom.systems.constants import HARD_GAP, PUSH_SPEED, ROCKING, ROCKING_DEPTH
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lanes import larger, smaller, spread
 
@@ -30,21 +21,21 @@ def leaving(points, rate, hardness, parting):
 
 
 @woven
-def aimed_at(depth, before, mass, parts, per_second, rate, slow, hardness):
+def aimed_at(depth, before, mass, parts, per_second, slow, yielding):
     """Return the impulse after which points would part as wanted, were all else to stay, and by how much per m/s.
 
-    Overlap leaves at ``rate`` (1/s) times itself, that up to ROCKING_DEPTH at the ``slow`` one. A soft contact is a
-    spring and a damper, stepped implicitly, of which ``hardness`` (part of the mass, and of the impulse that stays)
-    remains: Catto, Soft Constraints, GDC 2011, and Solver2D, 2024 (soft step). A gap may close until the end of the
-    substep, of which there are so many ``per_second``; from HARD_GAP on it does not yield. What is LOADED yields
-    by LOADED_YIELD of what it bears beyond that, on what cannot move too.
+    How contacts yield is (rate, hardness, load, part), as `yielding` returns it. Overlap leaves at the rate times
+    itself, that up to ROCKING_DEPTH at the ``slow`` one. A soft contact is a spring and a damper, stepped implicitly, of
+    which the hardness remains: Catto, Soft Constraints, GDC 2011, and Solver2D, 2024 (soft step). A gap may close until
+    the end of the substep, of which there are so many ``per_second``; from HARD_GAP on it does not yield. What a point
+    bears beyond the load (0: none) times the mass goes by the part stated instead.
     """
+    rate, hardness, load, part = yielding
     sunk = smaller(depth, spread(ROCKING_DEPTH))
     wanted = smaller(smaller(depth * per_second, sunk * slow + (depth - sunk) * rate), spread(PUSH_SPEED))
     hard = smaller(spread(1.0), hardness + larger(spread(0.0), -depth) * (1.0 / HARD_GAP))
     target = hard * (before - mass * (parts - wanted))
-    if rate > 0.0:
-        load, yields = (LOADED, LOADED_YIELD) if hardness < 1.0 else (LOADED_RIGID, LOADED_RIGID_YIELD)
-        excess = larger(spread(0.0), before - (load / per_second) * mass)
-        target = target - (hard - (1.0 - yields)) * excess
+    if load > 0.0:
+        excess = larger(spread(0.0), before - load * mass)
+        target = target - (hard - (1.0 - part)) * excess
     return target, hard * mass

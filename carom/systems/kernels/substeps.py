@@ -25,6 +25,7 @@ from carom.systems.kernels.settling import finish_drift, sink_contacts, tell_dep
 from carom.systems.kernels.sorting import sort_groups
 from carom.systems.kernels.ticks import nanoseconds
 from carom.systems.kernels.trust import ask_straying
+from carom.systems.yielding import HARD
 
 predict, pack, sort, touch = predict_middle.within, pack_bodies.within, sort_groups.within, write_touches.within
 kick, press, bend, close = kick_bodies.within, press_groups.within, bend_arcs.within, find_closing.within
@@ -34,7 +35,6 @@ come, soar = when_near.within, fly.within
 
 #: The systems whose work is done here, in the order of the frame.
 LOOK_AHEAD, PREDICT, SORT, KICK, HOLD, DRIFT, SETTLE, RELAX, SYSTEMS = range(9)
-HARD = (0.0, 1.0)
 
 
 @kernel(
