@@ -25,10 +25,10 @@ def aimed_at(depth, before, mass, parts, per_second, slow, yielding):
     """Return the impulse after which points would part as wanted, were all else to stay, and by how much per m/s.
 
     How contacts yield is (rate, hardness, load, part), as `yielding` returns it. Overlap leaves at the rate times
-    itself, that up to ROCKING_DEPTH at the ``slow`` one. A soft contact is a spring and a damper, stepped implicitly, of
-    which the hardness remains: Catto, Soft Constraints, GDC 2011, and Solver2D, 2024 (soft step). A gap may close until
-    the end of the substep, of which there are so many ``per_second``; from HARD_GAP on it does not yield. What a point
-    bears beyond the load (0: none) times the mass goes by the part stated instead.
+    itself, that up to ROCKING_DEPTH at the ``slow`` one. A soft contact is a spring and a damper, stepped implicitly,
+    of which the hardness remains: Catto, Soft Constraints, GDC 2011, and Solver2D, 2024 (soft step). A gap may close
+    until the end of the substep, of which there are so many ``per_second``; from HARD_GAP on it does not yield. What a
+    point bears beyond the load (0: none) times the mass goes by the part stated instead.
     """
     rate, hardness, load, part = yielding
     sunk = smaller(depth, spread(ROCKING_DEPTH))
