@@ -13,7 +13,7 @@ from carom.systems.kernels.levers import frame_of, parting_at, parting_of
 from carom.systems.kernels.packing import VELOCITY
 from carom.systems.kernels.resting_balls import parting_of_balls
 from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, slip
-from carom.systems.kernels.softness import aimed_at, leaving
+from carom.systems.kernels.softness import aimed_at, leaving, of_any_load
 
 #: Rows of a group: the largest residual of a point of each manifold and the sum of those of all its points (m/s); how
 #: many of its points bear nothing, since they do not pull, and how many overlaps leave at the highest speed; 1 where
@@ -65,12 +65,13 @@ def look_at_points(r, points, per_second, yielding, parting, lanes, to, found):
     """Write what the points of a group have left open; return the sum of their impulses, and times their distances."""
     one, zero, slow = spread(1.0), spread(0.0), leaving(points, yielding[0], yielding[1], parting)
     total, twisting, largest, summed, opened, pushed = zero, zero, zero, zero, zero, zero
+    how = of_any_load(yielding) if points == 1 else yielding
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
         there = choose(mass, choose(depth - spread(0.5 * ABSENT), one, zero), zero)
         parts = parting_at(q, lanes, parting) if points > 1 else parting[0]
-        target, stiff = aimed_at(depth, before, mass, parts, per_second, slow, yielding)
+        target, stiff = aimed_at(depth, before, mass, parts, per_second, slow, how)
         after = larger(zero, target)
         change = larger(after - before, before - after)
         left = choose(there, change / larger(stiff, spread(TINY)), zero)

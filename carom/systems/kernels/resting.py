@@ -29,7 +29,7 @@ from carom.systems.kernels.levers import frame_of, parting_at, parting_of
 from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
 from carom.systems.kernels.resting_balls import parted_by, press_balls, press_balls_warm
 from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, roll, rub, slip, swerved
-from carom.systems.kernels.softness import aimed_at, leaving
+from carom.systems.kernels.softness import aimed_at, leaving, of_any_load
 from carom.systems.kernels.stirring import KEPT_ROWS, NEVER, are_stirred, put_aside, put_back, some_stir, stir
 
 # Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, the mass
@@ -113,7 +113,7 @@ def press_groups(
                     fetch_next(g, end, of_a, of_b, bodies)
                     yielding = soft if g < ends[0] else rigid
                     if again:
-                        yielding = (yielding[0], yielding[1], 0.0, 0.0)
+                        yielding = of_any_load(yielding)
                         concerned = are_stirred(g, sweep - 1, index_a, index_b, stirred)
                         if not some(concerned):
                             continue
@@ -177,7 +177,7 @@ def press(g, r, points, asks, per_second, yielding, limit, both_yield, index_a, 
     parting, slipping = parting_of(r, lanes, a, b), slip(r, lanes, a, b)
     # Loops over a known number of points are unrolled.
     if points == 1:
-        solved = press_points(1, r, per_second, yielding, limit, parting, lanes, scratch)
+        solved = press_points(1, r, per_second, of_any_load(yielding), limit, parting, lanes, scratch)
     elif points == 2:
         solved = press_points(2, r, per_second, yielding, limit, parting, lanes, scratch)
     elif points == 3:

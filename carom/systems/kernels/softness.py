@@ -9,6 +9,12 @@ from carom.systems.kernels.lanes import larger, smaller, spread
 
 
 @woven
+def of_any_load(yielding):
+    """Return how contacts yield whatever they bear: a point alone cannot rock, and crashes are no loads."""
+    return yielding[0], yielding[1], 0.0, 0.0
+
+
+@woven
 def leaving(points, rate, hardness, parting):
     """Return which part of itself overlap leaves by (1/s): of what rocks on what cannot move, the less the faster.
 
