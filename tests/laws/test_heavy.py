@@ -54,10 +54,11 @@ def test_a_heavy_cube_sinks_in_by_what_springs_yield_that_bear_it(ratio: float, 
 
 
 @pytest.mark.parametrize(
-    ("ratio", "below", "aside"), [(100.0, 1, 0.1), (100.0, 1, 0.2), (250.0, 1, 0.1), (250.0, 1, 0.2), (100.0, 3, 0.2)]
+    ("ratio", "below", "aside"),
+    [(100.0, 1, 0.1), (100.0, 1, 0.2), (100.0, 3, 0.2), (250.0, 1, 0.1), (250.0, 1, 0.2), (1000.0, 1, 0.2)],
 )
 def test_a_heavy_cube_that_stands_aside_comes_to_rest(ratio: float, below: int, aside: float) -> None:
-    """Within half a minute: with contacts rigid under such loads light cubes rock on at decimetres a second."""
+    """Within 20 s: with contacts rigid under such loads light cubes rock on at decimetres a second."""
     simulation = column(ratio, below, aside)
-    simulation.step(1800)
+    simulation.step(1200)
     assert np.abs(simulation.world[Motion].linear).max() < 1e-3

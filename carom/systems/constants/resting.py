@@ -27,12 +27,12 @@ HARD_GAP = 1e-4
 RIGID_RATE = 0.05
 
 # m/s2, and part of what a point bears beyond so much times the mass that counts there by which it yields then: between
-# two moving bodies, where heavy ones on light ones would sink in by more (1,000 kg on 1 kg by 12 cm instead of 7), and
+# two moving bodies, where heavy ones on light ones would sink in by more (1,000 kg on 1 kg by 12 cm instead of 10), and
 # on what cannot move, where light ones that did not yield at all would be driven to and fro for good by heavy ones that
 # stand aside on them (100 kg at 0.3 m/s), as sweeps leave them far from solved. Less load: walls of 40 rows lean
-# sooner. A larger part: who is heavy sinks in. Smaller: he rocks on, or is thrown up and down.
-LOADED, LOADED_YIELD = 1500.0, 0.02
-LOADED_RIGID, LOADED_RIGID_YIELD = 400.0, 0.01
+# sooner. A larger part: who is heavy sinks in. Smaller: he rocks on (heaps with one light body under 200 kg).
+LOADED, LOADED_YIELD = 1500.0, 0.03
+LOADED_RIGID, LOADED_RIGID_YIELD = 400.0, 0.015
 
 # rad/s, m. Who rocks so fast on what cannot move leaves it by half of that, who is faster by less; overlap beyond so
 # much leaves as ever. Larger, or less overlap: he is lifted after each landing as far as he sank in it, and rocks on

@@ -63,7 +63,7 @@ def parting_of_any(r, asks, lanes, a, b):
 @woven
 def look_at_points(r, points, per_second, yielding, parting, lanes, to, found):
     """Write what the points of a group have left open; return the sum of their impulses, and times their distances."""
-    one, zero, slow = spread(1.0), spread(0.0), leaving(points, yielding[0], yielding[1], parting)
+    one, zero, slow = spread(1.0), spread(0.0), leaving(points, yielding, parting)
     total, twisting, largest, summed, opened, pushed = zero, zero, zero, zero, zero, zero
     how = of_any_load(yielding) if points == 1 else yielding
     for p in range(points):

@@ -214,7 +214,7 @@ def press_points(points, r, per_second, yielding, limit, parting, lanes, scratch
     all need alike comes first, then one after the other what it lacks.
     """
     zero = spread(0.0)
-    slow = leaving(points, yielding[0], yielding[1], parting)
+    slow = leaving(points, yielding, parting)
     for p in range(points):
         q, x = r + MANIFOLD_ROWS + POINT_ROWS * p, SCRATCH_ROWS * p
         depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)

@@ -20,7 +20,7 @@ def roll_on(
     Other points of a rim or an ellipsoid touch then: held where they touched at first, drums that wobble would sink by
     what their lowest point has turned on by. Those are moved that are lowest at their end, with the ``offset`` from the
     body and that of the other. The normal leads out of the collider where ``outward`` is 1, else -1. Not moved is what
-    comes to lie flat, and touches elsewhere, and rims that lie as flat as rounding tells: all of them are as low.
+    comes to lie flat, and touches elsewhere, and a rim that leans by less than AS_LOW, all of which is as low.
     """
     dx, dy, dz, dw = spun(0.0, 0.0, 0.0, 1.0, angular[body, 0], angular[body, 1], angular[body, 2], time)
     qx, qy, qz, qw = rotation[i, 0], rotation[i, 1], rotation[i, 2], rotation[i, 3]

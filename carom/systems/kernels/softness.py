@@ -15,12 +15,13 @@ def of_any_load(yielding):
 
 
 @woven
-def leaving(points, rate, hardness, parting):
+def leaving(points, yielding, parting):
     """Return which part of itself overlap leaves by (1/s): of what rocks on what cannot move, the less the faster.
 
     Lifted meanwhile as far as it sank in when it landed, it would rock on for good. Only what it sinks in by
     (ROCKING_DEPTH) leaves so slowly.
     """
+    rate, hardness, _, _ = yielding
     if points == 1 or hardness < 1.0 or rate == 0.0:
         return spread(rate)
     return rate / (1.0 + (parting[1] * parting[1] + parting[2] * parting[2]) * (1.0 / (ROCKING * ROCKING)))
