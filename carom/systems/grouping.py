@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import RigidBody, World
+from carom.ecs import Collider, RigidBody, World
 from carom.ecs.relations.contact import Contact
 from carom.systems.kernels.ball_seams import link_boxes
 from carom.systems.kernels.filling import fill_groups
@@ -48,8 +48,8 @@ def group_contacts(world: World, *, places: bool, same: bool) -> None:
     if same and stay and few:
         refill_groups(
             crew_for(world, resting.count), resting.groups, resting.first, resting.size, resting.row, resting.points,
-            resting.even, contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.resting,
-            resting.lanes,
+            resting.even, contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.share,
+            contact.resting, resting.lanes,
         )  # fmt: skip
     else:
         _group_anew(world)
@@ -78,8 +78,10 @@ def _group_anew(world: World) -> None:
         resting.lanes = aligned(2 * rows, WIDTH)
     fill_groups(
         crew_for(world, resting.count), resting.groups, resting.first, resting.size, resting.row, resting.points,
-        resting.even, contact.normal, contact.depth, contact.offset_a, contact.offset_b,
+        resting.even, contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.share,
         contact.kind, contact.sign, contact.radius, contact.extent,
         contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface, contact.resting,
-        contact.warm_normal, contact.warm_friction, contact.warm_rolling, resting.lanes,
+        contact.warm_normal, contact.warm_friction, contact.warm_rolling,
+        contact.row_a, contact.row_b, contact.body_a, contact.body_b, world[Collider].shape,
+        world[Collider].bound_radius, resting.lanes,
     )  # fmt: skip

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels.balls_in_lanes import are_all_balls, place_balls
+from carom.systems.kernels.blow_points import is_smooth
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.groups import (
     ABSENT,
     AT,
     BALL,
     BESIDE,
+    CORE_A,
+    CORE_B,
     DEPTH,
     FRICTION,
+    GOES,
+    LAND,
     MANIFOLD_ROWS,
     MIDDLE_A,
     MIDDLE_B,
@@ -36,13 +41,16 @@ from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import LANES, lane_of, numbers_at, pick, pick_one, pick_three
 from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, spread, store
+from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE
 from carom.systems.kernels.resting_balls import are_even
 
 
 @shared("lanes")
 def fill_groups(
-    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, kind, sign, radius, extent,
-    friction, restitution, rolling, spinning, surface, resting, warm_normal, warm_friction, warm_rolling, lanes,
+    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b,
+    kind, sign, radius, extent, friction, restitution, rolling, spinning, surface, resting,
+    warm_normal, warm_friction, warm_rolling,
+    row_a, row_b, body_a, body_b, shape, bound_radius, lanes,
 ):  # fmt: skip
     """Write what contacts hold into the lanes of their groups.
 
@@ -90,6 +98,8 @@ def fill_groups(
         else:
             store(rows, r + BALL, as_ball)
             find_tangents(r, rows)
+            write_cores(g, r, first, row_a, row_b, body_a, body_b, shape, bound_radius, lanes)
+            store(rows, r + GOES, goes_with_b(pick_one(share_of_b, at, sizes), load(rows, r + LAND)))
             place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
 
 
@@ -151,6 +161,28 @@ def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
         q, there = r + MANIFOLD_ROWS + POINT_ROWS * p, sizes - float(p)
         store(rows, q + AT, choose(there, load(rows, q + AT) - share * of_b[0], zero))
         store(rows, q + AT + 1, choose(there, load(rows, q + AT + 1) - share * of_b[1], zero))
+
+
+@woven
+def write_cores(g, r, first, row_a, row_b, body_a, body_b, shape, bound_radius, lanes):
+    """Write how far the points of manifolds are outside the cores of both bodies, -1 of what is smooth; and `LAND`."""
+    for lane in range(WIDTH):
+        c, land = first[g, lane], 0.0
+        for to, row, body, adds in ((CORE_A, row_a, body_a, 0.5), (CORE_B, row_b, body_b, -0.5)):
+            core = 0.0
+            if c >= 0 and body[c] >= 0:
+                core = -1.0 if is_smooth(row[c], shape) else bound_radius[row[c]]
+            elif c >= 0 and shape[row[c]] != BOX_SHAPE and shape[row[c]] != PLANE_SHAPE:
+                land = adds
+            lanes[r + to, lane] = core
+        lanes[r + LAND, lane] = land
+
+
+@woven
+def goes_with_b(share_of_b, land):
+    """Return how much points go with b: with the corners of who touches ``land``, whose faces nobody looks for."""
+    between = choose(share_of_b * (1.0 - share_of_b), land, spread(0.0))
+    return share_of_b + between
 
 
 @shared("lanes", "impulse", "friction_impulse", "warm_normal", "warm_friction", "warm_rolling")

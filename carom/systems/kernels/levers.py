@@ -7,10 +7,12 @@ about each body; where a point is from the middle is the same for both.
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.constants import TURNED
 from carom.systems.kernels import groups as of
+from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import dot, three
-from carom.systems.kernels.lanes import load
+from carom.systems.kernels.lane_vectors import cross, dot, keep, minus, three, times
+from carom.systems.kernels.lanes import choose, load, some, spread, store
 
 
 @woven
@@ -37,6 +39,34 @@ def parting_of(r, lanes, a, b):
 def parting_at(q, lanes, parting):
     """Return how fast bodies part at a point, by what `parting_of` returns."""
     return parting[0] + (load(lanes, q + of.AT + 1) * parting[1] - load(lanes, q + of.AT) * parting[2])
+
+
+@woven
+def carry_points(r, points, lanes, a, b):
+    """Let the points of a group go on in its frame as its bodies have turned against each other on their ways.
+
+    The frame goes with whose face it is of, and each point stays on the corner of the other: of neither, or of both, it
+    goes half of the way (`goes_with_b`). What is smooth turns beneath its points; `roll_on` says where those go.
+    """
+    t, u, n = frame_of(r, lanes)
+    turn, zero, one = minus(b[4:7], a[4:7]), spread(0.0), spread(1.0)
+    far = choose(load(lanes, r + of.BALL), zero, dot(turn, turn) - TURNED * TURNED)
+    if not some(far):
+        return
+    turn = times(choose(far, one, zero), (dot(t, turn), dot(u, turn), dot(n, turn)))
+    goes, core_a, core_b = load(lanes, r + of.GOES), load(lanes, r + of.CORE_A), load(lanes, r + of.CORE_B)
+    s_a, q_a, z_a = three(lanes, r + of.MIDDLE_A)
+    s_b, q_b, z_b = three(lanes, r + of.MIDDLE_B)
+    by_a, by_b = cross(turn, (s_a, q_a, z_a - core_a)), cross(turn, (s_b, q_b, z_b + core_b))
+    part_a, part_b = choose(core_a + 0.5, goes - one, zero), choose(core_b + 0.5, goes, zero)
+    keep(lanes, r + of.MIDDLE_A, s_a + part_a * by_a[0], q_a + part_a * by_a[1], z_a + part_a * by_a[2])
+    keep(lanes, r + of.MIDDLE_B, s_b + part_b * by_b[0], q_b + part_b * by_b[1], z_b + part_b * by_b[2])
+    across = (part_a + part_b) * turn[2]
+    for p in range(points):
+        q = r + MANIFOLD_ROWS + POINT_ROWS * p
+        x, y = load(lanes, q + of.AT), load(lanes, q + of.AT + 1)
+        store(lanes, q + of.AT, x - across * y)
+        store(lanes, q + of.AT + 1, y + across * x)
 
 
 @woven

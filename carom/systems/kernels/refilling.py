@@ -6,17 +6,18 @@ from __future__ import annotations
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls_in_lanes import are_balls
 from carom.systems.kernels.crew import part_of, shared
-from carom.systems.kernels.filling import find_tangents, keep_where, place_points, places_of
+from carom.systems.kernels.filling import find_tangents, goes_with_b, keep_where, place_points, places_of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_columns import LANES, lane_of, numbers_at, pick_three
+from carom.systems.kernels.lane_columns import LANES, lane_of, numbers_at, pick_one, pick_three
 from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times
 from carom.systems.kernels.lanes import address, choose, load, spread, store
 
 
 @shared("lanes")
 def refill_groups(
-    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, resting, lanes
+    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b, resting,
+    lanes,
 ):  # fmt: skip
     """Write into the lanes of groups what `fill_groups` would, where they are as that has filled them.
 
@@ -49,6 +50,7 @@ def refill_groups(
         store(rows, r + of.PART, one)
         store(rows, r + of.BESIDE, zero)
         if not are_balls(r, lanes):
+            store(rows, r + of.GOES, goes_with_b(pick_one(share_of_b, at, sizes), load(rows, r + of.LAND)))
             find_tangents(r, rows)
             place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
 

@@ -12,7 +12,7 @@ from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, store_flat
 from carom.systems.kernels.lane_vectors import dot, minus, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, gather_four, load, planes, some, spread, store
-from carom.systems.kernels.levers import parting_at, parting_of
+from carom.systems.kernels.levers import carry_points, parting_at, parting_of
 from carom.systems.kernels.packing import WAY, write_ways
 from carom.systems.kernels.resting_balls import are_even
 from carom.systems.kernels.spatial import turn
@@ -84,7 +84,7 @@ def sink_contacts(
 ):  # fmt: skip
     """Write into the lanes of groups how deep contacts have come to be as bodies (rows) moved.
 
-    A point goes with both bodies, to first order of their turn: what a corner rises by in turning is the second.
+    A point goes with both bodies, to first order of their turn; then it is carried on to where it is from them by now.
     """
     begin, end = part_of(crew, len(rows))
     write_ways(rows[begin:end], start_center, center, turned, bodies)
@@ -98,10 +98,12 @@ def sink_contacts(
             q = r + MANIFOLD_ROWS
             store(into, q + of.DEPTH, load(into, q + of.DEPTH) - dot(three(into, r + of.NORMAL), minus(b, a)))
             continue
-        parting = parting_of(r, into, gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g))
+        a, b = gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g)
+        parting = parting_of(r, into, a, b)
         for p in range(points[g]):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
             store(into, q + of.DEPTH, load(into, q + of.DEPTH) - parting_at(q, into, parting))
+        carry_points(r, points[g], into, a, b)
 
 
 @shared("depth")
