@@ -11,7 +11,7 @@ from carom.systems.constants import TURNED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import cross, dot, keep, minus, three, times
+from carom.systems.kernels.lane_vectors import cross, dot, keep, minus, plus, three, times
 from carom.systems.kernels.lanes import choose, load, some, spread, store
 
 
@@ -53,20 +53,28 @@ def carry_points(r, points, lanes, a, b):
     far = choose(load(lanes, r + of.BALL), zero, dot(turn, turn) - TURNED * TURNED)
     if not some(far):
         return
-    turn = times(choose(far, one, zero), (dot(t, turn), dot(u, turn), dot(n, turn)))
+    half = times(choose(far, spread(0.5), zero), (dot(t, turn), dot(u, turn), dot(n, turn)))
     goes, core_a, core_b = load(lanes, r + of.GOES), load(lanes, r + of.CORE_A), load(lanes, r + of.CORE_B)
     s_a, q_a, z_a = three(lanes, r + of.MIDDLE_A)
     s_b, q_b, z_b = three(lanes, r + of.MIDDLE_B)
-    by_a, by_b = cross(turn, (s_a, q_a, z_a - core_a)), cross(turn, (s_b, q_b, z_b + core_b))
+    by_a, by_b = swung(half, (s_a, q_a, z_a - core_a)), swung(half, (s_b, q_b, z_b + core_b))
     part_a, part_b = choose(core_a + 0.5, goes - one, zero), choose(core_b + 0.5, goes, zero)
     keep(lanes, r + of.MIDDLE_A, s_a + part_a * by_a[0], q_a + part_a * by_a[1], z_a + part_a * by_a[2])
     keep(lanes, r + of.MIDDLE_B, s_b + part_b * by_b[0], q_b + part_b * by_b[1], z_b + part_b * by_b[2])
-    across = (part_a + part_b) * turn[2]
+    about = (zero, zero, (part_a + part_b) * half[2])
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         x, y = load(lanes, q + of.AT), load(lanes, q + of.AT + 1)
-        store(lanes, q + of.AT, x - across * y)
-        store(lanes, q + of.AT + 1, y + across * x)
+        by = swung(about, (x, y, zero))
+        store(lanes, q + of.AT, x + by[0])
+        store(lanes, q + of.AT + 1, y + by[1])
+
+
+@woven
+def swung(half, x):
+    """Return by what a vector changes that turns by twice ``half`` (rad), to second order: it stays as long (Cayley)."""
+    across = cross(half, x)
+    return times(2.0 / (1.0 + dot(half, half)), plus(across, cross(half, across)))
 
 
 @woven
