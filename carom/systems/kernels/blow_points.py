@@ -12,20 +12,19 @@ from carom.systems.kernels.spatial import cross
 
 @inlined
 def place_points(
-    first, end, a, b, rests, row_a, row_b, shape, bound_radius, normal, depth, point, offset_a, offset_b, share,
+    first, end, a, b, row_a, row_b, shape, bound_radius, normal, depth, point, offset_a, offset_b, share,
     start_center, rotation, turned, detected_rotation, at_a, at_b, deep,
 ):  # fmt: skip
     """Write where the points of a manifold were at the start of the substep from the centres of both bodies, how deep.
 
-    They have turned with these since they were found (``offset``); one of what stands has stayed where it was. Who
-    ``rests`` is held where the solver holds him.
+    They have turned with these since they were found (``offset``); one of what stands has stayed where it was.
     """
     for c in range(first, end):
         for i, other, row, outward, offset, at in (
             (a, b, row_a[c], 1.0, offset_a, at_a), (b, a, row_b[c], -1.0, offset_b, at_b),
         ):  # fmt: skip
             x, y, z = offset[c, 0], offset[c, 1], offset[c, 2]
-            if rests or i < 0:
+            if i < 0:
                 pass
             elif stands(c, other, outward, share):
                 x, y, z = aside(

@@ -126,7 +126,7 @@ def fly(
                 if not placed[m]:
                     placed[m] = True
                     place_points(
-                        p, beginning[number[m] + 1], body_a[p], body_b[p], resting[p], row_a, row_b, shape,
+                        p, beginning[number[m] + 1], body_a[p], body_b[p], row_a, row_b, shape,
                         bound_radius, normal, depth, point, offset_a, offset_b, share, start_center, rotation, turned,
                         detected_rotation, at_a, at_b, deep,
                     )  # fmt: skip
@@ -213,10 +213,6 @@ def fly(
         enter_time(soonest, leaves + m, NEVER)
         stale[group_of[number[m]]] = True
         for c in range(p, beginning[number[m] + 1]):
-            if kind[p] < 0 and together:  # they are held where they were struck
-                depth[c] = deep[c]
-                for k in range(3):
-                    offset_a[c, k], offset_b[c, k] = at_a[c, k], at_b[c, k]
             resting[c] = together  # from now on only a blow makes it an impact, else plastic pairs would never end
         row = logged[m]
         again = row >= 0 and plastic[p] > 0 and log[row, TIME] == clock + now

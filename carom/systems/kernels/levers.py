@@ -72,7 +72,7 @@ def carry_points(r, points, lanes, a, b):
 
 @woven
 def swung(half, x):
-    """Return by what a vector changes that turns by twice ``half`` (rad), to second order: it stays as long (Cayley)."""
+    """Return what a turn by twice ``half`` (rad) adds to a vector, to second order: it stays as long (Cayley)."""
     across = cross(half, x)
     return times(2.0 / (1.0 + dot(half, half)), plus(across, cross(half, across)))
 
