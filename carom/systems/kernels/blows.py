@@ -92,8 +92,8 @@ def blow(
     Returns (closing speed, normal impulse, its point from the centre of a or, where a is static, of b, friction impulse
     on b (3), whether they stay together).
     Gauss-Seidel over the points of one pair; of four points in a plane, whichever solution gives the same motion. Every
-    few sweeps they leap (`leap`). Where friction undoes in each sweep what the normal impulse did, the second half of
-    the sweeps take shorter steps.
+    few sweeps they leap (`leap`), where as many follow: those take back what was too far. Where friction undoes in each
+    sweep what the normal impulse did, the second half of the sweeps take shorter steps.
     """
     a, b = body_a[first], body_b[first]
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
@@ -161,7 +161,7 @@ def blow(
             if not going:
                 break
             times = times_of_way(given, start, way)
-            if sweep % LEAP_SWEEPS == LEAP_SWEEPS - 1 and times != 0.0:
+            if sweep % LEAP_SWEEPS == LEAP_SWEEPS - 1 and times != 0.0 and sweep + LEAP_SWEEPS < BLOW_SWEEPS:
                 leap(times, nx, ny, nz, friction[first], least, ease, way, coupling, given, start, slips)
     for m in range(n):
         j = given[m, 0]
