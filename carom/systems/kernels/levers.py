@@ -57,10 +57,11 @@ def carry_points(r, points, lanes, a, b):
     goes, core_a, core_b = load(lanes, r + of.GOES), load(lanes, r + of.CORE_A), load(lanes, r + of.CORE_B)
     s_a, q_a, z_a = three(lanes, r + of.MIDDLE_A)
     s_b, q_b, z_b = three(lanes, r + of.MIDDLE_B)
-    by_a, by_b = swung(half, (s_a, q_a, z_a - core_a)), swung(half, (s_b, q_b, z_b + core_b))
     part_a, part_b = choose(core_a + 0.5, goes - one, zero), choose(core_b + 0.5, goes, zero)
-    keep(lanes, r + of.MIDDLE_A, s_a + part_a * by_a[0], q_a + part_a * by_a[1], z_a + part_a * by_a[2])
-    keep(lanes, r + of.MIDDLE_B, s_b + part_b * by_b[0], q_b + part_b * by_b[1], z_b + part_b * by_b[2])
+    by_a = swung(times(part_a, half), (s_a, q_a, z_a - core_a))
+    by_b = swung(times(part_b, half), (s_b, q_b, z_b + core_b))
+    keep(lanes, r + of.MIDDLE_A, s_a + by_a[0], q_a + by_a[1], z_a + by_a[2])
+    keep(lanes, r + of.MIDDLE_B, s_b + by_b[0], q_b + by_b[1], z_b + by_b[2])
     about = (zero, zero, (part_a + part_b) * half[2])
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
