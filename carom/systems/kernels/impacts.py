@@ -28,8 +28,7 @@ TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 1
 
 @kernel(
     "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
-    "depth", "offset_a", "offset_b", "impulse", "friction_impulse", "strikes", "plastic", "stale", "arc",
-    "log", "log_pair",
+    "impulse", "friction_impulse", "strikes", "plastic", "stale", "arc", "log", "log_pair",
     makes_arrays=True, within=True,
 )  # fmt: skip
 def fly(

@@ -16,8 +16,7 @@ from carom.systems.kernels.lanes import address, choose, load, spread, store
 
 @shared("lanes")
 def refill_groups(
-    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b, resting,
-    lanes,
+    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b, resting, lanes
 ):  # fmt: skip
     """Write into the lanes of groups what `fill_groups` would, where they are as that has filled them.
 
