@@ -10,7 +10,7 @@ SAME_POINT = 1.0
 # and tremble.
 RECYCLED_SLIP, RECYCLED_TURN = 1e-3, 2e-3
 
-# Radians by which two bodies turn against each other in a substep before their points are carried on with that. Larger:
+# Radians by which one of two bodies turns in a substep before their points are carried on with that. Larger:
 # what tips over an edge does so late. Smaller: what is at rest is asked in vain.
 TURNED = 1e-6
 

@@ -11,8 +11,8 @@ from carom.systems.constants import TURNED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import cross, dot, keep, minus, plus, three, times
-from carom.systems.kernels.lanes import choose, load, some, spread, store
+from carom.systems.kernels.lane_vectors import cross, dot, keep, plus, three, times
+from carom.systems.kernels.lanes import choose, larger, load, some, spread, store
 
 
 @woven
@@ -43,26 +43,27 @@ def parting_at(q, lanes, parting):
 
 @woven
 def carry_points(r, points, lanes, a, b):
-    """Let the points of a group go on in its frame as its bodies have turned against each other on their ways.
+    """Let the points of a group go on in its frame, which stays, as its bodies have turned on their ways.
 
-    The frame goes with whose face it is of, and each point stays on the corner of the other: of neither, or of both, it
-    goes half of the way (`goes_with_b`). What is smooth turns beneath its points; `roll_on` says where those go.
+    The middle goes with either body, as it does where nothing slips; points turn about it with whose corners they are:
+    of neither, or of both, half as much (`goes_with_b`). What is smooth turns beneath its points; `roll_on` says where
+    those go.
     """
-    t, u, n = frame_of(r, lanes)
-    turn, zero, one = minus(b[4:7], a[4:7]), spread(0.0), spread(1.0)
-    far = choose(load(lanes, r + of.BALL), zero, dot(turn, turn) - TURNED * TURNED)
+    zero, turn_a, turn_b = spread(0.0), a[4:7], b[4:7]
+    turned = larger(dot(turn_a, turn_a), dot(turn_b, turn_b))
+    far = choose(load(lanes, r + of.BALL), zero, turned - TURNED * TURNED)
     if not some(far):
         return
-    half = times(choose(far, spread(0.5), zero), (dot(t, turn), dot(u, turn), dot(n, turn)))
-    goes, core_a, core_b = load(lanes, r + of.GOES), load(lanes, r + of.CORE_A), load(lanes, r + of.CORE_B)
+    t, u, n = frame_of(r, lanes)
+    part, core_a, core_b = choose(far, spread(0.5), zero), load(lanes, r + of.CORE_A), load(lanes, r + of.CORE_B)
+    half_a = times(choose(core_a + 0.5, part, zero), (dot(t, turn_a), dot(u, turn_a), dot(n, turn_a)))
+    half_b = times(choose(core_b + 0.5, part, zero), (dot(t, turn_b), dot(u, turn_b), dot(n, turn_b)))
     s_a, q_a, z_a = three(lanes, r + of.MIDDLE_A)
     s_b, q_b, z_b = three(lanes, r + of.MIDDLE_B)
-    part_a, part_b = choose(core_a + 0.5, goes - one, zero), choose(core_b + 0.5, goes, zero)
-    by_a = swung(times(part_a, half), (s_a, q_a, z_a - core_a))
-    by_b = swung(times(part_b, half), (s_b, q_b, z_b + core_b))
+    by_a, by_b = swung(half_a, (s_a, q_a, z_a - core_a)), swung(half_b, (s_b, q_b, z_b + core_b))
     keep(lanes, r + of.MIDDLE_A, s_a + by_a[0], q_a + by_a[1], z_a + by_a[2])
     keep(lanes, r + of.MIDDLE_B, s_b + by_b[0], q_b + by_b[1], z_b + by_b[2])
-    about = (zero, zero, (part_a + part_b) * half[2])
+    about = (zero, zero, half_a[2] + load(lanes, r + of.GOES) * (half_b[2] - half_a[2]))
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         x, y = load(lanes, q + of.AT), load(lanes, q + of.AT + 1)
