@@ -95,6 +95,39 @@ def test_solids_meet_head_on(one: str, two: str, restitution: float) -> None:
         assert np.abs([a.angular, b.angular]).max() <= 1e-9
 
 
+@pytest.mark.parametrize("restitution", RESTITUTIONS)
+@pytest.mark.parametrize(("speed", "dt"), [(1e-4, 1 / 60), (2e-3, 1 / 60), (0.01, 1 / 60), (1.0, 1 / 6000)])
+@pytest.mark.parametrize("two", POSES)
+@pytest.mark.parametrize("one", POSES)
+def test_solids_strike_that_cross_the_last_gap_in_many_substeps(
+    one: str, two: str, speed: float, dt: float, restitution: float
+) -> None:
+    """They part at e times their closing speed within 1e-9 of it, and it is one impact.
+
+    They are within the gap at which what does not close rests, and were held there, without restitution and untold.
+    """
+    simulation = free(dt=dt)
+    apart = POSES[one].along + POSES[two].along + 2e-4
+    first = simulation.add(
+        collider=POSES[one].shape, body={"mass": 2.0}, material=material(restitution),
+        transform={"position": (-apart, 0.0, 0.0), "rotation": POSES[one].rotation},
+        motion={"linear": (speed, 0.0, 0.0)},
+    )  # fmt: skip
+    second = simulation.add(
+        collider=POSES[two].shape, body={"mass": 1.0}, material=material(restitution),
+        transform={"rotation": POSES[two].rotation},
+    )  # fmt: skip
+    times: list[float] = []
+    for _ in range(math.ceil(3e-4 / (speed * dt))):
+        simulation.step()
+        impact = simulation.world[Impact]
+        times.extend(impact.time[: impact.count])
+    a, b = simulation[first].motion.linear[0], simulation[second].motion.linear[0]
+    assert b - a == pytest.approx(speed * restitution, abs=1e-9 * speed)
+    assert 2.0 * a + b == pytest.approx(2.0 * speed, abs=1e-12 * speed)
+    assert times == pytest.approx([2e-4 / speed], rel=1e-9)
+
+
 @pytest.mark.parametrize("dt", [1 / 60, 1 / 240, 1 / 37])
 @pytest.mark.parametrize("restitution", [0.0, 0.25, 0.5, 0.75, 1.0])
 @pytest.mark.parametrize("pose", POSES)

@@ -247,11 +247,11 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
         closing = -(parting_at(q, lanes, parting) if points > 1 else parting[0])
         gap = -load(lanes, q + of.DEPTH)
         after = gap - closing * h - pressing * (0.5 * h * h)
+        touching = choose(is_ball, smaller(TOUCH - gap, -after), choose(gap - SLOP, zero, spread(SLOP)) - after)
         if may_strike:
             bounces = choose(larger(known, -SLOP - gap), restitution, one)
-            striking = choose(after, striking, choose(bounces, larger(striking, closing - limit), striking))
-        touching = smaller(TOUCH - gap, -after)
-        near = larger(near, choose(is_ball, touching, choose(gap - SLOP, zero, spread(SLOP)) - after))
+            striking = choose(touching, choose(bounces, larger(striking, closing - limit), striking), striking)
+        near = larger(near, touching)
     lies = choose(-near, zero, choose(choose(is_ball, zero, held), one, choose(striking, zero, one)))
     rests = choose(limit - larger(parting[0], -parting[0]), choose(engaged, one, lies), lies)
     return (rests if balls else choose(load(lanes, r + of.BESIDE), zero, rests)), lies
