@@ -200,7 +200,8 @@ class Resting(Resource):
         flight, contact = world[Flight], world[Contact]
         sink_contacts(
             crew_for(world, self.count), self.groups, self.rows(world), flight.start_center, flight.center,
-            flight.turned, self.index_a, self.index_b, self.points, self.row, self.bodies, self.lanes,
+            flight.turned, world[RigidBody].inverse_mass, self.index_a, self.index_b, self.points, self.row,
+            self.bodies, self.lanes,
         )  # fmt: skip
         tell_depths(
             crew_for(world, self.count), self.groups, self.first, self.size, self.row, contact.kind, self.lanes,

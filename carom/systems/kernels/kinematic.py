@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.packing import ANGULAR, MASS_AND_FELT, VELOCITY
+from carom.systems.kernels.packing import ANGULAR, INVERSE_MASS, VELOCITY
 from carom.systems.kernels.spatial import spun, turn
 
 
@@ -29,7 +29,7 @@ def follow_turning(c, a, b, time, bodies, normal, center, offset_a, offset_b):
 def turns(i, bodies):
     """Tell whether body i is kinematic and turns."""
     x, y, z = bodies[VELOCITY, i, ANGULAR], bodies[VELOCITY, i, ANGULAR + 1], bodies[VELOCITY, i, ANGULAR + 2]
-    return bodies[MASS_AND_FELT, i, 0] == 0.0 and (x != 0.0 or y != 0.0 or z != 0.0)
+    return bodies[VELOCITY, i, INVERSE_MASS] == 0.0 and (x != 0.0 or y != 0.0 or z != 0.0)
 
 
 @inlined

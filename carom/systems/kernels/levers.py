@@ -13,6 +13,7 @@ from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import cross, dot, keep, plus, three, times
 from carom.systems.kernels.lanes import choose, larger, load, some, spread, store
+from carom.systems.kernels.packing import DRIVEN
 
 
 @woven
@@ -47,11 +48,11 @@ def carry_points(r, points, lanes, a, b):
 
     The middle goes with either body, as it does where nothing slips; points turn about it with whose corners they are:
     of neither, or of both, half as much (`goes_with_b`). What is smooth turns beneath its points; `roll_on` says where
-    those go.
+    those go, and `follow_turning` where those on a kinematic body do that turns.
     """
     zero, turn_a, turn_b = spread(0.0), a[4:7], b[4:7]
     turned = larger(dot(turn_a, turn_a), dot(turn_b, turn_b))
-    far = choose(load(lanes, r + of.BALL), zero, turned - TURNED * TURNED)
+    far = choose(larger(load(lanes, r + of.BALL), a[DRIVEN] + b[DRIVEN]), zero, turned - TURNED * TURNED)
     if not some(far):
         return
     t, u, n = frame_of(r, lanes)

@@ -15,7 +15,7 @@ from carom.systems.kernels.spatial import inverse_inertia_in_world, product
 
 # The planes, each of eight numbers a body: what one sweep reads of neighbours lies side by side.
 # Velocity: linear (3), inverse mass, angular (3), inverse inertia about the first axis, which for balls is that about
-# all. The way since contacts were measured: linear (3), a gap, angular (3), a gap.
+# all. The way since contacts were measured: linear (3), 1 if it is kinematic and turned, else 0, angular (3), a gap.
 # Inverse inertia in the world frame: upper half (6), the largest moment. Inverse mass along the axes (3), acceleration
 # by forces (3), inverse mass without locks. Until it sets out, the way gives place to the pose: centre (3), a gap,
 # rotation (4); and while arcs are bent, to what velocities have changed by (3).
@@ -23,6 +23,7 @@ VELOCITY, WAY, INVERSE, MASS_AND_FELT = range(PLANES)
 CENTER = POSE = CHANGE = WAY
 FELT = 3  # where what forces do begins
 INVERSE_MASS, ANGULAR, EVEN_INERTIA = 3, 4, 7  # where what is angular begins, and what velocities lie beside
+DRIVEN = 3  # what the way lies beside
 
 
 @kernel("found", makes_arrays=True)
@@ -178,10 +179,12 @@ def first_three(i, column):
 
 
 @woven
-def write_ways(rows, start_center, center, turned, bodies):
+def write_ways(rows, start_center, center, turned, inverse_mass, bodies):
     """Write how far bodies have moved and turned since their contacts were measured."""
     for k in range(BLOCK):
         bodies[WAY, bodies.shape[1] - 1, k] = 0.0
     for i in rows:
         for k in range(3):
             bodies[WAY, i, k], bodies[WAY, i, ANGULAR + k] = center[i, k] - start_center[i, k], turned[i, k]
+        turns = turned[i, 0] != 0.0 or turned[i, 1] != 0.0 or turned[i, 2] != 0.0
+        bodies[WAY, i, DRIVEN] = turns and inverse_mass[i] == 0.0

@@ -80,14 +80,14 @@ def finish_body(
 
 @shared("bodies", "lanes")
 def sink_contacts(
-    crew, groups, rows, start_center, center, turned, index_a, index_b, points, row, bodies, lanes
+    crew, groups, rows, start_center, center, turned, inverse_mass, index_a, index_b, points, row, bodies, lanes
 ):  # fmt: skip
     """Write into the lanes of groups how deep contacts have come to be as bodies (rows) moved.
 
     A point goes with both bodies, to first order of their turn; then it is carried on to where it is from them by now.
     """
     begin, end = part_of(crew, len(rows))
-    write_ways(rows[begin:end], start_center, center, turned, bodies)
+    write_ways(rows[begin:end], start_center, center, turned, inverse_mass, bodies)
     wait_for_all(crew, 1)
     into, moved, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     begin, end = part_of(crew, groups)
