@@ -210,23 +210,34 @@ def test_a_ball_rolls_down_a_slope_at_five_sevenths() -> None:
     assert simulation[ball].motion.linear[0] == pytest.approx(5.0 * 5.0 / 7.0 * G * math.sin(slope), rel=1e-9)
 
 
-@pytest.mark.parametrize("gap", [1e-3, 0.0], ids=["1 mm apart", "touching"])
-def test_newtons_cradle_passes_the_blow_on(gap: float) -> None:
-    """Five equal balls, e = 1: the last leaves with all of the first's speed."""
+CRADLE: dict[str, tuple[dict[str, Any], float]] = {  # whose overlap, as it is found to 1e-9 m, leaves at such speeds
+    "balls": ({"sphere": {"radius": 0.5}}, 1e-9),
+    "boxes": ({"box": {"size": (1.0, 1.0, 1.0)}}, 1e-9),
+    "capsules": ({"capsule": {"radius": 0.5, "length": 0.3}}, 1e-9),
+    "cylinders": ({"cylinder": {"radius": 0.5, "length": 1.0}}, 1e-6),
+}
+
+
+@pytest.mark.parametrize("speed", [1.0, 0.1, 0.01])
+@pytest.mark.parametrize("gap", [1e-3, 1e-5, 0.0], ids=["1 mm apart", "10 um apart", "touching"])
+@pytest.mark.parametrize("shape", CRADLE)
+def test_newtons_cradle_passes_the_blow_on(shape: str, gap: float, speed: float) -> None:
+    """Five equal bodies, e = 1: the last leaves with all of the first's speed, however slow that is."""
     simulation = Simulation(gravity=(0.0, 0.0, 0.0), checked=False)
-    balls = [
+    collider, off = CRADLE[shape]
+    bodies = [
         simulation.add(
-            collider={"sphere": {"radius": 0.5}},
+            collider=collider,
             body={"mass": 1.0},
             material={"friction": 0.0, "restitution": 1.0},
-            transform={"position": ((1.0 + gap) * i - (0.5 if i == 0 else 0.0), 0.0, 0.0)},
-            motion={"linear": (1.0 if i == 0 else 0.0, 0.0, 0.0)},
+            transform={"position": ((1.0 + gap) * i - (0.5 * speed if i == 0 else 0.0), 0.0, 0.0)},
+            motion={"linear": (speed if i == 0 else 0.0, 0.0, 0.0)},
         )
         for i in range(5)
     ]
     simulation.step(120)
-    speeds = [float(simulation[ball].motion.linear[0]) for ball in balls]
-    assert speeds == pytest.approx([0.0, 0.0, 0.0, 0.0, 1.0], abs=1e-9)
+    speeds = [float(simulation[body].motion.linear[0]) for body in bodies]
+    assert speeds == pytest.approx([0.0, 0.0, 0.0, 0.0, speed], abs=off)
 
 
 def test_the_floor_carries_the_weight_of_a_stack() -> None:

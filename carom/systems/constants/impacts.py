@@ -5,11 +5,12 @@
 TOUCH = 1e-4
 
 # Resting ends and bouncing begins at this many times (pressing acceleration x substep): a bounce that would land again
-# within about two substeps is a contact. Below 1, gravity alone would make a resting body bounce.
+# within about two substeps is a contact. Below 1, gravity alone would make a resting body bounce. A blow that makes
+# solids which rest, and bounce, close faster than this many times (acceleration by forces x substep) is an impact.
 REST_SPEED_FACTOR = 2.0
 
-# A blow that makes a resting pair close faster than this many times (acceleration by forces x substep) is an impact of
-# its own. Smaller: blows run through piles as endless rows of impacts. Larger: bodies sink in until the next substep.
+# The same of balls, whose impacts take less time. Smaller: blows run through piles as endless rows of impacts. Larger:
+# bodies sink in until the next substep.
 BLOW_SPEED_FACTOR = 0.1
 
 # Part of the radius of gyration of the smaller of two bodies by which a blow may sink a resting pair until the substep

@@ -33,14 +33,14 @@ from carom.systems.kernels.spatial import cross
 
 @inlined
 def foresee_blow(
-    first, end, now, h, sink, struck, bend, center, linear, angular, time, acceleration,
-    body_a, body_b, normal, deep, at_a, at_b, start_center, turned, resting,
+    first, end, now, h, slow, sink, struck, bend, center, linear, angular,
+    time, acceleration, body_a, body_b, normal, deep, at_a, at_b, start_center, turned, resting,
 ):  # fmt: skip
     """Return when the first point of a manifold closes within the substep, NEVER if none does.
 
     Accelerations of the arcs count along the normal, turning as it is now. A point of one that rests counts only where
-    a blow makes it sink by more than ``sink`` (m) until the substep ends: the solver holds the others, but for those to
-    come of one that rests since it was ``struck``.
+    a blow makes it close faster than ``slow`` (m/s) and sink by more than ``sink`` (m) until the substep ends: the
+    solver holds the others, but for those to come of one that rests since it was ``struck``.
     """
     a, b = body_a[first], body_b[first]
     nx, ny, nz = normal[first, 0], normal[first, 1], normal[first, 2]
@@ -65,7 +65,7 @@ def foresee_blow(
                 gap -= speed * (now - time[body])
                 closing += speed
         held = resting[first] and (gap <= TOUCH or not struck)
-        if held and closing * (h - now) - max(0.0, gap) <= sink:
+        if held and (closing <= slow or closing * (h - now) - max(0.0, gap) <= sink):
             continue
         if gap <= 0.0:
             if closing > APPROACH:

@@ -51,7 +51,7 @@ def find_closing(
     number = 0
     for m in range(begin, end):
         p = start[m]
-        if resting[p] and kind[p] < 0:
+        if resting[p] and kind[p] < 0 and restitution[p] == 0.0:
             closing[m] = HELD
         elif resting[p] and restitution[p] == 0.0:
             closing[m] = HELD_BALL
@@ -63,7 +63,7 @@ def find_closing(
         else:
             may = True
             if kind[p] < 0:
-                may = not solids or lanes[row[group_of[m]] + of.CLOSES, lane_of[m]] > 0.0
+                may = not solids or (not resting[p] and lanes[row[group_of[m]] + of.CLOSES, lane_of[m]] > 0.0)
             elif not resting[p]:
                 may = not stay_apart(
                     p, ball[p], other[p], h, kind, center, linear, acceleration, other_position, other_rotation,

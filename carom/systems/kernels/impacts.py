@@ -5,7 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APPROACH, BLOW_SPEED_FACTOR, IMPACTS_AT_LEAST, IMPACTS_PER_PAIR, MEET
+from carom.systems.constants import (
+    APPROACH,
+    BLOW_SPEED_FACTOR,
+    IMPACTS_AT_LEAST,
+    IMPACTS_PER_PAIR,
+    MEET,
+    REST_SPEED_FACTOR,
+)
 from carom.systems.kernels.accounting import KEPT, keep_arc, kinetic_energy, note_arc
 from carom.systems.kernels.balls import NEVER
 from carom.systems.kernels.blow_points import place_points
@@ -115,12 +122,17 @@ def fly(
         for index in range(seek_count):
             m = seek[index]
             p = pairs[m]
-            springs = kind[p] >= 0 and restitution[p] > 0.0
+            springs = restitution[p] > 0.0
             left = plastic[p] >= patience_of(p, body_a, body_b, inverse_mass)
             if resting[p] and (left or (first and start == 0.0)):
                 enter_time(soonest, leaves + m, NEVER)
                 continue
-            sink = sink_allowed(p, body_a, body_b, inertia, inverse_mass)
+            slow, sink = 0.0, 0.0
+            if springs:
+                factor = REST_SPEED_FACTOR if kind[p] < 0 else BLOW_SPEED_FACTOR
+                slow = APPROACH + factor * h * pushed(body_a[p], body_b[p], felt)
+            else:
+                sink = sink_allowed(p, body_a, body_b, inertia, inverse_mass)
             if kind[p] < 0:
                 if not placed[m]:
                     placed[m] = True
@@ -130,14 +142,12 @@ def fly(
                         detected_rotation, at_a, at_b, deep,
                     )  # fmt: skip
                 foreseen = foresee_blow(
-                    p, beginning[number[m] + 1], now, h, sink, strikes[p] > 0, bend, center, linear, angular, time,
-                    acceleration, body_a, body_b, normal, deep, at_a, at_b, start_center, turned, resting,
+                    p, beginning[number[m] + 1], now, h, slow, sink, strikes[p] > 0, bend, center, linear, angular,
+                    time, acceleration, body_a, body_b, normal, deep, at_a, at_b, start_center, turned, resting,
                 )  # fmt: skip
                 enter_time(soonest, leaves + m, foreseen)
                 continue
-            limit = sink / (h - now) if now < h else NEVER
-            if springs:
-                limit = APPROACH + BLOW_SPEED_FACTOR * h * pushed(ball[p], other[p], felt)
+            limit = slow if springs else sink / (h - now) if now < h else NEVER
             rested, joined = resting[p], is_on_joint(body_a[p], on_joint) or is_on_joint(body_b[p], on_joint)
             foreseen = foresee(
                 p, ball[p], other[p], now, h, limit, bend,

@@ -208,11 +208,11 @@ def forget(r, points, rests, even, lanes):
 def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     """Return 1 for each manifold that rests, else 0, and for each that lies: of which its bodies feel that they touch.
 
-    One rests when one of its points touches or would by the end of the substep (a ball only once it touches), unless
-    one would strike: close faster than the rest speed. What was pressed together before and has no exact arc goes on
-    resting. So does a ball that was, and whatever has struck in two substeps in a row, if it neither parts nor closes
-    faster than the rest speed: what others press it by would else have it strike in each substep anew, and never be
-    pushed out of those. But it does not lie.
+    One rests when one of its points touches or would by the end of the substep (of balls, and of what bounces, only
+    once it touches), unless one would strike: close faster than the rest speed. What was pressed together before and
+    has no exact arc goes on resting. So does a ball that was, and whatever has struck in two substeps in a row, if it
+    neither parts nor closes faster than the rest speed: what others press it by would else have it strike in each
+    substep anew, and never be pushed out of those. But it does not lie.
     """
     n, zero = three(lanes, r + of.NORMAL), spread(0.0)
     if balls:
@@ -224,17 +224,17 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     felt_a, felt_b = felt_of(bodies[MASS_AND_FELT], index_a, g), felt_of(bodies[MASS_AND_FELT], index_b, g)
     together, one = load(lanes, r + of.TOGETHER), spread(1.0)
     joined = together - 0.5 * JOINED
-    is_ball = choose(joined, zero, load(lanes, r + of.BALL))
+    restitution = load(lanes, r + of.RESTITUTION)
+    waits = choose(joined, zero, larger(load(lanes, r + of.BALL), restitution))
     pressing = larger(zero, larger(dot(n, felt_a), -dot(n, felt_b)))
     held = zero
     for p in range(points):
         held = larger(held, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.WARM))
-    engaged = choose(choose(joined, zero, together - 1.5), one, choose(is_ball, held, zero))
+    engaged = choose(choose(joined, zero, together - 1.5), one, choose(waits, held, zero))
     bearing = held * (yields / h)
     # Without restitution there is no bounce to lose by resting, so that all that forces do counts; and bounces that
     # land again in the next substep, or that what one bears of the other would end within two, are none.
     all_forces = root(larger(dot(felt_a, felt_a), dot(felt_b, felt_b)))
-    restitution = load(lanes, r + of.RESTITUTION)
     slow = choose(engaged, larger(all_forces, bearing), choose(restitution, pressing, all_forces))
     limit = slow * (REST_SPEED_FACTOR * h) + APPROACH
     near, striking = spread(-1.0), spread(-1.0)
@@ -247,11 +247,11 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
         closing = -(parting_at(q, lanes, parting) if points > 1 else parting[0])
         gap = -load(lanes, q + of.DEPTH)
         after = gap - closing * h - pressing * (0.5 * h * h)
-        touching = choose(is_ball, smaller(TOUCH - gap, -after), choose(gap - SLOP, zero, spread(SLOP)) - after)
+        touching = choose(waits, smaller(TOUCH - gap, -after), choose(gap - SLOP, zero, spread(SLOP)) - after)
         if may_strike:
             bounces = choose(larger(known, -SLOP - gap), restitution, one)
             striking = choose(touching, choose(bounces, larger(striking, closing - limit), striking), striking)
         near = larger(near, touching)
-    lies = choose(-near, zero, choose(choose(is_ball, zero, held), one, choose(striking, zero, one)))
+    lies = choose(-near, zero, choose(choose(waits, zero, held), one, choose(striking, zero, one)))
     rests = choose(limit - larger(parting[0], -parting[0]), choose(engaged, one, lies), lies)
     return (rests if balls else choose(load(lanes, r + of.BESIDE), zero, rests)), lies
