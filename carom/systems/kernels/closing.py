@@ -16,8 +16,8 @@ from carom.systems.kernels.levers import parting_at, parting_of
 from carom.systems.kernels.packing import MASS_AND_FELT, VELOCITY, felt_of, write_velocities
 from carom.systems.kernels.reach import are_apart, stay_apart, time_within_all
 
-# Of manifolds: it cannot strike as its bodies move now, or may; it rests, and only a heavy blow makes an impact of it:
-# one of a ball on an exact arc, and any other.
+# Of manifolds: it cannot strike as its bodies move now (nor does what rests and bounces), or may; it rests, and only a
+# heavy blow makes an impact of it: one of a ball on an exact arc, and any other.
 CANNOT, MAY, HELD_BALL, HELD = range(4)
 
 
