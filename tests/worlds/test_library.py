@@ -50,19 +50,23 @@ def test_expectations_hold_by_fcl_alone(name: str) -> None:
     assert failed == []
 
 
+def blow_of_the_bowling_ball() -> tuple[Simulation, np.ndarray, np.ndarray]:
+    """Return the world after the step of the blow, and the momentum of ball and pin before and after it."""
+    simulation = load_world("bowling").simulation
+    while not simulation.world.count(Impact):
+        before = momentum(simulation, "ball", "pin_1")
+        simulation.step()
+    return simulation, before, momentum(simulation, "ball", "pin_1")
+
+
 def test_the_blow_of_the_bowling_ball_hands_its_momentum_on() -> None:
     """In the blow's step ball and pin together lose what the lane's friction takes: 0.04 of all that bears them.
 
     That is the bounce of the pin's edge, by which it comes down on the lane as it is struck below its middle: Poinsot
     again, at the lowest point of the edge, which yields as well by what friction turns it.
     """
-    simulation = load_world("bowling").simulation
-    step = simulation.settings.dt
-    while not simulation.world.count(Impact):
-        before = momentum(simulation, "ball", "pin_1")
-        simulation.step()
-    after = momentum(simulation, "ball", "pin_1")
-    borne = after[1] - before[1] + (7.0 + 1.6) * 9.81 * step
+    simulation, before, after = blow_of_the_bowling_ball()
+    borne = after[1] - before[1] + (7.0 + 1.6) * 9.81 * simulation.settings.dt
     taken = math.hypot(*(after - before)[[0, 2]])
     assert 0.98 * 0.04 * borne < taken <= 0.04 * borne * (1.0 + 1e-9)
     impact, lane = simulation.world[Impact], 1  # after the blow of the ball
@@ -70,6 +74,15 @@ def test_the_blow_of_the_bowling_ball_hands_its_momentum_on() -> None:
     back = -impact.friction_impulse[lane, 0] / np.linalg.norm(impact.friction_impulse[lane])
     yields = 1.0 / 1.6 + 0.06 * (0.06 + 0.04 * 0.19 * back) / (1.6 * (3.0 * 0.06**2 + 0.38**2) / 12.0)
     assert impact.impulse[lane] == pytest.approx(1.6 * impact.speed[lane] / yields, rel=1e-3)  # 1 + e
+
+
+@pytest.mark.xfail(
+    strict=True, reason="the pin's edge bounces off the lane, e = 0.6, as its closed form wants: friction takes 0.00344"
+)
+def test_the_lane_takes_less_than_three_thousandths_of_the_blow() -> None:
+    """So much was taken while the edge of the pin was held, and did not bounce."""
+    _, before, after = blow_of_the_bowling_ball()
+    assert math.hypot(*(after - before)[[0, 2]]) < 0.003 * before[0]
 
 
 def momentum(simulation: Simulation, *names: str) -> np.ndarray:
