@@ -209,10 +209,10 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     """Return 1 for each manifold that rests, else 0, and for each that lies: of which its bodies feel that they touch.
 
     One rests when one of its points touches or would by the end of the substep (of balls, and of what bounces, only
-    once it touches), unless one would strike: close faster than the rest speed. What was pressed together before and
-    has no exact arc goes on resting. So does a ball that was, and whatever has struck in two substeps in a row, if it
-    neither parts nor closes faster than the rest speed: what others press it by would else have it strike in each
-    substep anew, and never be pushed out of those. But it does not lie.
+    once it touches), unless one would strike: close faster than the rest speed. What was pressed together before goes
+    on resting. A ball, what bounces, and whatever has struck in two substeps in a row does so if it neither parts nor
+    closes faster than the rest speed: what others press it by would else have it strike in each substep anew, and never
+    be pushed out of those. But it does not lie.
     """
     n, zero = three(lanes, r + of.NORMAL), spread(0.0)
     if balls:
