@@ -30,7 +30,7 @@ def group_contacts(world: World, *, places: bool, same: bool) -> None:
         resting.start, resting.beside = np.empty(2 * points + 1, np.int64), np.empty(2 * points, np.int64)
     if resting.bodies.shape[1] != nobody + 1:
         resting.bodies, resting.packed = aligned(PLANES, nobody + 1, BLOCK), None
-        resting.leans, resting.stirred = np.zeros((2, nobody + 1), np.bool_), np.empty(nobody + 1, np.int64)
+        resting.leans, resting.stirred = np.zeros((2, nobody + 1), np.bool_), np.empty((2, nobody + 1), np.int64)
     if not points:
         if resting.count:
             resting.bound_of = None

@@ -13,7 +13,7 @@ from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.awake import Awake
-from carom.systems.constants import MORE_SWEEPS
+from carom.systems.constants import BEARING_SWEEPS
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
 from carom.systems.kernels.crew import threads_of
@@ -71,7 +71,7 @@ class Resting(Resource):
         self.placed = False  # whether they have not moved since
         self.start, self.beside = np.zeros(1, np.int64), np.zeros(0, np.int64)
         self.bodies, self.lanes, self.scratch = aligned(PLANES, 1, BLOCK), aligned(0, WIDTH), aligned(0, 2, 0, WIDTH)
-        self.stirred = np.empty(1, np.int64)  # the last sweep by which each body was
+        self.stirred = np.empty((2, 1), np.int64)  # the last sweeps by which each body was, and bears what is heavy
         self.crushed = np.zeros(1, np.bool_)  # who is, for whom sweeping on would be in vain
         self.leans = np.zeros((2, 1), np.bool_)  # who rests on something, as balls on exact arcs do in the second row
         self.reserve(0)
@@ -231,7 +231,7 @@ class Resting(Resource):
         rows, motion, linkage, relaxing = self.rows(world), world[Motion], world[Linkage], stage.name == "relax"
         if not (self.hearers or (self.groups and linkage.groups)):
             if self.groups:
-                most = stage.sweeps + MORE_SWEEPS
+                most = stage.sweeps + BEARING_SWEEPS
                 self._press(world, stage, 0, most, begins=not relaxing, ended=relaxing, rows=rows, motion=motion)
             else:
                 linkage.solve(
@@ -245,7 +245,7 @@ class Resting(Resource):
             self._press(world, stage, 0, 0, begins=True)
         self._tell(stage, 0)
         done, follow = 0, True
-        while done < stage.sweeps or (follow and done < stage.sweeps + MORE_SWEEPS):
+        while done < stage.sweeps or (follow and done < stage.sweeps + BEARING_SWEEPS):
             if done < stage.sweeps:
                 linkage.solve(1, stage.h, self.bodies, relaxing=relaxing)
             follow = self._press(world, stage, done, 1, ended=relaxing)

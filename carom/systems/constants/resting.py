@@ -31,12 +31,10 @@ HARD_GAP = 1e-4
 RIGID_RATE = 0.05
 
 # m/s2, and part of what a point bears beyond so much times the mass that counts there by which it yields then: between
-# two moving bodies, where heavy ones on light ones would sink in by more (1,000 kg on 1 kg by 12 cm instead of 10), and
-# on what cannot move, where light ones that did not yield at all would be driven to and fro for good by heavy ones that
-# stand aside on them (100 kg at 0.3 m/s), as sweeps leave them far from solved. Less load: walls of 40 rows lean
-# sooner. A larger part: who is heavy sinks in. Smaller: he rocks on (heaps with one light body under 200 kg).
-LOADED, LOADED_YIELD = 1500.0, 0.03
-LOADED_RIGID, LOADED_RIGID_YIELD = 400.0, 0.015
+# two moving bodies, and on what cannot move, which yields to no less. Less load: walls of 40 rows lean sooner. More, or
+# a larger part: who is heavy sinks in, and what stands on columns of light bodies leans. Smaller: it rocks for longer.
+LOADED, LOADED_YIELD = 800.0, 0.001
+LOADED_RIGID, LOADED_RIGID_YIELD = 400.0, 0.001
 
 # rad/s, m. Who rocks so fast on what cannot move leaves it by half of that, who is faster by less; overlap beyond so
 # much leaves as ever. Larger, or less overlap: he is lifted after each landing as far as he sank in it, and rocks on
@@ -85,6 +83,11 @@ START_SWEEPS = 2
 # other by centimetres and bounce off that. Smaller: piles are swept often while they settle. It is the centres of two
 # that yield, and the points of one on what does not: measured at points too, the former are swept a tenth more often.
 STIRRED, CALM, MORE_SWEEPS = 0.5, 0.1, 20
+
+# m/s2. Under a body that is so many times HEAVY beside another, who bears it is swept once more for each time that the
+# load of a point is so much times the mass that counts there, up to so many times. Less often: 1,000 kg sink through
+# three cubes of 1 kg, and what stands on a table rocks. More: a crate on a heap of boxes takes long.
+BEARING, HEAVY, BEARING_SWEEPS = 20.0, 8.0, 60
 
 # Squared part of the most that friction and rolling may be, by which a sweep changes what is found: rounding.
 ROLLING_SOLVED = 1e-28

@@ -71,7 +71,7 @@ def look_at_points(r, points, per_second, yielding, parting, lanes, to, found):
         depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
         there = choose(mass, choose(depth - spread(0.5 * ABSENT), one, zero), zero)
         parts = parting_at(q, lanes, parting) if points > 1 else parting[0]
-        target, stiff = aimed_at(depth, before, mass, parts, per_second, slow, how)
+        target, stiff = aimed_at(depth, before, mass, parts, per_second, slow, how, one)
         after = larger(zero, target)
         change = larger(after - before, before - after)
         left = choose(there, change / larger(stiff, spread(TINY)), zero)

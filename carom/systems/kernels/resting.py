@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import CALM, MANIFOLD_POINTS, POINT_SWEEPS, START_SWEEPS, STIRRED
+from carom.systems.constants import CALM, HEAVY, MANIFOLD_POINTS, MORE_SWEEPS, POINT_SWEEPS, START_SWEEPS, STIRRED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS, RUNS, couplings, pair
@@ -26,11 +26,21 @@ from carom.systems.kernels.lanes import (
     which,
 )
 from carom.systems.kernels.levers import frame_of, parting_at, parting_of
-from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
+from carom.systems.kernels.packing import INVERSE_MASS, VELOCITY, read_velocities, write_velocities
 from carom.systems.kernels.resting_balls import parted_by, press_balls, press_balls_warm
 from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, roll, rub, slip, swerved
-from carom.systems.kernels.softness import aimed_at, leaving, of_any_load
-from carom.systems.kernels.stirring import KEPT_ROWS, NEVER, are_stirred, put_aside, put_back, some_stir, stir
+from carom.systems.kernels.softness import aimed_at, borne, leaving, of_any_load
+from carom.systems.kernels.stirring import (
+    KEPT_ROWS,
+    NEVER,
+    are_bearing,
+    are_stirred,
+    bear,
+    put_aside,
+    put_back,
+    some_stir,
+    stir,
+)
 
 # Rows of each point while it is solved: its impulse, what that would be were the others to stay as they are, the mass
 # that counts along the normal, the same where it presses, and how fast the point parts when others bear by that.
@@ -72,24 +82,25 @@ def press_groups(
 
     Where the last of a stage still stirs somebody (STIRRED), others follow until all are CALM, over the groups of those
     bodies that are not: ``stirred`` is the last sweep in which each was stirred. Whose manifold starts to press is
-    stirred in the START_SWEEPS that follow. In the row of ``stirs`` that even or odd sweeps have, each thread tells
-    whether others are to follow. ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield
-    (`aimed_at`); in sweeps that follow loads are those of a crash, and do not count. Those with something that cannot
-    move come last, so that what is under a pile has the last word. Where the substep ``begins`` with them, the impulses
-    of the one before are applied first; where it has ``ended``, its impulses are added to those of the step. Velocities
-    of ``rows`` are packed before and unpacked behind.
+    stirred in the START_SWEEPS that follow, and who bears what is heavy in more (`bear`). In the row of ``stirs`` that
+    even or odd sweeps have, each thread tells whether others are to follow. ``soft`` and ``rigid`` say how contacts of
+    two moving bodies and of one yield (`aimed_at`); in sweeps that follow loads are those of a crash, and do not count
+    but under who is heavy. Those with something that cannot move come last, so that what is under a pile has the last
+    word. Where the substep ``begins`` with them, the impulses of the one before are applied first; where it has
+    ``ended``, its impulses are added to those of the step. Velocities of ``rows`` are packed before and unpacked
+    behind.
 
     A thread takes its part of each run of a level, waits for the others after that, and has two pages of ``scratch``.
     """
     _, part, parts = crew
     velocity, kept, scratch = bodies[VELOCITY], address(scratch[part, 1]), address(scratch[part, 0])
-    lanes, bodies, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
+    loads, lanes, bodies, of_a, of_b = lanes, address(lanes), planes(bodies), address(index_a), address(index_b)
     begin, end = part_of(crew, len(rows))
     mine = rows[begin:end]
     write_velocities(mine, linear, angular, velocity)
     if swept == 0:
-        begin, end = part_of(crew, len(stirred))
-        stirred[begin:end] = NEVER
+        begin, end = part_of(crew, stirred.shape[1])
+        stirred[:, begin:end] = NEVER
     passed = 1
     wait_for_all(crew, passed)
     for level in range(levels if begins else 0):
@@ -111,20 +122,24 @@ def press_groups(
                     if asks[g] == IDLE:
                         continue
                     fetch_next(g, end, of_a, of_b, bodies)
-                    yielding = soft if g < ends[0] else rigid
+                    yielding, bearing, counts = soft if g < ends[0] else rigid, spread(1.0), points[g] > 1
                     if again:
-                        yielding = of_any_load(yielding)
                         concerned = are_stirred(g, sweep - 1, index_a, index_b, stirred)
                         if not some(concerned):
                             continue
+                        bearing = are_bearing(g, sweep, index_a, index_b, stirred)
+                        counts = some(bearing)
                         put_aside(g, row[g], points[g], asks[g], of_a, of_b, lanes, bodies, kept)
-                    excess, starts = press(
-                        g, row[g], points[g], asks[g], 1.0 / h, yielding, limit, g < ends[0],
+                    if not counts:
+                        yielding = of_any_load(yielding)
+                    excess, starts, bears, heavy = press(
+                        g, row[g], points[g], asks[g], 1.0 / h, yielding, bearing, limit, g < ends[0],
                         of_a, of_b, lanes, bodies, scratch,
                     )  # fmt: skip
                     if again:
                         put_back(concerned, g, row[g], points[g], asks[g], ended, of_a, of_b, lanes, bodies, kept)
                         excess = choose(concerned, excess, spread(0.0))
+                        heavy = choose(concerned, heavy, spread(0.0))
                         go_on = are_stirred(g, sweep, index_a, index_b, stirred)
                         stirs_some |= some(choose(concerned, go_on, spread(0.0)))
                     elif ended and last:
@@ -132,7 +147,13 @@ def press_groups(
                     if last and not again and some(starts):
                         stir(g, sweep + START_SWEEPS - 1, which(starts), index_a, index_b, velocity, crushed, stirred)
                         stirs_some = True
-                    if last and some(excess):
+                    bears = choose(larger(heavy, bearing) if again else heavy, bears, spread(0.0))
+                    if last and some(bears):
+                        stirs_some |= bear(
+                            g, row[g], points[g], sweeps, 1.0 / h, which(bears), which(heavy), index_a, index_b, loads,
+                            velocity, crushed, stirred,
+                        )  # fmt: skip
+                    if last and sweep < sweeps + MORE_SWEEPS - 1 and some(excess):
                         stir(g, sweep, which(excess), index_a, index_b, velocity, crushed, stirred)
                         stirs_some = True
             passed += 1
@@ -163,28 +184,32 @@ def sum_impulses(r, points, lanes):
 
 
 @woven
-def press(g, r, points, asks, per_second, yielding, limit, both_yield, index_a, index_b, lanes, bodies, scratch):
+def press(
+    g, r, points, asks, per_second, yielding, bearing, limit, both_yield, index_a, index_b, lanes, bodies, scratch
+):  # fmt: skip
     """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling.
 
     All but rolling is found in the frames of manifolds, and what bodies move by is added up once.
     Return more than 0 where that changes by more than the ``limit`` (m/s) how fast bodies part: their centres where
-    ``both_yield``, else each of their points, of flat ones many times as fast. And more than 0 where no point has
-    pressed before: friction turns bodies, against which points cannot press before the next sweep. Balls need none.
+    ``both_yield``, else each of their points, of flat ones many times as fast. More than 0 where no point has pressed
+    before: friction turns bodies, against which points cannot press before the next sweep. And more than 0 where points
+    are loaded (`borne`), and where one body is so much heavier that others bear it (`outweighs`). Balls need none.
     """
     if asks == BALLS:
-        return press_balls(g, r, per_second, yielding, limit, index_a, index_b, lanes, bodies), spread(0.0)
+        excess = press_balls(g, r, per_second, yielding, limit, index_a, index_b, lanes, bodies)
+        return excess, spread(0.0), spread(0.0), spread(0.0)
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     parting, slipping = parting_of(r, lanes, a, b), slip(r, lanes, a, b)
     # Loops over a known number of points are unrolled.
     if points == 1:
-        solved = press_points(1, r, per_second, of_any_load(yielding), limit, parting, lanes, scratch)
+        solved = press_points(1, r, per_second, yielding, bearing, limit, parting, lanes, scratch)
     elif points == 2:
-        solved = press_points(2, r, per_second, yielding, limit, parting, lanes, scratch)
+        solved = press_points(2, r, per_second, yielding, bearing, limit, parting, lanes, scratch)
     elif points == 3:
-        solved = press_points(3, r, per_second, yielding, limit, parting, lanes, scratch)
+        solved = press_points(3, r, per_second, yielding, bearing, limit, parting, lanes, scratch)
     else:
-        solved = press_points(4, r, per_second, yielding, limit, parting, lanes, scratch)
-    total, twisting, push, by_t, by_u, excess = solved
+        solved = press_points(4, r, per_second, yielding, bearing, limit, parting, lanes, scratch)
+    total, twisting, push, by_t, by_u, excess, bears = solved
     if asks == ROLLING:
         a, b = pressed(r, lanes, a, b, push, by_t, by_u)
         a, b = roll(g, r, total, twisting, a, b, index_a, index_b, lanes, bodies)
@@ -200,16 +225,23 @@ def press(g, r, points, asks, per_second, yielding, limit, both_yield, index_a, 
     if points > 1:  # one point cannot hold up what turns over it
         second = load(lanes, r + MANIFOLD_ROWS + POINT_ROWS + of.DEPTH) - spread(0.5 * ABSENT)
         starts = choose(second, choose(total - push, spread(0.0), total), spread(0.0))
-    return parted_by(push, a, b) - limit if both_yield else excess, starts
+    return parted_by(push, a, b) - limit if both_yield else excess, starts, bears, outweighs(a, b)
 
 
 @woven
-def press_points(points, r, per_second, yielding, limit, parting, lanes, scratch):
+def outweighs(a, b):
+    """Return more than 0 where one of two bodies that move is more than HEAVY times as heavy as the other."""
+    of_heavy, of_light = smaller(a[INVERSE_MASS], b[INVERSE_MASS]), larger(a[INVERSE_MASS], b[INVERSE_MASS])
+    return choose(of_heavy, of_light - HEAVY * of_heavy, spread(0.0))
+
+
+@woven
+def press_points(points, r, per_second, yielding, bearing, limit, parting, lanes, scratch):
     """Solve the points of a group, of which bodies are ``parting`` so (`parting_of`).
 
     Return the sum of the impulses, that of each times its distance from the middle, by how much the sum has changed,
-    the twists about the tangents that come with it, and more than 0 where one changes how fast its point parts by more
-    than the ``limit`` (m/s).
+    the twists about the tangents that come with it, more than 0 where one changes how fast its point parts by more
+    than the ``limit`` (m/s), and where one is loaded (`borne`).
     Each point has a target, the impulse that is `aimed_at`; others move it, and the bodies learn of all at once. What
     all need alike comes first, then one after the other what it lacks.
     """
@@ -219,7 +251,7 @@ def press_points(points, r, per_second, yielding, limit, parting, lanes, scratch
         q, x = r + MANIFOLD_ROWS + POINT_ROWS * p, SCRATCH_ROWS * p
         depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
         parts = parting_at(q, lanes, parting) if points > 1 else parting[0]
-        target, stiff = aimed_at(depth, before, mass, parts, per_second, slow, yielding)
+        target, stiff = aimed_at(depth, before, mass, parts, per_second, slow, yielding, bearing)
         store(scratch, x + IMPULSE, before)
         store(scratch, x + TARGET, target)
         store(scratch, x + STIFF, stiff)
@@ -236,17 +268,19 @@ def press_points(points, r, per_second, yielding, limit, parting, lanes, scratch
                     x = SCRATCH_ROWS * o
                     coupling = load(scratch, x + STIFF) * load(lanes, couplings(r, points) + pair(max(p, o), min(p, o)))
                     store(scratch, x + TARGET, load(scratch, x + TARGET) - coupling * j)
-    total, twisting, push, by_t, by_u, excess = zero, zero, zero, zero, zero, zero
+    total, twisting, push, by_t, by_u, excess, bears = zero, zero, zero, zero, zero, zero, zero
     for p in range(points):
         q, after = r + MANIFOLD_ROWS + POINT_ROWS * p, load(scratch, SCRATCH_ROWS * p + IMPULSE)
-        j = after - load(lanes, q + of.WARM)
+        before, mass = load(lanes, q + of.WARM), load(lanes, q + of.MASS)
+        j = after - before
         store(lanes, q + of.WARM, after)
         total, push = total + after, push + j
-        excess = larger(excess, larger(j, -j) - limit * load(lanes, q + of.MASS))
+        excess = larger(excess, larger(j, -j) - limit * mass)
+        bears = larger(bears, borne(before, after, mass, per_second))
         if points > 1:  # else it is the middle
             twisting = twisting + after * load(lanes, q + of.AWAY)
             by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
-    return total, twisting, push, by_t, by_u, excess
+    return total, twisting, push, by_t, by_u, excess, bears
 
 
 @woven

@@ -91,7 +91,7 @@ def press_balls(g, r, per_second, yielding, limit, index_a, index_b, lanes, bodi
     q, zero = r + MANIFOLD_ROWS, spread(0.0)
     depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
     parts, slips = parting_of_balls(r, lanes, a, b)
-    after = larger(zero, aimed_at(depth, before, mass, parts, per_second, yielding[0], of_any_load(yielding))[0])
+    after = larger(zero, aimed_at(depth, before, mass, parts, per_second, yielding[0], of_any_load(yielding), zero)[0])
     store(lanes, q + of.WARM, after)
     f = three(lanes, r + of.RUB)
     new = minus(f, times(load(lanes, r + of.GIVE), slips))

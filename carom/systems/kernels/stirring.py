@@ -6,7 +6,7 @@ A group is swept whole, and whom nobody stirs gets back what he had: no bit hang
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import MANIFOLD_POINTS
+from carom.systems.constants import BEARING, BEARING_SWEEPS, MANIFOLD_POINTS
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
@@ -17,6 +17,8 @@ from carom.systems.kernels.packing import ANGULAR, INVERSE_MASS, VELOCITY
 from carom.systems.kernels.rubbing import BALLS
 
 NEVER = -1  # the sweep that stirs nobody
+# Rows of what is known of bodies: the last sweep by which each was stirred, and in which it bears what is heavy.
+STIRS, BEARS = 0, 1
 # Rows of what manifolds had before: impulses of points, of friction, spinning and rolling, and the velocities of both
 # bodies, linear and angular.
 WARM, RUB = 0, MANIFOLD_POINTS
@@ -26,9 +28,21 @@ SPUN, ROLLED, OF_A, OF_B, KEPT_ROWS = (RUB + k for k in (3, 4, 7, 13, 19))
 @woven
 def are_stirred(g, since, index_a, index_b, stirred):
     """Tell of each manifold of a group whether a sweep since then has stirred one of its bodies."""
-    of_a = lane_of(numbers_at(stirred, numbers_at(index_a[g], LANES)))
-    of_b = lane_of(numbers_at(stirred, numbers_at(index_b[g], LANES)))
-    return larger(of_a, of_b) - (since - 0.5)
+    return last_of(g, index_a, index_b, stirred[STIRS]) - (since - 0.5)
+
+
+@woven
+def are_bearing(g, sweep, index_a, index_b, stirred):
+    """Tell of each manifold of a group whether one of its bodies bears what is heavy, and is swept therefore."""
+    return last_of(g, index_a, index_b, stirred[BEARS]) - (sweep - 1.5)
+
+
+@woven
+def last_of(g, index_a, index_b, sweeps):
+    """Return the later of the sweeps that the bodies of each manifold of a group have."""
+    of_a = lane_of(numbers_at(sweeps, numbers_at(index_a[g], LANES)))
+    of_b = lane_of(numbers_at(sweeps, numbers_at(index_b[g], LANES)))
+    return larger(of_a, of_b)
 
 
 @woven
@@ -104,7 +118,32 @@ def stir(g, sweep, lanes, index_a, index_b, velocity, crushed, stirred):
     for lane in range(WIDTH):
         for i in (index_a[g, lane], index_b[g, lane]):
             if lanes >> lane & 1 and velocity[i, INVERSE_MASS] > 0.0 and not crushed[i]:
-                stirred[i] = max(stirred[i], sweep)
+                stirred[STIRS, i] = max(stirred[STIRS, i], sweep)
+
+
+@woven
+def bear(g, r, points, sweeps, per_second, bears, heavy, index_a, index_b, lanes, velocity, crushed, stirred):
+    """Have the bodies of some lanes of a group, each a bit, swept on that bear what is heavy; tell whether any is.
+
+    A sweep leaves bodies so much the farther from what they bear the heavier that is: they are swept once more for each
+    time that their load is BEARING; those who bear a ``heavy`` one themselves, and others no more than one of them.
+    """
+    spreads = False
+    for lane in range(WIDTH):
+        if not bears >> lane & 1:
+            continue
+        a, b, load = index_a[g, lane], index_b[g, lane], 0.0
+        for p in range(points):
+            q = r + MANIFOLD_ROWS + POINT_ROWS * p
+            if lanes[q + of.MASS, lane] > 0.0:
+                load = max(load, lanes[q + of.WARM, lane] / lanes[q + of.MASS, lane])
+        until = sweeps - 2 + int(min(load * per_second / BEARING, BEARING_SWEEPS))
+        if not heavy >> lane & 1:
+            until = min(until, max(stirred[BEARS, a], stirred[BEARS, b]))
+        for i in (a, b):
+            if until > stirred[BEARS, i] and velocity[i, INVERSE_MASS] > 0.0 and not crushed[i]:
+                stirred[BEARS, i], stirred[STIRS, i], spreads = until, max(stirred[STIRS, i], until), True
+    return spreads
 
 
 @woven

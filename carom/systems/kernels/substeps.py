@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
-from carom.systems.constants import MORE_SWEEPS
+from carom.systems.constants import BEARING_SWEEPS
 from carom.systems.kernels.advancing import advance_bodies
 from carom.systems.kernels.arcs import bend_arcs
 from carom.systems.kernels.ball_touches import write_touches
@@ -124,7 +124,7 @@ def take_substeps(
         now = note(KICK, now, spent)
         if rest:
             share(describe(press, for_groups, (
-                True, 0, 1 + MORE_SWEEPS, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
+                True, 0, 1 + BEARING_SWEEPS, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
                 row, asks, bound, scratch, lanes, bodies, linear, angular, crushed, stirred, stirs,
             )))  # fmt: skip
             if scheme == VERLET and some_lean(leans):
@@ -196,7 +196,7 @@ def take_substeps(
         now = note(SETTLE, now, spent)
         if rest:
             share(describe(press, for_groups, (
-                False, 0, relaxes + MORE_SWEEPS, relaxes, True, h, ends, levels, run_ends, HARD, HARD,
+                False, 0, relaxes + BEARING_SWEEPS, relaxes, True, h, ends, levels, run_ends, HARD, HARD,
                 index_a, index_b, points, row, asks, bound, scratch, lanes, bodies, linear, angular,
                 crushed, stirred, stirs,
             )))  # fmt: skip
