@@ -89,3 +89,23 @@ def test_what_stands_on_a_table_comes_to_rest(mass: float, plate: float, leg: fl
     rows = world.row_numbers(RigidBody)
     assert np.abs(world[Motion].linear).max() < 1e-3
     assert (np.abs(world[Transform].position[rows[-1]] - (x, 1.7, z)) < (0.002, 0.024, 0.002)).all()
+
+
+def test_what_stands_on_a_joined_table_stays_there() -> None:
+    """1,000 kg on a plate of 20 kg, legs of 2 kg on fixed joints, 10 s: within 2 cm; 14 if joints are swept no more.
+
+    It does not come to rest.
+    """
+    simulation = Simulation(sleeping=False)
+    simulation.add(collider={"plane": {}}, material={"friction": 0.5})
+    place = {"position": (0.0, 1.1, 0.0)}
+    plate = simulation.add(collider={"box": {"size": (3.0, 0.2, 3.0)}}, body={"mass": 20.0}, transform=place)
+    for x, z in ((-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)):
+        shape, place = {"box": {"size": (0.3, 0.98, 0.3)}}, {"position": (x, 0.49, z)}
+        leg = simulation.add(collider=shape, body={"mass": 2.0}, transform=place)
+        simulation.add(joint={"fixed": {"a": plate, "b": leg, "at": (x, 1.0, z)}})
+    place = {"position": (0.3, 1.7, 0.2)}
+    crate = simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={"mass": 1000.0}, transform=place)
+    simulation.step(600)
+    moved = simulation.world[Transform].position[simulation.world.row(crate)] - (0.3, 1.7, 0.2)
+    assert np.abs(moved).max() < 0.02
