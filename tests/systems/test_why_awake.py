@@ -13,7 +13,11 @@ def test_why_a_body_is_awake() -> None:
     """One reason at a time, with who it is, numbers and limits."""
     simulation = stacks(0.0)
     simulation.add(
-        name="late", collider=BALL, body={}, transform={"position": (0.0, 3.5, 0.0)}, motion={"linear": (1, 0, 0)}
+        name="late",
+        collider=BALL,
+        body={"mass": 1.0},
+        transform={"position": (0, 3.5, 0)},
+        motion={"linear": (1, 0, 0)},
     )
     simulation.step()
     told = why_awake(simulation, "a0")
