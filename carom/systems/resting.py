@@ -34,7 +34,7 @@ from carom.systems.kernels.resting import PAGE_ROWS, press_groups
 from carom.systems.kernels.rows import are_same_rows
 from carom.systems.kernels.settling import sink_contacts, tell_depths
 from carom.systems.kernels.sorting import sort_groups
-from carom.systems.kernels.stirring import BEARS
+from carom.systems.kernels.stirring import LAST_BEARING
 from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
@@ -247,7 +247,7 @@ class Resting(Resource):
         self._tell(stage, 0)
         done, follow = 0, True
         while done < stage.sweeps or (follow and done < stage.sweeps + BEARING_SWEEPS):
-            if done < stage.sweeps or self.stirred[BEARS].max() >= done - 1:
+            if done < stage.sweeps or self.stirred[LAST_BEARING].max() >= done - 1:
                 linkage.solve(1, stage.h, self.bodies, relaxing=relaxing)
             follow = self._press(world, stage, done, 1, ended=relaxing)
             done += 1

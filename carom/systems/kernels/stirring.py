@@ -18,7 +18,7 @@ from carom.systems.kernels.rubbing import BALLS
 
 NEVER = -1  # the sweep that stirs nobody
 # Rows of what is known of bodies: the last sweep by which each was stirred, and in which it bears what is heavy.
-STIRS, BEARS = 0, 1
+LAST_STIRRED, LAST_BEARING = 0, 1
 # Rows of what manifolds had before: impulses of points, of friction, spinning and rolling, and the velocities of both
 # bodies, linear and angular.
 WARM, RUB = 0, MANIFOLD_POINTS
@@ -28,13 +28,13 @@ SPUN, ROLLED, OF_A, OF_B, KEPT_ROWS = (RUB + k for k in (3, 4, 7, 13, 19))
 @woven
 def are_stirred(g, since, index_a, index_b, stirred):
     """Tell of each manifold of a group whether a sweep since then has stirred one of its bodies."""
-    return last_of(g, index_a, index_b, stirred[STIRS]) - (since - 0.5)
+    return last_of(g, index_a, index_b, stirred[LAST_STIRRED]) - (since - 0.5)
 
 
 @woven
 def are_bearing(g, sweep, index_a, index_b, stirred):
     """Tell of each manifold of a group whether one of its bodies bears what is heavy, and is swept therefore."""
-    return last_of(g, index_a, index_b, stirred[BEARS]) - (sweep - 1.5)
+    return last_of(g, index_a, index_b, stirred[LAST_BEARING]) - (sweep - 1.5)
 
 
 @woven
@@ -118,7 +118,7 @@ def stir(g, sweep, lanes, index_a, index_b, velocity, crushed, stirred):
     for lane in range(WIDTH):
         for i in (index_a[g, lane], index_b[g, lane]):
             if lanes >> lane & 1 and velocity[i, INVERSE_MASS] > 0.0 and not crushed[i]:
-                stirred[STIRS, i] = max(stirred[STIRS, i], sweep)
+                stirred[LAST_STIRRED, i] = max(stirred[LAST_STIRRED, i], sweep)
 
 
 @woven
@@ -139,10 +139,11 @@ def bear(g, r, points, sweeps, per_second, bears, heavy, index_a, index_b, lanes
                 load = max(load, lanes[q + of.WARM, lane] / lanes[q + of.MASS, lane])
         until = sweeps - 2 + int(min(load * per_second / BEARING, BEARING_SWEEPS))
         if not heavy >> lane & 1:
-            until = min(until, max(stirred[BEARS, a], stirred[BEARS, b]))
+            until = min(until, max(stirred[LAST_BEARING, a], stirred[LAST_BEARING, b]))
         for i in (a, b):
-            if until > stirred[BEARS, i] and velocity[i, INVERSE_MASS] > 0.0 and not crushed[i]:
-                stirred[BEARS, i], stirred[STIRS, i], spreads = until, max(stirred[STIRS, i], until), True
+            if until > stirred[LAST_BEARING, i] and velocity[i, INVERSE_MASS] > 0.0 and not crushed[i]:
+                stirred[LAST_BEARING, i], spreads = until, True
+                stirred[LAST_STIRRED, i] = max(stirred[LAST_STIRRED, i], until)
     return spreads
 
 
