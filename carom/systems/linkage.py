@@ -8,12 +8,13 @@ from typing import Protocol
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Floats, Integers
+from carom.ecs.column import Booleans, Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.systems.awake import Awake
 from carom.systems.constants import JOINT_HARDNESS, JOINT_RATE
+from carom.systems.kernels.joint_bearing import sweep_bearing_joints
 from carom.systems.kernels.joint_filling import fill_joints
 from carom.systems.kernels.joint_groups import group_joints
 from carom.systems.kernels.joint_impulses import solve_joints
@@ -122,10 +123,22 @@ class Linkage(Resource):
         """
         if not self.groups:
             return
-        rate, hardness = (0.0, 1.0) if relaxing else (JOINT_RATE / h, JOINT_HARDNESS)
+        rate, hardness = _yielding(h, relaxing)
         solve_joints(
             begins, sweeps, ended, relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
             self.index_a, self.index_b, rows, self.lanes, bodies, motion.linear, motion.angular,
+        )  # fmt: skip
+
+    def sweep_bearing(
+        self, sweep: int, h: float, bodies: Floats, crushed: Booleans, stirred: Integers, *, relaxing: bool
+    ) -> None:
+        """Solve the joints of who bears what is heavy in this sweep once more; whom they hold does, too."""
+        if not self.groups:
+            return
+        rate, hardness = _yielding(h, relaxing)
+        sweep_bearing_joints(
+            sweep, relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
+            self.index_a, self.index_b, crushed, self.lanes, bodies, stirred,
         )  # fmt: skip
 
     def hand_over(self, world: World) -> None:
@@ -136,3 +149,8 @@ class Linkage(Resource):
             joint.impulse, joint.drive_impulse, joint.friction_impulse, joint.position, joint.velocity,
             joint.limit, joint.effort, joint.force, joint.torque,
         )  # fmt: skip
+
+
+def _yielding(h: float, relaxing: bool) -> tuple[float, float]:
+    """Return at which rate (1/s) joints go back to their places in so many seconds, and how hard they are."""
+    return (0.0, 1.0) if relaxing else (JOINT_RATE / h, JOINT_HARDNESS)

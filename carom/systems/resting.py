@@ -34,7 +34,6 @@ from carom.systems.kernels.resting import PAGE_ROWS, press_groups
 from carom.systems.kernels.rows import are_same_rows
 from carom.systems.kernels.settling import sink_contacts, tell_depths
 from carom.systems.kernels.sorting import sort_groups
-from carom.systems.kernels.stirring import LAST_BEARING
 from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
@@ -227,7 +226,7 @@ class Resting(Resource):
     def _solve(self, world: World, stage: Stage) -> None:
         """Do all sweeps of a stage: at once where joints or contacts are alone and nobody is to hear of each.
 
-        Else one by one, joints first; they go on with who bears what is heavy.
+        Else one by one, joints first; where sweeps follow, those of who bears what is heavy.
         """
         rows, motion, linkage, relaxing = self.rows(world), world[Motion], world[Linkage], stage.name == "relax"
         if not (self.hearers or (self.groups and linkage.groups)):
@@ -247,8 +246,10 @@ class Resting(Resource):
         self._tell(stage, 0)
         done, follow = 0, True
         while done < stage.sweeps or (follow and done < stage.sweeps + BEARING_SWEEPS):
-            if done < stage.sweeps or self.stirred[LAST_BEARING].max() >= done - 1:
+            if done < stage.sweeps:
                 linkage.solve(1, stage.h, self.bodies, relaxing=relaxing)
+            else:
+                linkage.sweep_bearing(done, stage.h, self.bodies, self.crushed, self.stirred, relaxing=relaxing)
             follow = self._press(world, stage, done, 1, ended=relaxing)
             done += 1
             self._tell(stage, done)

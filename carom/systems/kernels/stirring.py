@@ -21,8 +21,8 @@ NEVER = -1  # the sweep that stirs nobody
 LAST_STIRRED, LAST_BEARING = 0, 1
 # Rows of what manifolds had before: impulses of points, of friction, spinning and rolling, and the velocities of both
 # bodies, linear and angular.
-WARM, RUB = 0, MANIFOLD_POINTS
-SPUN, ROLLED, OF_A, OF_B, KEPT_ROWS = (RUB + k for k in (3, 4, 7, 13, 19))
+WARM, RUB, SIDE_ROWS = 0, MANIFOLD_POINTS, 6
+SPUN, ROLLED, OF_A, OF_B, KEPT_ROWS = (RUB + k for k in (3, 4, 7, 7 + SIDE_ROWS, 7 + 2 * SIDE_ROWS))
 
 
 @woven
@@ -56,12 +56,17 @@ def put_aside(g, r, points, asks, index_a, index_b, lanes, bodies, kept):
         store(kept, SPUN, load(lanes, r + of.SPUN))
         for k in range(3):
             store(kept, ROLLED + k, load(lanes, r + of.ROLLED + k))
-    a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
+    put_velocities_aside(g, index_a, OF_A, bodies, kept)
+    put_velocities_aside(g, index_b, OF_B, bodies, kept)
+
+
+@woven
+def put_velocities_aside(g, index, at, bodies, kept):
+    """Keep the velocities of the bodies on one side in so many rows, SIDE_ROWS, from there."""
+    v = gather(bodies[VELOCITY], index, g)
     for k in range(3):
-        store(kept, OF_A + k, a[k])
-        store(kept, OF_A + 3 + k, a[ANGULAR + k])
-        store(kept, OF_B + k, b[k])
-        store(kept, OF_B + 3 + k, b[ANGULAR + k])
+        store(kept, at + k, v[k])
+        store(kept, at + 3 + k, v[ANGULAR + k])
 
 
 @woven
