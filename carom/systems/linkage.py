@@ -47,7 +47,7 @@ class Linkage(Resource):
         self.holds = True  # bodies may be marked as held
         self.marked = False  # who is held, now and for as long as these joints are
         self.restored = -1
-        self.awake = self.rows = NOBODY
+        self.awake = self.rows = self.joined = NOBODY
         self.lanes = aligned(0, WIDTH)
         self._reserve(0)
 
@@ -69,6 +69,9 @@ class Linkage(Resource):
         here = moves[ties.body_a] | moves[ties.body_b]
         self.rows, body_a, body_b = ties.rows[here], ties.body_a[here], ties.body_b[here]
         count, nobody = len(self.rows), len(body.inverse_mass)
+        self.joined = np.zeros(nobody + 1, np.int64)  # 1 for who moves and is held, 0 for all others
+        self.joined[body_a] = self.joined[body_b] = 1
+        self.joined[~moves] = 0
         self._reserve(count)
         self.measured = self.weighed = self.marked = False
         self.groups, lanes = group_joints(

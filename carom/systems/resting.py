@@ -270,7 +270,7 @@ class Resting(Resource):
             crew, begins, swept, most, stage.sweeps, ended, stage.h, self.ends, self.levels, self.run_ends,
             stage.soft, stage.rigid, self.index_a, self.index_b, self.points, self.row, self.asks, rows,
             self.pages_for(crew), self.lanes, self.bodies, motion.linear, motion.angular, self.crushed,
-            self.stirred, stirs,
+            world[Linkage].joined, self.stirred, stirs,
         )  # fmt: skip
         return bool(stirs[swept % 2].any())
 

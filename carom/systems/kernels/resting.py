@@ -37,6 +37,7 @@ from carom.systems.kernels.stirring import (
     are_bearing,
     are_stirred,
     bear,
+    last_of,
     put_aside,
     put_back,
     some_stir,
@@ -73,7 +74,8 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
 @shared("scratch", "lanes", "bodies", "linear", "angular", "stirred", "stirs")
 def press_groups(
     crew, begins, swept, most, sweeps, ended, h, ends, levels, run_ends, soft, rigid,
-    index_a, index_b, points, row, asks, rows, scratch, lanes, bodies, linear, angular, crushed, stirred, stirs,
+    index_a, index_b, points, row, asks, rows, scratch, lanes, bodies, linear, angular, crushed, joined,
+    stirred, stirs,
 ):  # fmt: skip
     """Solve every group that rests, in a stage of ``sweeps`` of which so many are ``swept``: ``most`` more of them.
 
@@ -133,6 +135,8 @@ def press_groups(
                         g, row[g], points[g], asks[g], 1.0 / h, yielding, bearing, limit, g < ends[0],
                         of_a, of_b, lanes, bodies, scratch,
                     )  # fmt: skip
+                    if len(joined):
+                        heavy = larger(heavy, last_of(g, index_a, index_b, joined))
                     if again:
                         put_back(concerned, g, row[g], points[g], asks[g], ended, of_a, of_b, lanes, bodies, kept)
                         excess = choose(concerned, excess, spread(0.0))

@@ -81,6 +81,7 @@ def take_substeps(
     apart, rests = np.zeros(len(crew) // ROOM, np.bool_), np.zeros(len(crew) // ROOM, np.int64)
     soon, cut, begins, flown = np.empty((len(crew) // ROOM, 2)), 0, number, True
     times, stirs = np.empty(len(fast)), np.empty((2, len(crew) // ROOM), np.bool_)
+    joined = np.empty(0, np.int64)  # nobody is
     none = logged = np.int64(0)  # a bare 0 has a type of its own, for which `fly` would be compiled once more
     now = nanoseconds()
     for k in range(number, substeps + 1):
@@ -125,7 +126,7 @@ def take_substeps(
         if rest:
             share(describe(press, for_groups, (
                 True, 0, 1 + BEARING_SWEEPS, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
-                row, asks, bound, scratch, lanes, bodies, linear, angular, crushed, stirred, stirs,
+                row, asks, bound, scratch, lanes, bodies, linear, angular, crushed, joined, stirred, stirs,
             )))  # fmt: skip
             if scheme == VERLET and some_lean(leans):
                 share(describe(bend, for_groups, (
@@ -198,7 +199,7 @@ def take_substeps(
             share(describe(press, for_groups, (
                 False, 0, relaxes + BEARING_SWEEPS, relaxes, True, h, ends, levels, run_ends, HARD, HARD,
                 index_a, index_b, points, row, asks, bound, scratch, lanes, bodies, linear, angular,
-                crushed, stirred, stirs,
+                crushed, joined, stirred, stirs,
             )))  # fmt: skip
             now = note(RELAX, now, spent)
     return substeps, DONE, h, 0, 0, cut, logged, log_pair, log
