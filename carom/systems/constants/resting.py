@@ -85,8 +85,9 @@ START_SWEEPS = 2
 STIRRED, CALM, MORE_SWEEPS = 0.5, 0.1, 20
 
 # m/s2. Under a body that is so many times HEAVY beside another, who bears it is swept once more for each time that the
-# load of a point is so much times the mass that counts there, up to so many times. Less often: 1,000 kg sink through
-# three cubes of 1 kg, and what stands on a table rocks. More: a crate on a heap of boxes takes long.
+# load of a point is so much times the mass that counts there, up to so many times; and so is who is held by a joint.
+# Less often: 1,000 kg sink through three cubes of 1 kg, and what stands on a table rocks. More: a crate on a heap of
+# boxes takes long.
 BEARING, HEAVY, BEARING_SWEEPS = 20.0, 8.0, 60
 
 # Squared part of the most that friction and rolling may be, by which a sweep changes what is found: rounding.
