@@ -79,15 +79,15 @@ def press_groups(
 ):  # fmt: skip
     """Solve every group that rests, in a stage of ``sweeps`` of which so many are ``swept``: ``most`` more of them.
 
-    Where the last of a stage still stirs somebody (STIRRED), others follow until all are CALM, over the groups of those
-    bodies that are not: ``stirred`` is the last sweep in which each was stirred. Whose manifold starts to press is
-    stirred in the START_SWEEPS that follow, and who bears what is heavy in more (`bear`): beside who is ``joined`` (1)
-    all are. In the row of ``stirs`` that even or odd sweeps have, each thread tells whether others are to follow.
-    ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`aimed_at`); in sweeps that follow
-    loads are those of a crash, and do not count but under who is heavy. Those with something that cannot move come last, so that what is under a pile has the last
-    word. Where the substep ``begins`` with them, the impulses of the one before are applied first; where it has
-    ``ended``, its impulses are added to those of the step. Velocities of ``rows`` are packed before and unpacked
-    behind.
+    Where the last of a stage still stirs somebody (STIRRED), others follow until all are CALM, over the groups of
+    those bodies that are not: ``stirred`` is the last sweep in which each was stirred. Whose manifold starts to
+    press is stirred in the START_SWEEPS that follow, and who bears what is heavy in more (`bear`): beside who is
+    ``joined`` (1) all are. In the row of ``stirs`` that even or odd sweeps have, each thread tells whether others
+    are to follow. ``soft`` and ``rigid`` say how contacts of two moving bodies and of one yield (`aimed_at`); in
+    sweeps that follow loads are those of a crash, and do not count but under who is heavy. Those with something
+    that cannot move come last, so that what is under a pile has the last word. Where the substep ``begins`` with
+    them, the impulses of the one before are applied first; where it has ``ended``, its impulses are added to those
+    of the step. Velocities of ``rows`` are packed before and unpacked behind.
 
     A thread takes its part of each run of a level, waits for the others after that, and has two pages of ``scratch``.
     """
