@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 
 from carom.ecs import Motion, RigidBody, Transform, World
-from carom.ecs.column import Booleans, Floats, Integers
+from carom.ecs.column import Floats, Integers
 from carom.ecs.component import Resource
 from carom.ecs.components.flight import Flight
 from carom.ecs.components.joint import Joint
 from carom.systems.awake import Awake
 from carom.systems.constants import JOINT_HARDNESS, JOINT_RATE
-from carom.systems.kernels.joint_bearing import sweep_bearing_joints
 from carom.systems.kernels.joint_filling import fill_joints
 from carom.systems.kernels.joint_groups import group_joints
-from carom.systems.kernels.joint_impulses import solve_joints
 from carom.systems.kernels.joint_loads import hand_joints_over
 from carom.systems.kernels.joint_marks import mark_held
 from carom.systems.kernels.joint_places import measure_joints
@@ -26,16 +23,6 @@ from carom.systems.settings import Settings
 from carom.systems.ties import Ties
 
 NOBODY: Integers = np.zeros(0, np.int64)
-
-
-class Velocities(Protocol):
-    """Columns of velocities by row."""
-
-    linear: Floats
-    angular: Floats
-
-
-STILL: Velocities = SimpleNamespace(linear=np.zeros((0, 3)), angular=np.zeros((0, 3)))
 
 
 class Linkage(Resource):
@@ -116,33 +103,14 @@ class Linkage(Resource):
             measure_joints(weigh, self.groups, self.kinds, self.row, self.index_a, self.index_b, self.lanes, bodies)
             self.measured = self.weighed = True
 
-    def solve(
-        self, sweeps: int, h: float, bodies: Floats, *, relaxing: bool = False, begins: bool = False,
-        ended: bool = False, rows: Integers = NOBODY, motion: Velocities = STILL,
-    ) -> None:  # fmt: skip
-        """Solve every joint ``sweeps`` times, from the impulses of before where the substep ``begins``.
+    def asked(self, h: float, relaxing: bool) -> tuple[Any, ...]:
+        """Return what `take_turns` asks of joints: how they yield, and the groups.
 
-        Where it has ``ended`` impulses count for the step. Velocities of ``rows`` are those of their ``motion``.
+        What they are off by leaves at a rate (1/s), with so much of the mass, unless it is ``relaxing``.
         """
-        if not self.groups:
-            return
-        rate, hardness = _yielding(h, relaxing)
-        solve_joints(
-            begins, sweeps, ended, relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
-            self.index_a, self.index_b, rows, self.lanes, bodies, motion.linear, motion.angular,
-        )  # fmt: skip
-
-    def sweep_bearing(
-        self, sweep: int, h: float, bodies: Floats, crushed: Booleans, stirred: Integers, *, relaxing: bool
-    ) -> None:
-        """Solve the joints of who bears what is heavy in this sweep once more; whom they hold does, too."""
-        if not self.groups:
-            return
-        rate, hardness = _yielding(h, relaxing)
-        sweep_bearing_joints(
-            sweep, relaxing, h, rate, hardness, self.groups, self.kinds, self.asks, self.row,
-            self.index_a, self.index_b, crushed, self.lanes, bodies, stirred,
-        )  # fmt: skip
+        yielding = (0.0, 1.0) if relaxing else (JOINT_RATE / h, JOINT_HARDNESS)
+        groups = self.groups, self.kinds, self.asks, self.row, self.index_a, self.index_b, self.lanes
+        return *yielding, *groups
 
     def hand_over(self, world: World) -> None:
         """Write what was found since the last time into the table of joints."""
@@ -152,8 +120,3 @@ class Linkage(Resource):
             joint.impulse, joint.drive_impulse, joint.friction_impulse, joint.position, joint.velocity,
             joint.limit, joint.effort, joint.force, joint.torque,
         )  # fmt: skip
-
-
-def _yielding(h: float, relaxing: bool) -> tuple[float, float]:
-    """Return at which rate (1/s) joints go back to their places in so many seconds, and how hard they are."""
-    return (0.0, 1.0) if relaxing else (JOINT_RATE / h, JOINT_HARDNESS)

@@ -22,19 +22,17 @@ from carom.systems.kernels.groups import RUNS
 from carom.systems.kernels.lane_widths import BLOCK, PLANES
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.packing import (
-    VELOCITY,
     are_placed,
     find_bound,
     pack_bodies,
     pack_moving,
-    pack_velocities,
-    unpack_velocities,
 )
-from carom.systems.kernels.resting import PAGE_ROWS, press_groups
+from carom.systems.kernels.resting import PAGE_ROWS
 from carom.systems.kernels.rows import are_same_rows
 from carom.systems.kernels.settling import sink_contacts, tell_depths
 from carom.systems.kernels.sorting import sort_groups
-from carom.systems.linkage import NOBODY, STILL, Linkage, Velocities
+from carom.systems.kernels.turns import take_turns
+from carom.systems.linkage import Linkage
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings
 from carom.systems.threads import crew_for
@@ -224,55 +222,33 @@ class Resting(Resource):
         self._solve(world, Stage("relax", relax_sweeps(world[Settings].substeps), h, HARD, HARD))
 
     def _solve(self, world: World, stage: Stage) -> None:
-        """Do all sweeps of a stage: at once where joints or contacts are alone and nobody is to hear of each.
-
-        Else one by one, joints first; where sweeps follow, those of who bears what is heavy.
-        """
-        rows, motion, linkage, relaxing = self.rows(world), world[Motion], world[Linkage], stage.name == "relax"
-        if not (self.hearers or (self.groups and linkage.groups)):
-            if self.groups:
-                most = stage.sweeps + BEARING_SWEEPS
-                self._press(world, stage, 0, most, begins=not relaxing, ended=relaxing, rows=rows, motion=motion)
-            else:
-                linkage.solve(
-                    stage.sweeps, stage.h, self.bodies, relaxing=relaxing, begins=not relaxing, ended=relaxing,
-                    rows=rows, motion=motion,
-                )  # fmt: skip
+        """Do all sweeps of a stage, at once where nobody is to hear of each."""
+        if not self.hearers:
+            self._take_turns(world, stage, 0, stage.sweeps + BEARING_SWEEPS, begins=True)
             return
-        pack_velocities(rows, motion.linear, motion.angular, self.bodies[VELOCITY])
-        if not relaxing:
-            linkage.solve(0, stage.h, self.bodies, begins=True)
-            self._press(world, stage, 0, 0, begins=True)
-        self._tell(stage, 0)
-        done, follow = 0, True
-        while done < stage.sweeps or (follow and done < stage.sweeps + BEARING_SWEEPS):
-            if done < stage.sweeps:
-                linkage.solve(1, stage.h, self.bodies, relaxing=relaxing)
-            else:
-                linkage.sweep_bearing(done, stage.h, self.bodies, self.crushed, self.stirred, relaxing=relaxing)
-            follow = self._press(world, stage, done, 1, ended=relaxing)
-            done += 1
+        done, follow = self._take_turns(world, stage, 0, 0, begins=True)
+        self._tell(stage, done)
+        while follow:
+            done, follow = self._take_turns(world, stage, done, 1)
             self._tell(stage, done)
-        if relaxing:
-            linkage.solve(0, stage.h, self.bodies, relaxing=relaxing, ended=True)
-        unpack_velocities(rows, self.bodies[VELOCITY], motion.linear, motion.angular)
 
-    def _press(
-        self, world: World, stage: Stage, swept: int, most: int, *, begins: bool = False, ended: bool = False,
-        rows: Integers = NOBODY, motion: Velocities = STILL,
-    ) -> bool:  # fmt: skip
-        """Press all groups, ``most`` times after those ``swept``; tell, of one time, whether others are to follow."""
-        if not self.groups:
-            return False
-        crew = crew_for(world, self.count)
-        stirs = np.zeros((2, threads_of(crew)), np.bool_)
-        press_groups(
-            crew, begins, swept, most, stage.sweeps, ended, stage.h, self.ends, self.levels, self.run_ends,
-            stage.soft, stage.rigid, self.index_a, self.index_b, self.points, self.row, self.asks, rows,
-            self.pages_for(crew), self.lanes, self.bodies, motion.linear, motion.angular, self.crushed,
-            world[Linkage].joined, self.stirred, stirs,
+    def _take_turns(
+        self, world: World, stage: Stage, swept: int, most: int, *, begins: bool = False
+    ) -> tuple[int, bool]:
+        """Sweep ``most`` times after those ``swept``; return how many are then, and whether others are to follow."""
+        crew, motion, linkage, relaxing = (
+            crew_for(world, self.count),
+            world[Motion],
+            world[Linkage],
+            stage.name == "relax",
+        )
+        swept, follow = take_turns(
+            crew, begins, swept, most, stage.sweeps, relaxing, stage.h, *linkage.asked(stage.h, relaxing),
+            self.groups, self.ends, self.levels, self.run_ends, stage.soft, stage.rigid,
+            self.index_a, self.index_b, self.points, self.row, self.asks, self.pages_for(crew), self.lanes,
+            self.bodies, self.crushed, linkage.joined, self.stirred, self.rows(world), motion.linear, motion.angular,
         )  # fmt: skip
-        return bool(stirs[swept % 2].any())
+        return swept, follow
 
     def pages_for(self, crew: Integers) -> Floats:
         """Return room in which each thread of a crew solves the points of a group, and keeps what that had before."""

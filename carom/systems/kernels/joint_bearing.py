@@ -5,9 +5,10 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
+from carom.ecs.components.joint import SLOTS
 from carom.systems.kernels.joint_groups import end_of
 from carom.systems.kernels.joint_impulses import solve
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import making, woven
 from carom.systems.kernels.lanes import WIDTH, address, choose, load, planes, some, store, which
 from carom.systems.kernels.packing import INVERSE_MASS, VELOCITY
 from carom.systems.kernels.stirring import (
@@ -20,11 +21,11 @@ from carom.systems.kernels.stirring import (
 )
 
 
-@kernel("lanes", "bodies", "stirred", makes_arrays=True)
+@making
 def sweep_bearing_joints(
     sweep, relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, crushed, lanes, bodies, stirred,
 ):  # fmt: skip
-    """Solve the joints of bodies that are swept on in this sweep once more, as `solve_joints` does.
+    """Solve the joints of bodies that are swept on in this sweep once more, as `sweep_joints` does.
 
     Whom they hold is swept as often from now on. A group is solved whole, and whose joints are not concerned get back
     what they had: no bit hangs on whom a joint is in a group with.
@@ -32,7 +33,7 @@ def sweep_bearing_joints(
     most = 0
     for g in range(groups):
         most = max(most, end_of(row[g], kinds[g]) - row[g])
-    room, pages, velocity = np.empty((6, WIDTH)), np.empty((most + 2 * SIDE_ROWS, WIDTH)), bodies[VELOCITY]
+    room, pages, velocity = np.empty((SLOTS, WIDTH)), np.empty((most + 2 * SIDE_ROWS, WIDTH)), bodies[VELOCITY]
     lanes, bodies, of_a, of_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     scratch, kept = address(room), address(pages)
     for n in range(groups):

@@ -21,43 +21,43 @@ from carom.systems.kernels.joint_groups import (
 from carom.systems.kernels.joint_motion import added, borne, moved, parting
 from carom.systems.kernels.joint_points import WAYS, finish_point, hold_point, moved_point, three_of
 from carom.systems.kernels.joint_whirling import going_back, heed_whirling
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import making, woven
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import WIDTH, address, gather, load, planes, scatter, spread, store
-from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
+from carom.systems.kernels.packing import VELOCITY
 
 
-@kernel("lanes", "bodies", "linear", "angular", makes_arrays=True)
-def solve_joints(
-    begins, sweeps, ended, relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, rows,
-    lanes, bodies, linear, angular,
-):  # fmt: skip
-    """Solve every group ``sweeps`` times over.
+@making
+def start_joints(h, groups, kinds, row, index_a, index_b, lanes, bodies):
+    """Apply the impulses of the substep before."""
+    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
+    for g in range(groups):
+        start_warm(g, row[g], kinds[g], h, index_a, index_b, lanes, bodies)
 
-    Where the substep ``begins`` with them, the impulses of the one before are applied first; where it has ``ended``,
-    impulses are added to those of the step, and how fast each way goes is noted. Velocities of ``rows`` are packed
-    where it begins, and unpacked.
+
+@making
+def sweep_joints(relaxing, h, rate, hardness, groups, kinds, asks, row, index_a, index_b, lanes, bodies):
+    """Solve every group once.
 
     What is locked goes back to its place at ``rate`` (1/s) times what it is off by, with ``hardness`` of the mass and
     of the impulse that is there (Catto, Soft Constraints, GDC 2011), and stays there when ``relaxing``: the first
     pushes along the axes at the start of the way, the second takes what goes along those at its end, which keeps energy
     (Andersen, Rattle, J. Comput. Phys. 52, 24, 1983). The groups go in their order, and back when relaxing.
     """
-    room, velocity = np.empty((SLOTS, WIDTH)), bodies[VELOCITY]
+    room = np.empty((SLOTS, WIDTH))
     lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     scratch = address(room)
-    if begins:
-        write_velocities(rows, linear, angular, velocity)
-        for g in range(groups):
-            start_warm(g, row[g], kinds[g], h, index_a, index_b, lanes, bodies)
-    for _ in range(sweeps):
-        for n in range(groups):
-            g = groups - 1 - n if relaxing else n
-            solve(g, row[g], kinds[g], asks[g], relaxing, h, rate, hardness, index_a, index_b, lanes, bodies, scratch)
-    if ended:
-        for g in range(groups):
-            finish(g, row[g], kinds[g], index_a, index_b, lanes, bodies)
-    read_velocities(rows, velocity, linear, angular)
+    for n in range(groups):
+        g = groups - 1 - n if relaxing else n
+        solve(g, row[g], kinds[g], asks[g], relaxing, h, rate, hardness, index_a, index_b, lanes, bodies, scratch)
+
+
+@making
+def finish_joints(groups, kinds, row, index_a, index_b, lanes, bodies):
+    """Add impulses to those of the step, and note how fast each way goes."""
+    lanes, bodies, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
+    for g in range(groups):
+        finish(g, row[g], kinds[g], index_a, index_b, lanes, bodies)
 
 
 @woven

@@ -156,15 +156,9 @@ def write_velocities(rows, linear, angular, velocity):
         velocity[i, ANGULAR], velocity[i, ANGULAR + 1], velocity[i, ANGULAR + 2] = w
 
 
-@kernel("linear", "angular")
-def unpack_velocities(rows, velocity, linear, angular):
-    """Read the velocities of bodies back."""
-    read_velocities(rows, velocity, linear, angular)
-
-
 @woven
 def read_velocities(rows, velocity, linear, angular):
-    """Do what `unpack_velocities` does, within a kernel."""
+    """Read the velocities of bodies back."""
     for i in rows:
         x, y, z = first_three(i, velocity)
         u, v, w = velocity[i, ANGULAR], velocity[i, ANGULAR + 1], velocity[i, ANGULAR + 2]
