@@ -236,12 +236,8 @@ class Resting(Resource):
         self, world: World, stage: Stage, swept: int, most: int, *, begins: bool = False
     ) -> tuple[int, bool]:
         """Sweep ``most`` times after those ``swept``; return how many are then, and whether others are to follow."""
-        crew, motion, linkage, relaxing = (
-            crew_for(world, self.count),
-            world[Motion],
-            world[Linkage],
-            stage.name == "relax",
-        )
+        crew, motion, linkage = crew_for(world, self.count), world[Motion], world[Linkage]
+        relaxing = stage.name == "relax"
         swept, follow = take_turns(
             crew, begins, swept, most, stage.sweeps, relaxing, stage.h, *linkage.asked(stage.h, relaxing),
             self.groups, self.ends, self.levels, self.run_ends, stage.soft, stage.rigid,

@@ -99,16 +99,18 @@ def test_what_stands_on_a_table_comes_to_rest(mass: float, plate: float, leg: fl
     assert (np.abs(world[Transform].position[rows[-1]] - (x, 1.7, z)) < (0.002, 0.024, 0.002)).all()
 
 
-def joined_table(simulation: Simulation, crate: float, plate: float, leg: float, wheels: bool) -> list[Entity]:
+def joined_table(
+    simulation: Simulation, crate: float, plate: float, leg: float, *, wheels: bool = False, z: float = 0.0
+) -> list[Entity]:
     """Put a crate (kg), off the middle, on a plate that is joined to four legs, or to wheels that turn; return all."""
-    place = {"position": (0.0, 1.1, 0.0)}
+    place = {"position": (0.0, 1.1, z)}
     found = [simulation.add(collider={"box": {"size": (3.0, 0.2, 3.0)}}, body={"mass": plate}, transform=place)]
-    for x, z in ((-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)):
+    for x, beside in ((-1.0, z - 1.0), (-1.0, z + 1.0), (1.0, z - 1.0), (1.0, z + 1.0)):
         shape = {"sphere": {"radius": 0.49}} if wheels else {"box": {"size": (0.3, 0.98, 0.3)}}
-        found.append(simulation.add(collider=shape, body={"mass": leg}, transform={"position": (x, 0.49, z)}))
-        holds = {"a": found[0], "b": found[-1], "at": (x, 0.49 if wheels else 1.0, z)}
+        found.append(simulation.add(collider=shape, body={"mass": leg}, transform={"position": (x, 0.49, beside)}))
+        holds = {"a": found[0], "b": found[-1], "at": (x, 0.49 if wheels else 1.0, beside)}
         simulation.add(joint={"hinge": {**holds, "axis": (0.0, 0.0, 1.0)}} if wheels else {"fixed": holds})
-    place = {"position": (0.3, 1.7, 0.2)}
+    place = {"position": (0.3, 1.7, z + 0.2)}
     found.append(simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={"mass": crate}, transform=place))
     return found
 
@@ -135,7 +137,7 @@ def test_what_stands_on_a_joined_table_comes_to_rest(crate: float, plate: float,
     """
     simulation = Simulation(sleeping=False)
     simulation.add(collider={"plane": {}}, material={"friction": 0.5})
-    row = simulation.world.row(joined_table(simulation, crate, plate, leg, wheels)[-1])
+    row = simulation.world.row(joined_table(simulation, crate, plate, leg, wheels=wheels)[-1])
     simulation.step(600)
     moved = simulation.world[Transform].position[row] - (0.3, 1.7, 0.2)
     assert np.abs(simulation.world[Motion].linear).max() < 1e-5
@@ -160,7 +162,7 @@ def test_joints_of_others_are_swept_no_more_for_who_is_heavy() -> None:
         simulation = Simulation(sleeping=False)
         simulation.add(collider={"plane": {}})
         if tables:
-            joined_table(simulation, 100.0, 10.0, 1.0, wheels=False)
+            joined_table(simulation, 100.0, 10.0, 1.0)
         links = hang_chain(simulation)
         simulation.step(60)
         found.append(simulation.world[Transform].position[[simulation.world.row(link) for link in links]])
@@ -168,21 +170,24 @@ def test_joints_of_others_are_swept_no_more_for_who_is_heavy() -> None:
 
 
 @pytest.mark.parametrize("other", ["heard", "two threads", "checked"])
+@pytest.mark.parametrize("tables", [0, 4])
 def test_heavy_bodies_stand_alike_whoever_listens_and_however_many_solve(
-    other: str, monkeypatch: pytest.MonkeyPatch
+    other: str, tables: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """To the bit, with sweeps on for who bears 1,000 kg, aside and straight."""
+    """To the bit, with sweeps on for who bears 1,000 kg, on columns and on joined tables."""
     monkeypatch.setattr("carom.systems.threads.processors", lambda: 8)
     monkeypatch.setattr("carom.systems.threads.FEWEST", 32)
-    threads, sweeps, found = 2 if other == "two threads" else 1, [0], []
-    for aside in (0.0, 0.2):
-        alone = column(1000.0, 3, aside, columns=20, checked=False, threads=1)
-        beside = column(1000.0, 3, aside, columns=20, checked=other == "checked", threads=threads)
-        if other == "heard":
-            beside.world[Resting].hearers.append(lambda _, number: sweeps.append(number))
+    sweeps, worlds = [0], []
+    for alone in (True, False):
+        threads = 2 if other == "two threads" and not alone else 1
+        simulation = column(1000.0, 3, 0.2, columns=20, checked=other == "checked" and not alone, threads=threads)
+        for k in range(tables):
+            joined_table(simulation, 1000.0, 20.0, 2.0, z=5.0 + 5.0 * k)
+        if other == "heard" and not alone:
+            simulation.world[Resting].hearers.append(lambda _, number: sweeps.append(number))
         for _ in range(30):
-            alone.step()
-            beside.step()
-        found.append((state_hash(alone.world), state_hash(beside.world)))
-    assert all(one == two for one, two in found)
+            simulation.step()
+        assert simulation.world[Resting].count >= 32
+        worlds.append(simulation.world)
+    assert state_hash(worlds[0]) == state_hash(worlds[1])
     assert other != "heard" or max(sweeps) > BEARING_SWEEPS

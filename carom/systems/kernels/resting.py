@@ -5,10 +5,10 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import CALM, HEAVY, MANIFOLD_POINTS, MORE_SWEEPS, START_SWEEPS, STIRRED
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.crew import part_of, part_of_run, shared, wait_for_all
+from carom.systems.kernels.crew import part_of, part_of_run, wait_for_all
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS, RUNS
 from carom.systems.kernels.impulses import pressed, rolled, struck
-from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import (
     address,
@@ -71,7 +71,7 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
     scatter(bodies[VELOCITY], index_b, g, b)
 
 
-@shared("scratch", "lanes", "bodies", "linear", "angular", "stirred", "stirs")
+@inlined
 def press_groups(
     crew, begins, swept, most, sweeps, ended, h, ends, levels, run_ends, soft, rigid,
     index_a, index_b, points, row, asks, rows, scratch, lanes, bodies, linear, angular, crushed, joined,

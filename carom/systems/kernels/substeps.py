@@ -28,7 +28,7 @@ from carom.systems.kernels.trust import ask_straying
 from carom.systems.yielding import HARD
 
 predict, pack, sort, touch = predict_middle.within, pack_bodies.within, sort_groups.within, write_touches.within
-kick, press, bend, close = kick_bodies.within, press_groups.within, bend_arcs.within, find_closing.within
+kick, bend, close = kick_bodies.within, bend_arcs.within, find_closing.within
 advance, finish, sink, tell = advance_bodies.within, finish_drift.within, sink_contacts.within, tell_depths.within
 leave, stray, look = find_leaving.within, ask_straying.within, foresee_meetings.within
 come, soar = when_near.within, fly.within
@@ -124,7 +124,7 @@ def take_substeps(
         )))  # fmt: skip
         now = note(KICK, now, spent)
         if rest:
-            share(describe(press, for_groups, (
+            share(describe(press_groups, for_groups, (
                 True, 0, 1 + BEARING_SWEEPS, 1, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
                 row, asks, bound, scratch, lanes, bodies, linear, angular, crushed, joined, stirred, stirs,
             )))  # fmt: skip
@@ -196,7 +196,7 @@ def take_substeps(
                 share(describe(tell, for_groups, (groups, first, size, row, kind, lanes, depth)))
         now = note(SETTLE, now, spent)
         if rest:
-            share(describe(press, for_groups, (
+            share(describe(press_groups, for_groups, (
                 False, 0, relaxes + BEARING_SWEEPS, relaxes, True, h, ends, levels, run_ends, HARD, HARD,
                 index_a, index_b, points, row, asks, bound, scratch, lanes, bodies, linear, angular,
                 crushed, joined, stirred, stirs,

@@ -15,8 +15,6 @@ from carom.systems.kernels.packing import VELOCITY, read_velocities, write_veloc
 from carom.systems.kernels.resting import press_groups
 from carom.systems.kernels.stirring import some_stir
 
-press = press_groups.within
-
 
 @kernel("joint_lanes", "lanes", "bodies", "scratch", "stirred", "linear", "angular", makes_arrays=True)
 def take_turns(
@@ -39,7 +37,7 @@ def take_turns(
     if begins and not relaxing:
         start_joints(h, joints, kinds, joint_row, joint_a, joint_b, joint_lanes, bodies)
         if groups:
-            share(describe(press, crew, (
+            share(describe(press_groups, crew, (
                 True, 0, 0, sweeps, False, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
                 row, asks, nobody, scratch, lanes, bodies, linear, angular, crushed, joined, stirred, stirs,
             )))  # fmt: skip
@@ -56,7 +54,7 @@ def take_turns(
         follow = done + 1 < sweeps
         if groups:
             stirs[:] = False
-            share(describe(press, crew, (
+            share(describe(press_groups, crew, (
                 False, done, 1, sweeps, relaxing, h, ends, levels, run_ends, soft, rigid, index_a, index_b, points,
                 row, asks, nobody, scratch, lanes, bodies, linear, angular, crushed, joined, stirred, stirs,
             )))  # fmt: skip

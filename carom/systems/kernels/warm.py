@@ -159,7 +159,8 @@ def compile_frame() -> None:
     simulation.force("quadratic_drag", area=1.0)
     simulation.force("gravity_well", strength=1.0, radius=1.0)
     simulation.force("attraction", strength=1.0)
-    simulation.add(collider={"box": {"size": (1.0, 1.0, 1.0)}}, body={}, transform={"position": (0.0, 1.5, 0.0)})
+    box, place = {"box": {"size": (1.0, 1.0, 1.0)}}, {"position": (0.0, 1.5, 0.0)}
+    simulation.add(collider=box, body={}, transform=place, motion={"angular": (0.0, 9.0, 0.0)})
     simulation.force("buoyancy")
     simulation.force("lift", area=1.0)
     simulation.force("magnus", radius=0.5)
