@@ -10,7 +10,7 @@ from carom.ecs.column import Integers
 from carom.systems.constants import APART_MARGIN
 from carom.systems.detection.narrow import Found
 from carom.systems.kernels.apart import keep_apart, note_apart
-from carom.systems.kernels.recycling import merge_contacts
+from carom.systems.kernels.merging import merge_contacts
 
 PARTS = pytest.mark.parametrize("parts", [1, 2, 3, 7])
 

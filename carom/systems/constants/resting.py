@@ -10,6 +10,10 @@ SAME_POINT = 1.0
 # and tremble.
 RECYCLED_SLIP, RECYCLED_TURN = 1e-3, 2e-3
 
+# Sine of the angle between a normal and the axis of what is round about that, below which it stands on its end and does
+# not roll. Smaller: points of what stands wander about. Larger: coins that wobble touch where they did before.
+ON_END = 0.1
+
 # Radians by which one of two bodies turns in a substep before their points are carried on with that. Larger:
 # what tips over an edge does so late. Smaller: what is at rest is asked in vain.
 TURNED = 1e-6

@@ -13,7 +13,8 @@ from carom.systems.detection.apart import Apart
 from carom.systems.detection.narrow import NOTHING, Found, measure_pairs
 from carom.systems.kernels.balls_narrow import find_ball_contacts
 from carom.systems.kernels.crew import threads_of
-from carom.systems.kernels.recycling import merge_contacts, recycle_contacts
+from carom.systems.kernels.merging import merge_contacts
+from carom.systems.kernels.recycling import recycle_contacts
 from carom.systems.passing import without_turning_past
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings

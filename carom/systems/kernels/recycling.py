@@ -19,8 +19,8 @@ from carom.systems.kernels.lane_columns import ALL, load_flat, load_three, store
 from carom.systems.kernels.lanes import WIDTH, address, larger, spread, which
 from carom.systems.kernels.narrow import is_ball
 from carom.systems.kernels.offsets import find_offsets, is_alike, is_flat_where_seated, share_of_b
-from carom.systems.kernels.rows import first_at
 from carom.systems.kernels.spatial import turn
+from carom.systems.kernels.unrolling import roll_back, rolls
 
 PLACED = 8  # numbers of a contact that is placed
 
@@ -38,7 +38,7 @@ def form_of_pair(a, b, shape, size, geometry):
 
 @shared(
     "moved", "moved_reaches", "row_a", "row_b", "normal", "depth", "point", "offset_a", "offset_b", "share",
-    "kept", "ends",
+    "seat_a", "seat_b", "lean_a", "lean_b", "kept", "ends",
     makes_arrays=True,
 )  # fmt: skip
 def recycle_contacts(
@@ -49,13 +49,14 @@ def recycle_contacts(
 ):  # fmt: skip
     """Place the contacts of all pairs that have hardly moved where their shapes are now; write which pairs have moved.
 
-    Moved has a pair of which one is a ball, which rolls, one of whose points has slipped or sunk by RECYCLED_SLIP of
-    the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known`` to be
-    what they were, or that reaches farther by as much, so that it may have more: its contacts stay as they are. Those
-    of balls are found up to where they leave (REACH_KEPT). ``seat``, ``lean`` and ``seat_depth`` say where the points
-    and the normal were found on the two shapes, ``seat_reach`` up to which gap. Those placed are ``kept``, and it is
-    written where they are from their bodies. Each thread has a row of ``ends``, where those and its pairs end: behind
-    them are those of the next.
+    Moved has a pair of which one is a ball, which rolls, one of whose points has slipped or sunk by RECYCLED_SLIP
+    of the smaller shape, of which one shape has turned against the other, or is another, unless all are ``known``
+    to be what they were, or that reaches farther by as much, so that it may have more: its contacts stay as they
+    are. Those of balls are found up to where they leave (REACH_KEPT). ``seat``, ``lean`` and ``seat_depth`` say
+    where the points and the normal were found on the two shapes, ``seat_reach`` up to which gap; what is round is
+    seated beneath itself, however it has rolled (`roll_back`), since by points that it took along it would drive
+    itself on. Those placed are ``kept``, and it is written where they are from their bodies. Each thread has a row
+    of ``ends``, where those and its pairs end: behind them are those of the next.
     """
     begin_pair, end_pair = part_of(crew, len(pairs))
     placed = np.empty(PLACED * (old_count + WIDTH))  # of one pair, eight at a time: depth, normal, point, how it leans
@@ -82,11 +83,19 @@ def recycle_contacts(
         while o < old_count and a[o] == one and b[o] == other:
             alike &= o == first or is_alike(o, o - 1, lean_a)
             o += 1
+        of_x, of_y = rotation_of(x, rotation), rotation_of(y, rotation)
+        x_rolls, y_rolls = rolls(x, shape), rolls(y, shape)
+        both = x_rolls and y_rolls
+        if x_rolls:
+            of_x = roll_back(of_x, x, first, o, 1.0, shape, size, of_y, lean_b, both, normal, seat_a, lean_a)
+        if y_rolls:
+            of_y = roll_back(of_y, y, first, o, -1.0, shape, size, of_x, lean_a, both, normal, seat_b, lean_b)
+        with_x = 0.5 * x_rolls - 0.5 * y_rolls
         for begin in range(first, o, WIDTH):
             at = min(begin, len(seat_depth) - WIDTH)
             theirs = ALL << begin - at & ALL >> max(0, at + WIDTH - o)
             strays = place_contacts(
-                at, x, y, first if alike else -1, slip, reaches[p], position, rotation,
+                at, x, y, first if alike else -1, slip, reaches[p], position, of_x, of_y, with_x,
                 seat_a, seat_b, lean_a, lean_b, seat_depth, begin - first, placed,
             )  # fmt: skip
             stayed &= strays & theirs == 0
@@ -125,13 +134,13 @@ def recycle_contacts(
 
 @woven
 def place_contacts(
-    at, x, y, like, slip, reach, position, rotation, seat_a, seat_b, lean_a, lean_b, seat_depth, to, placed
+    at, x, y, like, slip, reach, position, of_x, of_y, with_x, seat_a, seat_b, lean_a, lean_b, seat_depth, to, placed
 ):  # fmt: skip
     """Write where eight contacts of two colliders are now; return as bits which have slipped, sunk or turned too far.
 
-    Their normals are all ``like`` that of one contact, where that is not below 0.
+    Their normals are all ``like`` that of one contact, where that is not below 0. Points are in the middle, and
+    ``with_x`` (-0.5 to 0.5) says how much more they go with x than with y.
     """
-    of_x, of_y = rotation_of(x, rotation), rotation_of(y, rotation)
     if like >= 0:
         nx, ny, nz = spread_three(turned_by(of_x, like, lean_a))
         mx, my, mz = spread_three(turned_by(of_y, like, lean_b))
@@ -149,8 +158,11 @@ def place_contacts(
     sunk = deep - load_flat(seat_depth, at)
     far = larger(leant - RECYCLED_TURN * RECYCLED_TURN, aside - slip * slip)
     far = larger(far, larger(larger(sunk, -sunk) - slip, -deep - reach))
+    px, py, pz = 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz)
+    if with_x != 0.0:
+        px, py, pz = px + with_x * (dx - deep * nx), py + with_x * (dy - deep * ny), pz + with_x * (dz - deep * nz)
     to *= PLACED
-    for k, lane in enumerate((deep, nx, ny, nz, 0.5 * (ax + bx), 0.5 * (ay + by), 0.5 * (az + bz), leant)):
+    for k, lane in enumerate((deep, nx, ny, nz, px, py, pz, leant)):
         store_flat(placed, to + WIDTH * k, lane)
     return which(far)
 
@@ -256,35 +268,3 @@ def seat_pair(
             seat[c, 0], seat[c, 1], seat[c, 2] = turn(qx, qy, qz, qw, x, y, z)
             lean[c, 0], lean[c, 1], lean[c, 2] = turn(qx, qy, qz, qw, nx, ny, nz)
         seat_depth[c], seat_reach[c], form[c] = depth[c], reach, number
-
-
-@shared("row_a", "row_b", "feature", "normal", "depth", "point", "by_fcl", "old")
-def merge_contacts(
-    crew, kept, old_a, old_b, old_feature, old_normal, old_depth, old_point, old_by_fcl,
-    fresh_a, fresh_b, fresh_feature, fresh_normal, fresh_depth, fresh_point, fresh_by_fcl, fresh_old,
-    row_a, row_b, feature, normal, depth, point, by_fcl, old,
-):  # fmt: skip
-    """Merge those of the old contacts that are ``kept`` and the fresh ones, of other pairs, both sorted by pair."""
-    i, end = part_of(crew, len(kept))
-    j, until = 0, len(fresh_a)
-    if crew[1] > 0:
-        j = first_at(fresh_a, fresh_b, old_a[kept[i]], old_b[kept[i]])
-    if end < len(kept):
-        until = first_at(fresh_a, fresh_b, old_a[kept[end]], old_b[kept[end]])
-    for c in range(i + j, end + until):
-        o = kept[i] if i < end else 0
-        first = j == until
-        if not first and i < end:
-            first = old_a[o] < fresh_a[j] or (old_a[o] == fresh_a[j] and old_b[o] < fresh_b[j])
-        if first:
-            row_a[c], row_b[c], feature[c], by_fcl[c] = old_a[o], old_b[o], old_feature[o], old_by_fcl[o]
-            depth[c], old[c] = old_depth[o], o
-            for k in range(3):
-                normal[c, k], point[c, k] = old_normal[o, k], old_point[o, k]
-            i += 1
-        else:
-            row_a[c], row_b[c], feature[c], by_fcl[c] = fresh_a[j], fresh_b[j], fresh_feature[j], fresh_by_fcl[j]
-            depth[c], old[c] = fresh_depth[j], fresh_old[j]
-            for k in range(3):
-                normal[c, k], point[c, k] = fresh_normal[j, k], fresh_point[j, k]
-            j += 1

@@ -71,7 +71,7 @@ def compile_measuring() -> None:
     from carom.systems.kernels.lanes import WIDTH, aligned
     from carom.systems.kernels.left_out import when_near, write_left_out
     from carom.systems.kernels.manifolds import part_masses
-    from carom.systems.kernels.recycling import merge_contacts
+    from carom.systems.kernels.merging import merge_contacts
     from carom.systems.looked import LeftOut
     from carom.systems.passing import seeming, without_passing, without_seeming
     from carom.systems.shapes.geometry import hull_of
