@@ -170,10 +170,10 @@ def write_cores(g, r, first, row_a, row_b, body_a, body_b, shape, bound_radius, 
         c, land = first[g, lane], 0.0
         for to, row, body, adds in ((CORE_A, row_a, body_a, 0.5), (CORE_B, row_b, body_b, -0.5)):
             core = 0.0
-            if c >= 0 and body[c] >= 0:
+            if c >= 0:
                 core = -1.0 if is_smooth(row[c], shape) else bound_radius[row[c]]
-            elif c >= 0 and shape[row[c]] != BOX_SHAPE and shape[row[c]] != PLANE_SHAPE:
-                land = adds
+                if body[c] < 0 and shape[row[c]] != BOX_SHAPE and shape[row[c]] != PLANE_SHAPE:
+                    land = adds
             lanes[r + to, lane] = core
         lanes[r + LAND, lane] = land
 

@@ -62,9 +62,14 @@ def carry_points(r, points, lanes, a, b):
     s_a, q_a, z_a = three(lanes, r + of.MIDDLE_A)
     s_b, q_b, z_b = three(lanes, r + of.MIDDLE_B)
     by_a, by_b = swung(half_a, (s_a, q_a, z_a - core_a)), swung(half_b, (s_b, q_b, z_b + core_b))
-    keep(lanes, r + of.MIDDLE_A, s_a + by_a[0], q_a + by_a[1], z_a + by_a[2])
-    keep(lanes, r + of.MIDDLE_B, s_b + by_b[0], q_b + by_b[1], z_b + by_b[2])
-    about = (zero, zero, half_a[2] + load(lanes, r + of.GOES) * (half_b[2] - half_a[2]))
+    goes = load(lanes, r + of.GOES)
+    round_a, round_b = choose(0.25 - goes, core_a, zero), choose(goes - 0.75, core_b, zero)
+    at, au, bt, bu = 2.0 * half_a[0], 2.0 * half_a[1], 2.0 * half_b[0], 2.0 * half_b[1]
+    more_a = (round_a * bu - round_b * (au - bu), round_b * (at - bt) - round_a * bt)
+    more_b = (round_a * (bu - au) - round_b * au, round_b * at - round_a * (bt - at))
+    keep(lanes, r + of.MIDDLE_A, s_a + by_a[0] + more_a[0], q_a + by_a[1] + more_a[1], z_a + by_a[2])
+    keep(lanes, r + of.MIDDLE_B, s_b + by_b[0] + more_b[0], q_b + by_b[1] + more_b[1], z_b + by_b[2])
+    about = (zero, zero, half_a[2] + goes * (half_b[2] - half_a[2]))
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
         x, y = load(lanes, q + of.AT), load(lanes, q + of.AT + 1)
