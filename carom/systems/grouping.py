@@ -82,6 +82,6 @@ def _group_anew(world: World) -> None:
         contact.kind, contact.sign, contact.radius, contact.extent,
         contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface, contact.resting,
         contact.warm_normal, contact.warm_friction, contact.warm_rolling,
-        contact.row_a, contact.row_b, contact.body_a, contact.body_b, world[Collider].shape,
-        world[Collider].bound_radius, resting.lanes,
+        contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.lean_a, contact.lean_b,
+        world[Collider].shape, world[Collider].size, world[Collider].bound_radius, resting.lanes,
     )  # fmt: skip

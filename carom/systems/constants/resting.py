@@ -11,8 +11,10 @@ SAME_POINT = 1.0
 RECYCLED_SLIP, RECYCLED_TURN = 1e-3, 2e-3
 
 # Sine of the angle between a normal and the axis of what is round about that, below which it stands on its end and does
-# not roll. Smaller: points of what stands wander about. Larger: coins that wobble touch where they did before.
-ON_END = 0.1
+# not roll. Smaller: points of what stands wander about. Larger: coins that wobble touch where they did before. And sine
+# of the angle by which a normal leans along the axis of a cylinder that lies on its side. Smaller: one that sinks in at
+# one end counts as standing on its rim. Larger: one that tips over its rim counts as lying.
+ON_END, ON_SIDE = 0.1, 0.01
 
 # Radians by which one of two bodies turns in a substep before their points are carried on with that. Larger:
 # what tips over an edge does so late. Smaller: what is at rest is asked in vain.

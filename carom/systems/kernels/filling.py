@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.constants import ON_SIDE
 from carom.systems.kernels.balls_in_lanes import are_all_balls, place_balls
 from carom.systems.kernels.blow_points import is_smooth
+from carom.systems.kernels.cores import CYLINDER_SHAPE
 from carom.systems.kernels.crew import part_of, shared
 from carom.systems.kernels.groups import (
     ABSENT,
@@ -50,7 +52,7 @@ def fill_groups(
     crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b,
     kind, sign, radius, extent, friction, restitution, rolling, spinning, surface, resting,
     warm_normal, warm_friction, warm_rolling,
-    row_a, row_b, body_a, body_b, shape, bound_radius, lanes,
+    row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes,
 ):  # fmt: skip
     """Write what contacts hold into the lanes of their groups.
 
@@ -98,7 +100,9 @@ def fill_groups(
         else:
             store(rows, r + BALL, as_ball)
             find_tangents(r, rows)
-            write_cores(g, r, first, row_a, row_b, body_a, body_b, shape, bound_radius, lanes)
+            write_cores(
+                g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes
+            )  # fmt: skip
             store(rows, r + GOES, goes_with_b(pick_one(share_of_b, at, sizes), load(rows, r + LAND)))
             place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
 
@@ -164,14 +168,16 @@ def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
 
 
 @woven
-def write_cores(g, r, first, row_a, row_b, body_a, body_b, shape, bound_radius, lanes):
+def write_cores(g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size, bound_radius, lanes):
     """Write how far the points of manifolds are outside the cores of both bodies, -1 of what is smooth; and `LAND`."""
     for lane in range(WIDTH):
         c, land = first[g, lane], 0.0
-        for to, row, body, adds in ((CORE_A, row_a, body_a, 0.5), (CORE_B, row_b, body_b, -0.5)):
+        for to, row, body, lean, adds in ((CORE_A, row_a, body_a, lean_a, 0.5), (CORE_B, row_b, body_b, lean_b, -0.5)):
             core = 0.0
             if c >= 0:
                 core = -1.0 if is_smooth(row[c], shape) else bound_radius[row[c]]
+                if shape[row[c]] == CYLINDER_SHAPE and lean[c, 1] * lean[c, 1] <= ON_SIDE * ON_SIDE:
+                    core = size[row[c], 0]
                 if body[c] < 0 and shape[row[c]] != BOX_SHAPE and shape[row[c]] != PLANE_SHAPE:
                     land = adds
             lanes[r + to, lane] = core

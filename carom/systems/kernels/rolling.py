@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import AS_LOW, ROLLED_ON, ROLLING_POINT
-from carom.systems.kernels.cores import CONE_SHAPE, ELLIPSOID, ELLIPSOID_SHAPE, farthest_of_round
+from carom.systems.constants import AS_LOW, ON_SIDE, ROLLED_ON, ROLLING_POINT
+from carom.systems.kernels.cores import CONE_SHAPE, CYLINDER_SHAPE, ELLIPSOID, ELLIPSOID_SHAPE, farthest_of_round
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.spatial import product, spun, turn
 
@@ -32,6 +32,8 @@ def roll_on(
         nx, ny, nz = outward * normal[c, 0], outward * normal[c, 1], outward * normal[c, 2]
         upright = nx * ax + ny * ay + nz * az
         if shape[i] != ELLIPSOID_SHAPE and (1.0 - upright * upright) * size[i, 0] ** 2 <= AS_LOW * AS_LOW:
+            continue
+        if shape[i] == CYLINDER_SHAPE and upright * upright <= ON_SIDE * ON_SIDE:  # `carry_points` does
             continue
         _, upper, _ = turn(-qx, -qy, -qz, qw, offset[c, 0] - sx, offset[c, 1] - sy, offset[c, 2] - sz)
         x, y, z = lowest(i, upper, qx, qy, qz, qw, nx, ny, nz, shape, size)
