@@ -81,6 +81,41 @@ def test_a_car_that_stands_stands_still(load: float) -> None:
     assert np.abs(simulation.world[Transform].position[row, [0, 2]]).max() < 1e-3
 
 
+@pytest.mark.parametrize("amplitude", [1e-3, 0.01, 0.1])
+@pytest.mark.parametrize("shape", ["capsule", "cylinder", "sphere"])
+def test_a_plank_rocks_on_a_log_as_theory_has_it_and_no_more_and_more(shape: str, amplitude: float) -> None:
+    """Rolling on it without slip, at w^2 = g (R - t / 2) / (k^2 + t^2 / 4), with steady swings.
+
+    To 1e-4 in its period and 1e-3 in how far it swings after 20 s, where swings are small. It touched where its step
+    began: swings grew by 4 % a second.
+    """
+    radius, thick, long = 0.5, 0.1, 2.0
+    logs = {kind: {kind: {"radius": radius, "length": 1.0}} for kind in ("capsule", "cylinder")}
+    log = {"sphere": {"radius": radius}} if shape == "sphere" else logs[shape]
+    simulation = Simulation(sleeping=False)
+    simulation.add(collider=log, transform={"rotation": (HALF, 0.0, 0.0, HALF)}, material={"friction": 2.0})
+    along = np.array([np.cos(amplitude), np.sin(amplitude), 0.0])
+    up = np.array([-np.sin(amplitude), np.cos(amplitude), 0.0])
+    place = {
+        "position": tuple((radius + 0.5 * thick) * up + radius * amplitude * along),
+        "rotation": (0.0, 0.0, np.sin(0.5 * amplitude), np.cos(0.5 * amplitude)),
+    }
+    plank = {"box": {"size": (long, thick, 0.6)}}
+    body = simulation.add(collider=plank, body={"mass": 1.0}, transform=place, material={"friction": 2.0})
+    tilts = []
+    for _ in range(1200):
+        simulation.step()
+        rotation = simulation[body].transform.rotation
+        tilts.append(2.0 * np.arctan2(rotation[2], rotation[3]))
+    tilt = np.array(tilts)
+    before = np.flatnonzero((tilt[:-1] > 0.0) != (tilt[1:] > 0.0))
+    crossings = (before + tilt[before] / (tilt[before] - tilt[before + 1])) / 60.0
+    frequency = G * (radius - 0.5 * thick) / ((long**2 + thick**2) / 12.0 + 0.25 * thick**2)
+    wide = amplitude**2  # longer by about this part
+    assert 2.0 * np.diff(crossings).mean() == pytest.approx(2.0 * np.pi / np.sqrt(frequency), rel=1e-4 + wide)
+    assert np.abs(tilt[-120:]).max() == pytest.approx(amplitude, rel=2e-3)
+
+
 def rolls_on(shape: str, ground: str, speed: float, *, ground_first: bool) -> float:
     """Return how fast (m/s) what has been set rolling without slip rolls after ten seconds."""
     simulation = Simulation(sleeping=False)

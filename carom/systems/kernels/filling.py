@@ -169,7 +169,7 @@ def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
 
 @woven
 def write_cores(g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size, bound_radius, lanes):
-    """Write how far the points of manifolds are outside the cores of both bodies, -1 of what is smooth; and `LAND`."""
+    """Write how far points of manifolds are outside the cores of both bodies, -1 of what else is smooth; and `LAND`."""
     for lane in range(WIDTH):
         c, land = first[g, lane], 0.0
         for to, row, body, lean, adds in ((CORE_A, row_a, body_a, lean_a, 0.5), (CORE_B, row_b, body_b, lean_b, -0.5)):

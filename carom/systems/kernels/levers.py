@@ -46,9 +46,10 @@ def parting_at(q, lanes, parting):
 def carry_points(r, points, lanes, a, b):
     """Let the points of a group go on in its frame, which stays, as its bodies have turned on their ways.
 
-    The middle goes with either body, as it does where nothing slips; points turn about it with whose corners they are:
-    of neither, or of both, half as much (`goes_with_b`). What is smooth turns beneath its points; `roll_on` says where
-    those go, and `follow_turning` where those on a kinematic body do that turns.
+    The middle goes with either body, as it does where nothing slips, and with what is round over the face of the other
+    (`rolled_over`); points turn about it with whose corners they are: of neither, or of both, half as much
+    (`goes_with_b`). What else is smooth turns beneath its points; `roll_on` says where those go, and `follow_turning`
+    where those on a kinematic body do that turns.
     """
     zero, turn_a, turn_b = spread(0.0), a[4:7], b[4:7]
     turned = larger(dot(turn_a, turn_a), dot(turn_b, turn_b))
@@ -63,12 +64,11 @@ def carry_points(r, points, lanes, a, b):
     s_b, q_b, z_b = three(lanes, r + of.MIDDLE_B)
     by_a, by_b = swung(half_a, (s_a, q_a, z_a - core_a)), swung(half_b, (s_b, q_b, z_b + core_b))
     goes = load(lanes, r + of.GOES)
-    round_a, round_b = choose(0.25 - goes, core_a, zero), choose(goes - 0.75, core_b, zero)
-    at, au, bt, bu = 2.0 * half_a[0], 2.0 * half_a[1], 2.0 * half_b[0], 2.0 * half_b[1]
-    more_a = (round_a * bu - round_b * (au - bu), round_b * (at - bt) - round_a * bt)
-    more_b = (round_a * (bu - au) - round_b * au, round_b * at - round_a * (bt - at))
-    keep(lanes, r + of.MIDDLE_A, s_a + by_a[0] + more_a[0], q_a + by_a[1] + more_a[1], z_a + by_a[2])
-    keep(lanes, r + of.MIDDLE_B, s_b + by_b[0] + more_b[0], q_b + by_b[1] + more_b[1], z_b + by_b[2])
+    round_a = choose(0.25 - goes, larger(core_a, zero), zero)
+    round_b = choose(goes - 0.75, larger(core_b, zero), zero)
+    on_a, on_b = rolled_over(round_a, round_b, half_a, half_b)
+    keep(lanes, r + of.MIDDLE_A, s_a + by_a[0] + on_a[0], q_a + by_a[1] + on_a[1], z_a + by_a[2])
+    keep(lanes, r + of.MIDDLE_B, s_b + by_b[0] + on_b[0], q_b + by_b[1] + on_b[1], z_b + by_b[2])
     about = (zero, zero, half_a[2] + goes * (half_b[2] - half_a[2]))
     for p in range(points):
         q = r + MANIFOLD_ROWS + POINT_ROWS * p
@@ -76,6 +76,19 @@ def carry_points(r, points, lanes, a, b):
         by = swung(about, (x, y, zero))
         store(lanes, q + of.AT, x + by[0])
         store(lanes, q + of.AT + 1, y + by[1])
+
+
+@woven
+def rolled_over(round_a, round_b, half_a, half_b):
+    """Return how far along both tangents the middle goes on from either body, where what is round rolls over a face.
+
+    It is straight above or below the middle of the round, of radius ``round_a`` or ``round_b``, however the face turns.
+    """
+    a_t, a_u, b_t, b_u = 2.0 * half_a[0], 2.0 * half_a[1], 2.0 * half_b[0], 2.0 * half_b[1]
+    against_t, against_u = b_t - a_t, b_u - a_u
+    on_a = (round_a * b_u + round_b * against_u, -(round_a * b_t + round_b * against_t))
+    on_b = (round_a * against_u - round_b * a_u, round_b * a_t - round_a * against_t)
+    return on_a, on_b
 
 
 @woven
