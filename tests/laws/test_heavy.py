@@ -50,7 +50,7 @@ def sunk(weight: float, inverse_masses: float, *, rigid: bool) -> float:
 )
 def test_a_heavy_cube_sinks_in_by_what_springs_yield_that_bear_it(ratio: float, below: int) -> None:
     """Of loads that piles do not reach they yield to less; to rounding, after 20 s."""
-    simulation = column(ratio, below)
+    simulation = column(ratio, below, checked=False)
     simulation.step(1200)
     world = simulation.world
     rows = world.row_numbers(RigidBody)
@@ -68,7 +68,7 @@ def test_a_heavy_cube_sinks_in_by_what_springs_yield_that_bear_it(ratio: float, 
 )
 def test_a_heavy_cube_that_stands_aside_comes_to_rest(ratio: float, below: int, aside: float) -> None:
     """Within 20 s: swept no more than others, three light cubes let 1,000 kg through, and fall under 250 kg."""
-    simulation = column(ratio, below, aside)
+    simulation = column(ratio, below, aside, checked=False)
     simulation.step(1200)
     assert np.abs(simulation.world[Motion].linear).max() < 1e-3
 
@@ -83,7 +83,7 @@ def test_what_stands_on_a_table_comes_to_rest(mass: float, plate: float, leg: fl
 
     It stays within 2 mm where it was put, and each of the three contacts under it yields by no more than 8 mm.
     """
-    simulation, random = Simulation(sleeping=False), np.random.default_rng(int(mass * plate))
+    simulation, random = Simulation(sleeping=False, checked=False), np.random.default_rng(int(mass * plate))
     simulation.add(collider={"plane": {}}, material={"friction": 0.5})
     x, z = random.uniform(-0.6, 0.6, 2)
     legs = [((leg, 1.0, leg), 1.0, (i, 0.5, k)) for i in (-1.0, 1.0) for k in (-1.0, 1.0)]
@@ -135,7 +135,7 @@ def test_what_stands_on_a_joined_table_comes_to_rest(crate: float, plate: float,
     Where joints are swept no more than others, 1,000 kg drift by 14 cm; where only those who bear are, not who is
     joined to them, they rock at 0.14 m/s; and where loads of joined bodies do not count, 70 kg do at 1 cm/s.
     """
-    simulation = Simulation(sleeping=False)
+    simulation = Simulation(sleeping=False, checked=False)
     simulation.add(collider={"plane": {}}, material={"friction": 0.5})
     row = simulation.world.row(joined_table(simulation, crate, plate, leg, wheels=wheels)[-1])
     simulation.step(600)
@@ -159,7 +159,7 @@ def test_joints_of_others_are_swept_no_more_for_who_is_heavy() -> None:
     """A chain that swings beside a table under 100 kg, with joints in the same groups, goes where it would alone."""
     found = []
     for tables in (0, 1):
-        simulation = Simulation(sleeping=False)
+        simulation = Simulation(sleeping=False, checked=False)
         simulation.add(collider={"plane": {}})
         if tables:
             joined_table(simulation, 100.0, 10.0, 1.0)

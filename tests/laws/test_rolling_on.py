@@ -49,7 +49,7 @@ def test_on_a_box_it_does_as_nearly_as_points_are_found_there(shape: str, off: f
 @pytest.mark.parametrize("shape", GYRATION)
 def test_it_rolls_down_the_slightest_slope_as_theory_has_it(shape: str, slope: float) -> None:
     """From rest at g sin(a) / (1 + k^2 / r^2), to 1e-8 of that after two seconds."""
-    simulation = Simulation(sleeping=False)
+    simulation = Simulation(sleeping=False, checked=False)
     simulation.add(
         collider={"plane": {}}, transform={"rotation": (0.0, 0.0, np.sin(-0.5 * slope), np.cos(0.5 * slope))}
     )
@@ -63,7 +63,7 @@ def test_it_rolls_down_the_slightest_slope_as_theory_has_it(shape: str, slope: f
 @pytest.mark.parametrize("load", [0.0, 200.0, 1000.0])
 def test_a_car_that_stands_stands_still(load: float) -> None:
     """On four cylinders that turn freely, under a load (kg) off its middle: it drove off by itself, 0.3 m in 10 s."""
-    simulation = Simulation(sleeping=False)
+    simulation = Simulation(sleeping=False, checked=False)
     simulation.add(collider={"plane": {}}, material={"friction": 0.5})
     car = {"box": {"size": (4.0, 0.4, 1.8)}}
     body = simulation.add(collider=car, body={"mass": 200.0}, transform={"position": (0.0, 1.0, 0.0)})
@@ -92,7 +92,7 @@ def test_a_plank_rocks_on_a_log_as_theory_has_it_and_no_more_and_more(shape: str
     radius, thick, long = 0.5, 0.1, 2.0
     logs = {kind: {kind: {"radius": radius, "length": 1.0}} for kind in ("capsule", "cylinder")}
     log = {"sphere": {"radius": radius}} if shape == "sphere" else logs[shape]
-    simulation = Simulation(sleeping=False)
+    simulation = Simulation(sleeping=False, checked=False)
     simulation.add(collider=log, transform={"rotation": (HALF, 0.0, 0.0, HALF)}, material={"friction": 2.0})
     along = np.array([np.cos(amplitude), np.sin(amplitude), 0.0])
     up = np.array([-np.sin(amplitude), np.cos(amplitude), 0.0])
@@ -118,7 +118,7 @@ def test_a_plank_rocks_on_a_log_as_theory_has_it_and_no_more_and_more(shape: str
 
 def rolls_on(shape: str, ground: str, speed: float, *, ground_first: bool) -> float:
     """Return how fast (m/s) what has been set rolling without slip rolls after ten seconds."""
-    simulation = Simulation(sleeping=False)
+    simulation = Simulation(sleeping=False, checked=False)
     if ground_first:
         simulation.add(**GROUNDS[ground])
     body = simulation.add(
