@@ -24,7 +24,7 @@ def group_contacts(world: World, *, places: bool, same: bool) -> None:
     They stay in theirs where the table is the ``same`` but for where contacts are, and all but a few rest as they did.
     Where contacts have the ``places`` in it that they had, they come into the groups in which they would have stayed.
     """
-    resting, contact, body = world[Resting], world[Contact], world[RigidBody]
+    resting, contact, body, collider = world[Resting], world[Contact], world[RigidBody], world[Collider]
     points, nobody = contact.count, len(body.inverse_mass)
     if len(resting.start) <= points:
         resting.start, resting.beside = np.empty(2 * points + 1, np.int64), np.empty(2 * points, np.int64)
@@ -49,7 +49,8 @@ def group_contacts(world: World, *, places: bool, same: bool) -> None:
         refill_groups(
             crew_for(world, resting.count), resting.groups, resting.first, resting.size, resting.row, resting.points,
             resting.even, contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.share,
-            contact.resting, resting.lanes,
+            contact.resting, contact.row_a, contact.row_b, contact.body_a, contact.body_b,
+            contact.lean_a, contact.lean_b, collider.shape, collider.size, collider.bound_radius, resting.lanes,
         )  # fmt: skip
     else:
         _group_anew(world)

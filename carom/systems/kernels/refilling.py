@@ -6,7 +6,7 @@ from __future__ import annotations
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls_in_lanes import are_balls
 from carom.systems.kernels.crew import part_of, shared
-from carom.systems.kernels.filling import find_tangents, goes_with_b, keep_where, place_points, places_of
+from carom.systems.kernels.filling import find_tangents, goes_with_b, keep_where, place_points, places_of, write_cores
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import LANES, lane_of, numbers_at, pick_one, pick_three
@@ -16,7 +16,8 @@ from carom.systems.kernels.lanes import address, choose, load, spread, store
 
 @shared("lanes")
 def refill_groups(
-    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b, resting, lanes
+    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b, resting,
+    row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes,
 ):  # fmt: skip
     """Write into the lanes of groups what `fill_groups` would, where they are as that has filled them.
 
@@ -49,6 +50,9 @@ def refill_groups(
         store(rows, r + of.PART, one)
         store(rows, r + of.BESIDE, zero)
         if not are_balls(r, lanes):
+            write_cores(
+                g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes
+            )  # fmt: skip
             store(rows, r + of.GOES, goes_with_b(pick_one(share_of_b, at, sizes), load(rows, r + of.LAND)))
             find_tangents(r, rows)
             place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
