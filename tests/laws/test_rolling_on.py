@@ -86,7 +86,7 @@ def test_a_car_that_stands_stands_still(load: float) -> None:
 def test_a_plank_rocks_on_a_log_as_theory_has_it_and_no_more_and_more(shape: str, amplitude: float) -> None:
     """Rolling on it without slip, at w^2 = g (R - t / 2) / (k^2 + t^2 / 4), with steady swings.
 
-    To 1e-4 in its period and 1e-3 in how far it swings after 20 s, where swings are small. It touched where its step
+    To 1e-4 in its period where swings are small, and 2e-3 in how far it swings after 20 s. It touched where its step
     began: swings grew by 4 % a second.
     """
     radius, thick, long = 0.5, 0.1, 2.0

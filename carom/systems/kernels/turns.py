@@ -46,7 +46,7 @@ def take_turns(
             sweep_joints(
                 relaxing, h, rate, hardness, joints, kinds, joint_asks, joint_row, joint_a, joint_b, joint_lanes, bodies
             )  # fmt: skip
-        else:
+        elif joints:
             sweep_bearing_joints(
                 done, relaxing, h, rate, hardness, joints, kinds, joint_asks, joint_row, joint_a, joint_b,
                 crushed, joint_lanes, bodies, stirred,

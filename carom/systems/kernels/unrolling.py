@@ -6,7 +6,8 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import ON_END
-from carom.systems.kernels.cores import CONE_SHAPE, CYLINDER_SHAPE, ELLIPSOID_SHAPE
+from carom.systems.kernels.blow_points import is_smooth
+from carom.systems.kernels.cores import ELLIPSOID, ELLIPSOID_SHAPE, farthest_of_round
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.polyhedra import CAPSULE_SHAPE
 from carom.systems.kernels.spatial import product, turn
@@ -15,9 +16,7 @@ from carom.systems.kernels.spatial import product, turn
 @woven
 def rolls(i, shape):
     """Tell whether a collider is round, and no ball."""
-    return (
-        shape[i] == CAPSULE_SHAPE or shape[i] == CYLINDER_SHAPE or shape[i] == CONE_SHAPE or shape[i] == ELLIPSOID_SHAPE
-    )
+    return shape[i] == CAPSULE_SHAPE or is_smooth(i, shape)
 
 
 @woven
@@ -69,6 +68,5 @@ def seat_ellipsoid(q, i, c, outward, size, n, seat, lean):
     """Seat contact c of an ellipsoid where it faces n (in the world), ``outward`` (1) or inward (-1)."""
     x, y, z = turn(-q[0], -q[1], -q[2], q[3], n[0], n[1], n[2])
     lean[c, 0], lean[c, 1], lean[c, 2] = x, y, z
-    x, y, z = size[i, 0] * x, size[i, 1] * y, size[i, 2] * z
-    scale = outward / sqrt(x * x + y * y + z * z)
-    seat[c, 0], seat[c, 1], seat[c, 2] = scale * size[i, 0] * x, scale * size[i, 1] * y, scale * size[i, 2] * z
+    x, y, z = farthest_of_round(ELLIPSOID, size[i, 0], size[i, 1], size[i, 2], x, y, z)
+    seat[c, 0], seat[c, 1], seat[c, 2] = outward * x, outward * y, outward * z
