@@ -13,7 +13,6 @@ from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.narrow import Found
 from carom.systems.kernels.fast_pairs import (
-    NUMBERS,
     TRIANGLE_CORNERS,
     find_far,
     find_fast,
@@ -25,6 +24,7 @@ from carom.systems.kernels.fast_pairs import (
 )
 from carom.systems.kernels.left_out import when_near, write_left_out
 from carom.systems.kernels.meeting import foresee_meetings
+from carom.systems.kernels.swinging import NUMBERS
 from carom.systems.kernels.trust import ask_straying, find_agreeing, spend_trust
 from carom.systems.looked import NO_PAIRS, NONE_LEFT_OUT, NOWHERE, FastPairs, Land, LeftOut, Looked
 from carom.systems.progress import Progress
@@ -34,13 +34,13 @@ from carom.systems.settings import Settings
 class Fast(Resource):
     """All pairs that are fast, and the land they fly over.
 
-    ``trusts`` (rows, 6) say of each body how far (m) its contacts are trusted, infinity for most, how far (m) it
-    reaches from its centre, and how fast (m/s) those are whom it may meet, as seen from one whose velocity is the rest.
+    ``trusts`` (rows, 10) say of each body how far (m) its contacts are trusted, infinity for most, and what bounds how
+    fast it comes to somebody (`find_trusts`).
     """
 
     def __init__(self) -> None:
         self.all, self.land, self.left_out = NO_PAIRS, NOWHERE, NONE_LEFT_OUT
-        self.trusts: Floats = np.zeros((0, 6))
+        self.trusts: Floats = np.zeros((0, 10))
         self._limited = False  # whether some of them are finite
 
     @property
@@ -56,7 +56,7 @@ class Fast(Resource):
         pose, motion, center = world[ColliderPose], world[Motion], world[Flight].detected_center
         size = len(motion.asleep)
         if self._limited or len(self.trusts) != size:
-            self.trusts, self._limited = np.tile([np.inf, *np.zeros(5)], (size, 1)), False
+            self.trusts, self._limited = np.tile([np.inf, *np.zeros(9)], (size, 1)), False
         self.all, self.left_out = NO_PAIRS, NONE_LEFT_OUT
         if not (len(fast) or len(free)):  # most often
             return
@@ -141,7 +141,7 @@ class Fast(Resource):
         motion, flight, of = world[Motion], world[Flight], self.all
         times = np.empty(len(of.pairs))
         foresee_meetings(
-            span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular,
+            span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular, of.angular,
             accelerations(world), flight.detected_center, flight.detected_rotation, flight.reach,
             *of.looked, *self.land, of.asked, of.near, of.left, times,
         )  # fmt: skip
@@ -207,8 +207,8 @@ def fast_of(
         return fast, numbers
     collider, pose, motion, body = world[Collider], world[ColliderPose], world[Motion], world[RigidBody]
     count = find_fast(
-        pairs, free, span, collider.shape, collider.position, collider.bound_center, collider.bound_half,
-        collider.bound_radius, pose.position, pose.body_row, center, body.inverse_mass,
-        body.continuous, motion.linear, motion.angular, fast, numbers,
+        pairs, free, span, collider.shape, collider.size, collider.position, collider.bound_center,
+        collider.bound_half, collider.bound_radius, pose.position, pose.rotation, pose.body_row, center,
+        body.inverse_mass, body.continuous, motion.linear, motion.angular, fast, numbers,
     )  # fmt: skip
     return fast[:count], numbers[:count]

@@ -9,7 +9,8 @@ import numpy as np
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.detection.meshes import Indices, Singles
 from carom.systems.kernels.cores import CORE
-from carom.systems.kernels.fast_pairs import NUMBERS, TRIANGLE_CORNERS
+from carom.systems.kernels.fast_pairs import TRIANGLE_CORNERS
+from carom.systems.kernels.swinging import NUMBERS
 
 
 class Looked(NamedTuple):

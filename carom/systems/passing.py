@@ -13,6 +13,7 @@ from carom.systems.detection.narrow import Found
 from carom.systems.kernels.fast_pairs import NEVER, find_far
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.passing import find_nearing, find_seeming
+from carom.systems.kernels.swinging import TRUSTED
 from carom.systems.kernels.turning_past import find_turning_past
 from carom.systems.looked import Looked
 from carom.systems.progress import Progress
@@ -74,12 +75,12 @@ def without_seeming(
     times = np.empty(len(free))
     land = look_at(world, free.copy(), center, looked)  # of meshes the sides change places
     foresee_meetings(
-        span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, accelerations(world),
-        center, world[Transform].rotation, world[Flight].reach, *looked, *land,
+        span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, motion.angular,
+        accelerations(world), center, world[Transform].rotation, world[Flight].reach, *looked, *land,
         np.ones(len(free), np.bool_), np.zeros(len(free), np.bool_), np.zeros(len(free)), times,
     )  # fmt: skip
     passes = times == NEVER
-    reaches[:, 3] *= MEET  # they are looked at until they are as near as that
+    reaches[:, TRUSTED] *= MEET  # they are looked at until they are as near as that
     far: Booleans = np.empty(len(found.row_a), np.bool_)
     number = find_far(free[passes], reaches[passes], found.row_a, found.row_b, found.depth, far)
     return found.without(far, number), free[~passes]

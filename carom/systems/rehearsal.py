@@ -16,8 +16,8 @@ from carom.systems.detection.leaving import detection_holds
 from carom.systems.detection.narrow import Found
 from carom.systems.detection.recycling import find_balls
 from carom.systems.grouping import group_contacts
-from carom.systems.kernels.fast_pairs import NUMBERS
 from carom.systems.kernels.stored import NotStoredError, only_stored
+from carom.systems.kernels.swinging import NUMBERS
 from carom.systems.passing import seeming, without_seeming
 from carom.systems.step import STEP
 

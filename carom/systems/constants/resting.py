@@ -20,6 +20,10 @@ ON_END, ON_SIDE = 0.1, 0.01
 # what tips over an edge does so late. Smaller: what is at rest is asked in vain.
 TURNED = 1e-6
 
+# Radians by which bodies turn before what their inertia is about contacts is found anew. Larger: it is that of some
+# substeps ago, and tops that spin gain speed by what keeps them up. Smaller: it takes time, for what hardly turns.
+SWUNG = 1e-3
+
 # Points of a manifold; a pair with more on one plane has several.
 MANIFOLD_POINTS = 4
 

@@ -59,8 +59,8 @@ def advance_bodies(
             )  # fmt: skip
         if alike:
             turn_eight(
-                n, now, bend, near, one, three, four, rows, rotation, angular, time, angular_acceleration, inertia,
-                principal_axes,
+                n, now, bend, near, one, three, four, rows, rotation, turned, angular, time, angular_acceleration,
+                inertia, principal_axes,
             )  # fmt: skip
         else:
             for i in rows[n : n + WIDTH]:
@@ -129,7 +129,8 @@ def fly_eight(
 
 @woven
 def turn_eight(
-    n, now, bend, near, one, three, four, rows, rotation, angular, time, angular_acceleration, inertia, principal_axes
+    n, now, bend, near, one, three, four, rows, rotation, turned, angular, time, angular_acceleration, inertia,
+    principal_axes,
 ):  # fmt: skip
     """Turn the bodies of eight rows as `advance_body` does: half the turning kick, free rotation, the other half."""
     t = now - take_one(time, rows, n, near, one)
@@ -153,7 +154,11 @@ def turn_eight(
         if aside:
             qx, qy, qz, qw = product(qx, qy, qz, qw, -ax, -ay, -az, aw)
         px, py, pz, pw = choose(uneven, qx, px), choose(uneven, qy, py), choose(uneven, qz, pz), choose(uneven, qw, pw)
-        wx, wy, wz = choose(uneven, vx, wx), choose(uneven, vy, wy), choose(uneven, vz, wz)
+        vx, vy, vz = choose(uneven, vx, wx), choose(uneven, vy, wy), choose(uneven, vz, wz)
+        x, y, z = take_three(turned, rows, n, near, three)
+        x, y, z = x + 0.5 * (vx - wx) * t, y + 0.5 * (vy - wy) * t, z + 0.5 * (vz - wz) * t
+        give_three(turned, rows, n, near, three, (x, y, z))  # as fast as in the middle of the way
+        wx, wy, wz = vx, vy, vz
     give_four(rotation, rows, n, near, four, (px, py, pz, pw))
     rest = 1.0 - bend
     w = (wx + b[0] * rest * t, wy + b[1] * rest * t, wz + b[2] * rest * t)

@@ -14,6 +14,7 @@ from carom.systems.kernels.cores import (
     EXTENT,
     HALF_SPACE,
     KIND,
+    SEGMENT,
     farthest,
     most_overlap,
     write_place,
@@ -21,17 +22,21 @@ from carom.systems.kernels.cores import (
 from carom.systems.kernels.frames import placed, put_both, turned, turned_back
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.parting_cores import part_from_half_space
+from carom.systems.kernels.spatial import turn
+from carom.systems.kernels.swinging import REACH, TRUSTED
 
 
 @inlined
 def sought_to(p, i, o, numbers, reach):
     """Return how far (m) contacts of pair p were sought: both bodies' ``reach``, or how far the fast come at least."""
     together = (reach[i] if i >= 0 else 0.0) + (reach[o] if o >= 0 else 0.0)
-    return max(together, FAST / TRUST * numbers[p, 3])
+    return max(together, FAST / TRUST * numbers[p, TRUSTED])
 
 
 @inlined
-def came_since(p, i, o, numbers, center, turns, detected_center, detected_turns):
+def came_since(
+    p, i, o, numbers, core, center, turns, detected_center, detected_turns, local_position, local_rotation
+):  # fmt: skip
     """Return how far (m) any two points of pair p may have come nearer since bodies were where they were detected."""
     squared, by_turning = 0.0, 0.0
     for k in range(3):
@@ -39,12 +44,40 @@ def came_since(p, i, o, numbers, center, turns, detected_center, detected_turns)
         way -= (center[o, k] - detected_center[o, k]) if o >= 0 else 0.0
         squared += way * way
     for side in range(2):
-        body, cosine = i if side == 0 else o, 0.0  # of half the angle by which it has turned
-        for k in range(4 if body >= 0 else 0):
-            cosine += turns[body, k] * detected_turns[body, k]
+        body = i if side == 0 else o
         if body >= 0:
-            by_turning += 2.0 * sqrt(max(0.0, 1.0 - cosine * cosine)) * numbers[p, side]
+            by_turning += swung_since(
+                p, side, body, numbers, core, turns, detected_turns, local_position, local_rotation
+            )  # fmt: skip
     return sqrt(squared) + by_turning
+
+
+@inlined
+def swung_since(p, side, i, numbers, core, turns, detected_turns, local_position, local_rotation):
+    """Return how far (m) one of pair p has moved at most as body i has turned since it was detected."""
+    x, y, z = local_position[p, side, 0], local_position[p, side, 1], local_position[p, side, 2]
+    own, around = numbers[p, REACH + side] - sqrt(x * x + y * y + z * z), 0.0
+    if x != 0.0 or y != 0.0 or z != 0.0:
+        around = apart_by_turning(i, x, y, z, turns, detected_turns)
+    kind = core[side * CORE + KIND]
+    if kind in (SEGMENT, CYLINDER, CONE):  # their axes move, what turns about these does not
+        x, y, z = turn(
+            local_rotation[p, side, 0], local_rotation[p, side, 1], local_rotation[p, side, 2],
+            local_rotation[p, side, 3], 0.0, 1.0, 0.0,
+        )  # fmt: skip
+        return around + own * apart_by_turning(i, x, y, z, turns, detected_turns)
+    cosine = 0.0  # of half the angle
+    for k in range(4):
+        cosine += turns[i, k] * detected_turns[i, k]
+    return around + 2.0 * sqrt(max(0.0, 1.0 - cosine * cosine)) * own
+
+
+@inlined
+def apart_by_turning(i, x, y, z, turns, detected_turns):
+    """Return how far a place in the frame of body i has come since as that turned."""
+    ax, ay, az = turned(turns, i, x, y, z)
+    bx, by, bz = turned(detected_turns, i, x, y, z)
+    return sqrt((ax - bx) ** 2 + (ay - by) ** 2 + (az - bz) ** 2)
 
 
 @inlined

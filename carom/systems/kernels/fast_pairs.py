@@ -13,11 +13,9 @@ from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE
 from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
 from carom.systems.kernels.spatial import cross, product, turn
+from carom.systems.kernels.swinging import LEVER, REACH, SMALLER, SWING, TRUSTED, lever_of, reach_of
 
 NEVER = 1e300
-#: Numbers of a pair: how far either core reaches from the centre of its body, which is the smaller, and how far a
-#: contact is trusted.
-NUMBERS = 4
 TRIANGLE_CORNERS = 3
 
 
@@ -33,7 +31,7 @@ def between(i, o, linear, other_linear):
 
 @woven
 def motion_of(i, o, center, linear, angular):
-    """Return how fast the centre of body i moves (m/s) and how fast it turns (rad/s), as seen from o or the world."""
+    """Return how fast the centre of body i moves (m/s) and how it turns (rad/s), as seen from o or the world."""
     x, y, z = linear[i, 0], linear[i, 1], linear[i, 2]
     wx, wy, wz = angular[i, 0], angular[i, 1], angular[i, 2]
     if o >= 0:
@@ -43,7 +41,7 @@ def motion_of(i, o, center, linear, angular):
         )
         x, y, z = x - linear[o, 0] - cx, y - linear[o, 1] - cy, z - linear[o, 2] - cz
         wx, wy, wz = wx - ux, wy - uy, wz - uz
-    return sqrt(x * x + y * y + z * z), sqrt(wx * wx + wy * wy + wz * wz)
+    return sqrt(x * x + y * y + z * z), wx, wy, wz
 
 
 @woven
@@ -54,22 +52,6 @@ def is_exact(i, o, shape, body_row, position, center, inverse_mass):
     if shape[o] not in (SPHERE_SHAPE, POINT_SHAPE, BOX_SHAPE, PLANE_SHAPE):
         return False
     return body_row[o] < 0 or is_centred(o, body_row[o], position, center)
-
-
-@woven
-def reach_of(c, i, local_position, bound_center, bound_half, position, center):
-    """Return how far (m) the core of collider c, what it is without its roundness, reaches from the centre of body i.
-
-    Roundness does not count, since it turns without effect; nor does what has no body and never turns.
-    """
-    if i < 0:
-        return 0.0
-    away, off, half = 0.0, 0.0, 0.0
-    for k in range(3):
-        away += (position[c, k] - center[i, k]) ** 2
-        off += (bound_center[c, k] - local_position[c, k]) ** 2
-        half += bound_half[c, k] * bound_half[c, k]
-    return sqrt(away) + sqrt(off) + sqrt(half)
 
 
 @woven
@@ -144,8 +126,8 @@ def squared_between(i, one, o, other):
 
 @kernel("fast", "numbers")
 def find_fast(
-    pairs, free, span, shape, local_position, bound_center, bound_half, bound_radius, position, body_row, center,
-    inverse_mass, continuous, linear, angular, fast, numbers,
+    pairs, free, span, shape, size, local_position, bound_center, bound_half, bound_radius, position, rotation,
+    body_row, center, inverse_mass, continuous, linear, angular, fast, numbers,
 ):  # fmt: skip
     """Write which pairs are to be looked after within ``span`` seconds, and their numbers; return how many.
 
@@ -165,19 +147,27 @@ def find_fast(
             extent = extent_of(c, bound_half, bound_radius)
             if (free_a if side == 0 else free_b) and extent < smallest:
                 smallest, smaller = extent, side
-        way, turning = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)
+        way, wx, wy, wz = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)
         c = a if smaller == 0 else b
         reach = reach_of(c, body_row[c], local_position, bound_center, bound_half, position, center)
-        if span * (way + turning * reach) <= FAST * smallest:
+        lever = lever_of(c, body_row[c], reach, wx, wy, wz, shape, size, position, rotation, center)
+        swing = sqrt(wx * wx + wy * wy + wz * wz) * lever
+        if span * (way + swing) <= FAST * smallest:
             continue
         if is_exact(a, b, shape, body_row, position, center, inverse_mass):
             continue
         if is_exact(b, a, shape, body_row, position, center, inverse_mass):
             continue
         fast[count, 0], fast[count, 1] = a, b
-        numbers[count, 0] = reach_of(a, i, local_position, bound_center, bound_half, position, center)
-        numbers[count, 1] = reach_of(b, o, local_position, bound_center, bound_half, position, center)
-        numbers[count, 2], numbers[count, 3] = smaller, TRUST * smallest
+        for side, c, body in ((0, a, i), (1, b, o)):
+            reach = reach_of(c, body, local_position, bound_center, bound_half, position, center)
+            numbers[count, REACH + side] = numbers[count, LEVER + side] = reach
+            if body >= 0:
+                wx, wy, wz = angular[body, 0], angular[body, 1], angular[body, 2]
+                numbers[count, LEVER + side] = lever_of(
+                    c, body, reach, wx, wy, wz, shape, size, position, rotation, center
+                )  # fmt: skip
+        numbers[count, SMALLER], numbers[count, TRUSTED], numbers[count, SWING] = smaller, TRUST * smallest, swing
         count += 1
     return count
 
@@ -195,7 +185,8 @@ def place_fast(
     for p in range(len(pairs)):
         if shape[pairs[p, 1]] in (MESH_SHAPE, FIELD_SHAPE) or shape[pairs[p, 0]] == PLANE_SHAPE:
             pairs[p, 0], pairs[p, 1] = pairs[p, 1], pairs[p, 0]
-            numbers[p, 0], numbers[p, 1] = numbers[p, 1], numbers[p, 0]
+            for k in (REACH, LEVER):
+                numbers[p, k], numbers[p, k + 1] = numbers[p, k + 1], numbers[p, k]
         a, core = pairs[p, 0], cores[p]
         roots[p] = root[geometry[a]] if shape[a] == MESH_SHAPE or shape[a] == FIELD_SHAPE else -1
         write_core(shape, size, geometry, pairs[p, 1], hulls, core, SECOND)
@@ -222,9 +213,9 @@ def place_fast(
 def find_trusts(bodies, numbers, linear, angular, trusts):
     """Write of each body of these pairs how far it is trusted to go, how far it reaches, and how fast others come.
 
-    That is how far its contacts are trusted (m), how far it reaches from its centre (m), and how fast those are whom it
-    may meet (m/s), as seen from the first of them, whose velocity is the rest; a ball about its body's centre turns
-    without effect.
+    That is how far its contacts are trusted (m), how far it reaches from its centre (m), how fast those are whom it may
+    meet (m/s), as seen from the first of them, whose velocity comes next (3), and its lever (m) about the axis about
+    which it turns, the rest (3); a ball about its body's centre turns without effect.
     """
     for p in range(len(bodies)):
         for side in range(2):
@@ -233,9 +224,12 @@ def find_trusts(bodies, numbers, linear, angular, trusts):
                 continue
             for k in range(3 if trusts[i, 0] == inf and o >= 0 else 0):
                 trusts[i, 3 + k] = linear[o, k]
-            trusts[i, 0] = min(trusts[i, 0], numbers[p, 3])
-            trusts[i, 1] = max(trusts[i, 1], numbers[p, side])
-            comes = between(o, i, linear, trusts[:, 3:]) + length_of(o, angular) * numbers[p, 1 - side]
+            trusts[i, 0] = min(trusts[i, 0], numbers[p, TRUSTED])
+            trusts[i, 1] = max(trusts[i, 1], numbers[p, REACH + side])
+            trusts[i, 6] = max(trusts[i, 6], numbers[p, LEVER + side])
+            for k in range(3):
+                trusts[i, 7 + k] = angular[i, k]
+            comes = between(o, i, linear, trusts[:, 3:]) + length_of(o, angular) * numbers[p, LEVER + 1 - side]
             trusts[i, 2] = max(trusts[i, 2], comes)
 
 
@@ -265,7 +259,7 @@ def find_far(pairs, numbers, row_a, row_b, depth, far):
     p, count = 0, 0
     for c in range(len(row_a)):
         p = first_of_pairs(p, pairs, row_a[c], row_b[c])
-        far[c] = is_of_pair(p, pairs, row_a[c], row_b[c]) and -depth[c] > numbers[p, 3]
+        far[c] = is_of_pair(p, pairs, row_a[c], row_b[c]) and -depth[c] > numbers[p, TRUSTED]
         count += far[c]
     return count
 

@@ -36,6 +36,7 @@ from carom.systems.kernels.groups import (
     SPUN,
     SUM,
     SURFACE,
+    SWUNG,
     TANGENT,
     WARM,
 )
@@ -86,6 +87,7 @@ def fill_groups(
         rolls, spins = pick_one(rolling, at, sizes), pick_one(spinning, at, sizes)
         store(rows, r + PART, one)
         store(rows, r + BESIDE, zero)
+        store(rows, r + SWUNG, zero)
         store(rows, r + ROLLING, rolls)
         store(rows, r + SPINNING, spins)
         x, y, z = pick_three(surface, at, sizes)

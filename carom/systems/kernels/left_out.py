@@ -8,6 +8,7 @@ from carom.systems.kernels.fast_pairs import NEVER, first_of_pairs
 from carom.systems.kernels.frames import turned_back
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.spatial import cross, turn
+from carom.systems.kernels.swinging import TRUSTED
 
 
 @kernel("bodies", "normals", "gaps", "nears", "places")
@@ -24,7 +25,7 @@ def write_left_out(
         if not far[c]:
             continue
         p = first_of_pairs(p, pairs, row_a[c], row_b[c])
-        gaps[n], nears[n] = -depth[c], MEET * numbers[p, 3]
+        gaps[n], nears[n] = -depth[c], MEET * numbers[p, TRUSTED]
         for side in range(2):
             i = bodies[n, side] = body_row[row_a[c] if side == 0 else row_b[c]]
             x, y, z = point[c, 0], point[c, 1], point[c, 2]

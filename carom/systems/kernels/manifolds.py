@@ -103,6 +103,7 @@ def prepare(g, r, points, asks, rests, index_a, index_b, lanes, bodies):
     What friction, spinning and rolling need is written where the group ``asks`` for them.
     """
     zero = spread(0.0)
+    store(lanes, r + of.SWUNG, zero)
     masses_a, masses_b = gather(bodies[MASS_AND_FELT], index_a, g), gather(bodies[MASS_AND_FELT], index_b, g)
     masses_a, inertia_a, movable_a, roll_a = prepare_body(g, r, 0, index_a, masses_a, lanes, bodies)
     masses_b, inertia_b, movable_b, roll_b = prepare_body(g, r, 1, index_b, masses_b, lanes, bodies)

@@ -25,6 +25,7 @@ from carom.systems.kernels.nearing import MOST_STEPS, near
 from carom.systems.kernels.parting_cores import normal_or_centers, part_from_half_space
 from carom.systems.kernels.polytope import MOST_CORNERS, MOST_FACES
 from carom.systems.kernels.spatial import cross
+from carom.systems.kernels.swinging import REACH, TRUSTED, swing_now
 
 
 @inlined
@@ -37,15 +38,17 @@ def across(i, nx, ny, nz, angular):
 
 
 @inlined
-def most_of(p, i, o, limit, numbers, linear, angular, felt):
+def most_of(p, i, o, limit, numbers, linear, angular, found_angular, felt):
     """Return by how much forces may hasten pair p within ``limit`` (s), and how fast any two points may close then.
 
-    And how fast trust in contacts goes, which stay on their faces while bodies glide.
+    Before the latter how fast turning moves either; and at last how fast trust in contacts goes, which stay on their
+    faces while bodies glide.
     """
     pull = (length_of(i, felt) + length_of(o, felt)) * limit
-    turning = length_of(i, angular) * numbers[p, 0] + length_of(o, angular) * numbers[p, 1]
+    swing_i = swing_now(p, 0, i, angular, found_angular, numbers)
+    swing_o = swing_now(p, 1, o, angular, found_angular, numbers)
     gliding = between(i, o, linear, linear) + pull
-    return pull, gliding + turning, GLIDING * gliding + turning
+    return pull, swing_i, swing_o, gliding + swing_i + swing_o, GLIDING * gliding + swing_i + swing_o
 
 
 @inlined
@@ -56,7 +59,7 @@ def time_of_way(way, speed, limit):
 
 @inlined
 def meet(
-    p, i, o, limit, found, ends, numbers, core, vertices, center, turns, linear, angular, felt,
+    p, i, o, limit, found, ends, numbers, core, vertices, center, turns, linear, angular, found_angular, felt,
     detected_center, detected_turns, bodies_reach, local_position, local_rotation, position, rotation,
     place, corner, name, weight, seen, corners, face, plane, rim,
 ):  # fmt: skip
@@ -66,8 +69,8 @@ def meet(
     ``found``, after they may have moved as far as it is trusted, which is returned too (m), else 0: how far they glide
     counts wholly where a face ``ends``. And now, where points arrive that were too far to be found.
     """
-    trust, around, time = numbers[p, 3], core[AROUND] + core[CORE + AROUND], 0.0
-    pull, most, spent = most_of(p, i, o, limit, numbers, linear, angular, felt)
+    trust, around, time = numbers[p, TRUSTED], core[AROUND] + core[CORE + AROUND], 0.0
+    pull, swing_i, swing_o, most, spent = most_of(p, i, o, limit, numbers, linear, angular, found_angular, felt)
     nx, ny, nz = 0.0, 1.0, 0.0
     for _ in range(MOST_LOOKS):
         put_both(i, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
@@ -85,7 +88,9 @@ def meet(
         gap = 0.0 if state == MEETING else gap - around
         if found and time == 0.0 and gap <= trust:
             sought = sought_to(p, i, o, numbers, bodies_reach)
-            came = came_since(p, i, o, numbers, center, turns, detected_center, detected_turns)
+            came = came_since(
+                p, i, o, numbers, core, center, turns, detected_center, detected_turns, local_position, local_rotation
+            )  # fmt: skip
             rolls = came > MEET * trust and (is_round(core, 0) or is_round(core, 1))  # not where they were just found
             if most * limit + came > sought or rolls:
                 if state == MEETING:
@@ -102,7 +107,8 @@ def meet(
             return time, 0.0
         nx, ny, nz = mx, my, mz
         wx, wy, wz = turned(rotation, 0, nx, ny, nz)
-        closing = pull + across(i, wx, wy, wz, angular) * numbers[p, 0] + across(o, wx, wy, wz, angular) * numbers[p, 1]
+        closing = pull + min(across(i, wx, wy, wz, angular) * numbers[p, REACH], swing_i)
+        closing += min(across(o, wx, wy, wz, angular) * numbers[p, REACH + 1], swing_o)
         for k, n in enumerate((wx, wy, wz)):
             closing += n * ((linear[i, k] if i >= 0 else 0.0) - (linear[o, k] if o >= 0 else 0.0))
         if closing <= 0.0 or gap > closing * (limit - time):
@@ -113,18 +119,19 @@ def meet(
 
 @kernel("room", "near", "left", "times", makes_arrays=True, within=True)
 def foresee_meetings(
-    span, first_only, found, center, turns, linear, angular, felt, detected_center, detected_turns, reach,
-    bodies, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-    asked, near, left, times,
+    span, first_only, found, center, turns, linear, angular, found_angular, felt,
+    detected_center, detected_turns, reach, bodies, numbers, cores, roots, local_position, local_rotation,
+    bounds, nodes, triangles, room, asked, near, left, times,
 ):  # fmt: skip
     """Write when (s) each pair of ``bodies`` that is ``asked`` is to be detected anew as they move now.
 
     NEVER if not in ``span``. Where contacts have been ``found``, who has been ``near`` ever since is trusted for a way
     that is written into ``left`` (m), but of meshes, of which some triangles may be near and others not. Else it is for
     what is left of that. Points arrive that were farther apart than contacts were sought, as bodies ``reach``, where
-    they were ``detected``. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both
-    shapes about the centres of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and
-    three more for a triangle of a mesh, which is the first of a pair that has one of ``roots``.
+    they were ``detected``; when pairs were found, bodies turned at ``found_angular``. Where only the first counts,
+    later ones are not told. Local poses (n, 2, ...) are of both shapes about the centres of their bodies, of what
+    stands in the world. ``room`` are the vertices of all hulls, and three more for a triangle of a mesh, which is the
+    first of a pair that has one of ``roots``.
     """
     place = np.empty(PLACE)
     corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
@@ -140,11 +147,13 @@ def foresee_meetings(
         limit, soonest, known, trusted = sooner if first_only else span, NEVER, found and near[p], 0.0
         if not known and left[p] > 0.0:
             soonest = 0.0
-            if left[p] > MEET * numbers[p, 3]:
-                soonest = time_of_way(left[p], most_of(p, i, o, limit, numbers, linear, angular, felt)[2], limit)
+            if left[p] > MEET * numbers[p, TRUSTED]:
+                soonest = time_of_way(
+                    left[p], most_of(p, i, o, limit, numbers, linear, angular, found_angular, felt)[4], limit
+                )
         elif roots[p] < 0:
             soonest, trusted = meet(
-                p, i, o, limit, known, False, numbers, core, room, center, turns, linear, angular, felt,
+                p, i, o, limit, known, False, numbers, core, room, center, turns, linear, angular, found_angular, felt,
                 detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,
                 place, corner, name, weight, seen, corners, face, plane, rim,
             )  # fmt: skip
@@ -153,8 +162,8 @@ def foresee_meetings(
             put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
             lx, ly, lz = center[o, 0] - position[0, 0], center[o, 1] - position[0, 1], center[o, 2] - position[0, 2]
             lx, ly, lz = turned_back(rotation, 0, lx, ly, lz)
-            wide = numbers[p, 1] + core[CORE + AROUND] + numbers[p, 3]  # turning is in the reach, but of the mesh
-            wide += limit * (between(i, o, linear, linear) + length_of(i, angular) * numbers[p, 0])
+            wide = numbers[p, REACH + 1] + core[CORE + AROUND] + numbers[p, TRUSTED]  # turning is in it, but of the mesh
+            wide += limit * (between(i, o, linear, linear) + length_of(i, angular) * numbers[p, REACH])
             count, touched = all_triangles(
                 roots[p], bounds, nodes, triangles,
                 lx - wide, ly - wide, lz - wide, lx + wide, ly + wide, lz + wide, touched,
@@ -164,8 +173,8 @@ def foresee_meetings(
                     room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * touched[c] + k]
                 time, way = meet(
                     p, i, o, min(limit, soonest), known, True, numbers, core, room, center, turns, linear, angular,
-                    felt, detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,
-                    place, corner, name, weight, seen, corners, face, plane, rim,
+                    found_angular, felt, detected_center, detected_turns, reach, local_position, local_rotation,
+                    position, rotation, place, corner, name, weight, seen, corners, face, plane, rim,
                 )  # fmt: skip
                 soonest, trusted = min(soonest, time), max(trusted, way)
         near[p] = near[p] and (trusted > 0.0 or not found)

@@ -49,6 +49,7 @@ def refill_groups(
         keep_where(rows, r + of.ROLLED, rolls, minus(rolled, times(along, n)))
         store(rows, r + of.PART, one)
         store(rows, r + of.BESIDE, zero)
+        store(rows, r + of.SWUNG, zero)
         if not are_balls(r, lanes):
             write_cores(
                 g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes

@@ -33,7 +33,7 @@ def roll_on(
         upright = nx * ax + ny * ay + nz * az
         if shape[i] != ELLIPSOID_SHAPE and (1.0 - upright * upright) * size[i, 0] ** 2 <= AS_LOW * AS_LOW:
             continue
-        if shape[i] == CYLINDER_SHAPE and upright * upright <= ON_SIDE * ON_SIDE:  # `carry_points` does
+        if shape[i] == CYLINDER_SHAPE and upright * upright <= ON_SIDE * ON_SIDE:  # `sink_points` does
             continue
         _, upper, _ = turn(-qx, -qy, -qz, qw, offset[c, 0] - sx, offset[c, 1] - sy, offset[c, 2] - sz)
         x, y, z = lowest(i, upper, qx, qy, qz, qw, nx, ny, nz, shape, size)

@@ -12,7 +12,7 @@ from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, store_flat
 from carom.systems.kernels.lane_vectors import dot, minus, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, gather_four, load, planes, some, spread, store
-from carom.systems.kernels.levers import carry_points, parting_at, parting_of
+from carom.systems.kernels.levers import sink_points
 from carom.systems.kernels.packing import WAY, write_ways
 from carom.systems.kernels.resting_balls import are_even
 from carom.systems.kernels.spatial import turn
@@ -99,11 +99,7 @@ def sink_contacts(
             store(into, q + of.DEPTH, load(into, q + of.DEPTH) - dot(three(into, r + of.NORMAL), minus(b, a)))
             continue
         a, b = gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g)
-        parting = parting_of(r, into, a, b)
-        for p in range(points[g]):
-            q = r + MANIFOLD_ROWS + POINT_ROWS * p
-            store(into, q + of.DEPTH, load(into, q + of.DEPTH) - parting_at(q, into, parting))
-        carry_points(r, points[g], into, a, b)
+        sink_points(r, points[g], into, a, b)
 
 
 @shared("depth")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, ROOT_GAP, SLOP, TOUCH
+from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, ROOT_GAP, SLOP, SWUNG, TOUCH
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.ball_contacts import measure_ball, measure_balls_on_still
 from carom.systems.kernels.ball_seams import is_borne_beside
@@ -41,7 +41,7 @@ from carom.systems.kernels.rubbing import BALLS, IDLE, RESTING, ROLLING, RUBBING
 from carom.systems.kernels.settling import tell_depth
 
 # What `TOGETHER` is of manifolds that rested in the substep before, and on a joint; of those that struck in it, in how
-# many substeps in a row.
+# many substeps in a row; of what is no ball one may be left out between two, and it is less than 0 in that.
 RESTED, JOINED = 0.5, 1e9
 
 
@@ -57,10 +57,10 @@ def sort_groups(
 ):  # fmt: skip
     """Say which manifolds rest at the start of the substep and prepare them.
 
-    A group is prepared when it is ``fresh`` from detection, when others of it rest, and where balls have moved on; it
-    ``looks`` at its manifolds one by one where they have to be measured so. Of two balls the contact table learns later
-    (`write_touches`). What rested before is read from it where it is ``stale``: someone else has written it since; and
-    where bodies may be ``joined``.
+    A group is prepared when it is ``fresh`` from detection, when others of it rest, and where balls have moved on or
+    bodies turned (SWUNG); it ``looks`` at its manifolds one by one where they have to be measured so. Of two balls the
+    contact table learns later (`write_touches`). What rested before is read from it where it is ``stale``: someone else
+    has written it since; and where bodies may be ``joined``.
     Mark the bodies of those that rest as touching, and in ``leans``: those of balls on exact arcs in the second row, of
     others in the first. Count in ``numbers``, for each thread, how many rest.
     """
@@ -118,7 +118,9 @@ def sort_groups(
         if stale[g] or joined:
             recall(g, r, fresh[g], index_a, index_b, first, on_joint, resting, strikes, lanes)
         else:
-            store(rows, r + of.TOGETHER, before * RESTED)
+            last = load(rows, r + of.TOGETHER) if not fresh[g] else spread(0.0)
+            missed = choose(load(rows, r + of.BALL), spread(0.0), choose(last - RESTED, -last, spread(0.0)))
+            store(rows, r + of.TOGETHER, choose(before, spread(RESTED), missed))
         rests, lies = find_resting(g, r, points[g], measured, h, of_a, of_b, rows, packed)
         rests = rests * resting_stage
         store(rows, r + of.RESTS, rests)
@@ -145,7 +147,7 @@ def sort_groups(
         if asks[g] == BALLS:
             if changed:
                 weigh_balls(g, r, rests, of_a, of_b, rows, packed)
-        elif asks[g] != IDLE and (changed or moved_on):
+        elif asks[g] != IDLE and (changed or moved_on or some(load(rows, r + of.SWUNG) - SWUNG)):
             prepare(g, r, points[g], asks[g], rests, of_a, of_b, rows, packed)
     numbers[crew[1]] = number
     wait_for_all(crew, 1)
@@ -166,11 +168,13 @@ def let_touch(r, lanes):
 def recall(g, r, fresh, index_a, index_b, first, on_joint, resting, strikes, lanes):
     """Write which manifolds of a group rested or struck in the substep before, and which are on a joint."""
     for lane in range(WIDTH):
-        c, before = first[g, lane], 0.0
+        c, before, last = first[g, lane], 0.0, lanes[r + of.TOGETHER, lane] if not fresh else 0.0
         if c >= 0:
             a, b, before = index_a[g, lane], index_b[g, lane], RESTED if resting[c] else 0.0
+            if not resting[c] and RESTED < last < JOINED and lanes[r + of.BALL, lane] == 0.0:
+                before = -last
             if strikes[c] and not fresh:
-                before = 1.0 + lanes[r + of.TOGETHER, lane] // 1.0 % JOINED
+                before = 1.0 + abs(last) // 1.0 % JOINED
             if is_on_joint(a, on_joint) or is_on_joint(b, on_joint):
                 before = JOINED
         lanes[r + of.TOGETHER, lane] = before
@@ -210,9 +214,9 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
 
     One rests when one of its points touches or would by the end of the substep (of balls, and of what bounces, only
     once it touches), unless one would strike: close faster than the rest speed. What was pressed together before goes
-    on resting. A ball, what bounces, and whatever has struck in two substeps in a row does so if it neither parts nor
-    closes faster than the rest speed: what others press it by would else have it strike in each substep anew, and never
-    be pushed out of those. But it does not lie.
+    on resting. A ball, what bounces, and whatever has struck in two substeps does so if it neither parts nor closes
+    faster than the rest speed: what others press it by would else have it strike anew, in each substep or in every
+    second, and never be pushed out of those. But it does not lie.
     """
     n, zero = three(lanes, r + of.NORMAL), spread(0.0)
     if balls:

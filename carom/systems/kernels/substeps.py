@@ -141,9 +141,9 @@ def take_substeps(
         if len(fast):
             stray(k * h, fast, numbers, linear, angular, linear, found_angular, asked)  # planes of contacts stay
             look(
-                h, True, True, center, rotation, linear, angular, felt, detected_center, detected_rotation, reach,
-                fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-                asked, near, left, times,
+                h, True, True, center, rotation, linear, angular, found_angular, felt,
+                detected_center, detected_rotation, reach, fast, numbers, cores, roots, local_position, local_rotation,
+                bounds, nodes, triangles, room, asked, near, left, times,
             )  # fmt: skip
             for time_of_pair in times:
                 until = min(until, time_of_pair)

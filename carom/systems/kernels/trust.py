@@ -9,6 +9,7 @@ from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.fast_pairs import NEVER, between, motion_of
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.spatial import cross
+from carom.systems.kernels.swinging import LEVER, SMALLER, SWING, TRUSTED, swing_now, swing_of
 
 
 @woven
@@ -45,18 +46,17 @@ def find_agreeing(
         straight, near_now = NEVER, False
         while c < len(row_a) and row_a[c] == a and row_b[c] == b:
             closing = closing_of(c, i, o, normal, point, center, linear, angular)
-            near_now |= -depth[c] <= numbers[p, 3]
+            near_now |= -depth[c] <= numbers[p, TRUSTED]
             if closing > 0.0 and -depth[c] < closing * span:
                 straight = min(straight, max(0.0, -depth[c] / closing))
             c += 1
-        smaller = int(numbers[p, 2])
-        way, turning = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)
-        turning *= numbers[p, smaller]
-        most = way + turning
+        smaller = int(numbers[p, SMALLER])
+        way, _, _, _ = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)
+        most = way + numbers[p, SWING]
         if near_now:
-            agrees[p] = turning * span <= numbers[p, 3]
+            agrees[p] = numbers[p, SWING] * span <= numbers[p, TRUSTED]
         else:
-            agrees[p] = abs(straight - times[p]) * most <= numbers[p, 3] or straight == times[p]
+            agrees[p] = abs(straight - times[p]) * most <= numbers[p, TRUSTED] or straight == times[p]
             agrees[p] &= straight == NEVER or most * span <= sought_to(p, i, o, numbers, reach)
 
 
@@ -70,9 +70,15 @@ def ask_straying(time, bodies, numbers, linear, angular, before_linear, before_a
     for p in range(len(bodies)):
         strays = 0.0
         for side in range(2):
-            body, reach = bodies[p, side], numbers[p, side]
-            strays += between(body, body, linear, before_linear) + between(body, body, angular, before_angular) * reach
-        asked[p] = asked[p] or strays * time > MEET * numbers[p, 3]
+            i = bodies[p, side]
+            if i < 0:
+                continue
+            x, y, z = (
+                angular[i, 0] - before_angular[i, 0], angular[i, 1] - before_angular[i, 1],
+                angular[i, 2] - before_angular[i, 2],
+            )  # fmt: skip
+            strays += between(i, i, linear, before_linear) + swing_of(p, side, i, x, y, z, before_angular, numbers)
+        asked[p] = asked[p] or strays * time > MEET * numbers[p, TRUSTED]
 
 
 @kernel("left")
@@ -89,7 +95,9 @@ def spend_trust(elapsed, bodies, numbers, linear, angular, before_linear, before
             between(i, o, before_linear, linear), between(i, o, before_linear, before_linear),
         )  # fmt: skip
         for side in range(2):
-            body, reach = bodies[p, side], numbers[p, side]
-            came += max(length_of(body, angular), length_of(body, before_angular)) * reach
+            body, lever = bodies[p, side], numbers[p, LEVER + side]
+            came += max(
+                swing_now(p, side, body, angular, before_angular, numbers), length_of(body, before_angular) * lever
+            )
         rest = left[p] - came * elapsed
-        left[p] = rest if rest > APART_MARGIN * numbers[p, 3] else 0.0  # most often all of it, but for rounding
+        left[p] = rest if rest > APART_MARGIN * numbers[p, TRUSTED] else 0.0  # most often all of it, but for rounding

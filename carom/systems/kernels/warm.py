@@ -66,12 +66,13 @@ def compile_measuring() -> None:
     from carom.systems.detection.seams import without_seams
     from carom.systems.kernels.broad_pairs import renew_pairs
     from carom.systems.kernels.crew import ALONE
-    from carom.systems.kernels.fast_pairs import NUMBERS, let_go
+    from carom.systems.kernels.fast_pairs import let_go
     from carom.systems.kernels.grid import lead_astray
     from carom.systems.kernels.lanes import WIDTH, aligned
     from carom.systems.kernels.left_out import when_near, write_left_out
     from carom.systems.kernels.manifolds import part_masses
     from carom.systems.kernels.merging import merge_contacts
+    from carom.systems.kernels.swinging import NUMBERS
     from carom.systems.looked import LeftOut
     from carom.systems.passing import seeming, without_passing, without_seeming
     from carom.systems.shapes.geometry import hull_of
