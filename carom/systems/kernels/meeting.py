@@ -162,7 +162,7 @@ def foresee_meetings(
             put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
             lx, ly, lz = center[o, 0] - position[0, 0], center[o, 1] - position[0, 1], center[o, 2] - position[0, 2]
             lx, ly, lz = turned_back(rotation, 0, lx, ly, lz)
-            wide = numbers[p, REACH + 1] + core[CORE + AROUND] + numbers[p, TRUSTED]  # turning is in it, but of the mesh
+            wide = numbers[p, REACH + 1] + core[CORE + AROUND] + numbers[p, TRUSTED]  # and turning, but of the mesh
             wide += limit * (between(i, o, linear, linear) + length_of(i, angular) * numbers[p, REACH])
             count, touched = all_triangles(
                 roots[p], bounds, nodes, triangles,
