@@ -71,7 +71,7 @@ def roll(simulation: Simulation, shape: str, speed: float, lean: float) -> Entit
 
 
 SPIN, TILT, HIGH, AROUND, ACROSS = 60.0, 0.3, 0.4, 0.08, 0.05
-#: What tops stand on, and how far (m) above the ground its lowest end is.
+#: What tops stand on, and how far (m) around its end it reaches.
 TIPS: dict[str, tuple[dict[str, Any], float]] = {
     "ball": ({"sphere": {"radius": 0.02}}, 0.02),
     "capsule": ({"capsule": {"radius": 0.02, "length": 0.1}}, 0.02),

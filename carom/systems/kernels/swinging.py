@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.cores import CONE_SHAPE, CYLINDER_SHAPE, ELLIPSOID_SHAPE
+from carom.systems.kernels.cores import ELLIPSOID_SHAPE
 from carom.systems.kernels.frames import turned
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.polyhedra import CAPSULE_SHAPE
 from carom.systems.kernels.spatial import cross
+from carom.systems.kernels.unrolling import rolls
 
 #: Numbers of a pair: how far either core reaches from the centre of its body, which is the smaller, and how far a
 #: contact is trusted; how far from the axes about which their bodies turn either core reaches, and how fast turning
@@ -57,9 +57,7 @@ def lever_of(c, i, reach, wx, wy, wz, shape, size, position, rotation, center):
 @woven
 def is_of_revolution(c, shape, size):
     """Tell whether a collider is the same however it is turned about its axis."""
-    if shape[c] == ELLIPSOID_SHAPE:
-        return size[c, 0] == size[c, 2]
-    return shape[c] == CAPSULE_SHAPE or shape[c] == CYLINDER_SHAPE or shape[c] == CONE_SHAPE
+    return rolls(c, shape) and (shape[c] != ELLIPSOID_SHAPE or size[c, 0] == size[c, 2])
 
 
 @woven
