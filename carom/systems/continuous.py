@@ -65,7 +65,7 @@ class Fast(Resource):
             fast, numbers = np.concatenate([fast, free]), np.concatenate([numbers, free_numbers])
             order = np.lexsort(fast.T[::-1])
             fast, numbers = fast[order], numbers[order]
-        self.all = FastPairs.of(fast, Looked.room(numbers), motion.linear, motion.angular)
+        self.all = FastPairs.of(fast, Looked.room(numbers), motion.linear)
         given, reaches = fast.copy(), numbers.copy()
         self.land, self._limited = look_at(world, fast, center, self.all.looked), True
         find_trusts(self.all.looked.bodies, numbers, motion.linear, motion.angular, self.trusts)
@@ -123,8 +123,8 @@ class Fast(Resource):
         of, motion = self.all, world[Motion]
         if len(of.pairs):
             spend_trust(
-                elapsed, of.looked.bodies, of.looked.numbers, motion.linear, motion.angular, of.linear, of.angular,
-                of.left,
+                elapsed, of.looked.bodies, of.looked.numbers, world[Transform].rotation, motion.linear, motion.angular,
+                of.linear, of.left,
             )  # fmt: skip
             self._ask_straying(world, rest, of.linear)
         return self.next_look(world, rest, found=False)
@@ -133,15 +133,16 @@ class Fast(Resource):
         """Look after those who go another way within a time (s) than was foreseen, as velocities were ``before``."""
         of, motion = self.all, world[Motion]
         ask_straying(
-            time, of.looked.bodies, of.looked.numbers, motion.linear, motion.angular, before, of.angular, of.asked
-        )
+            time, of.looked.bodies, of.looked.numbers, world[Transform].rotation, motion.linear, motion.angular,
+            before, of.asked,
+        )  # fmt: skip
 
     def _times(self, world: World, center: Floats, span: float, *, found: bool, first_only: bool = False) -> Floats:
         """Return when (n,) each pair is to be looked at again."""
         motion, flight, of = world[Motion], world[Flight], self.all
         times = np.empty(len(of.pairs))
         foresee_meetings(
-            span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular, of.angular,
+            span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular,
             accelerations(world), flight.detected_center, flight.detected_rotation, flight.reach,
             *of.looked, *self.land, of.asked, of.near, of.left, times,
         )  # fmt: skip
@@ -162,7 +163,7 @@ def look_at(world: World, fast: Integers, center: Floats, looked: Looked) -> Lan
     hulls, meshes = world[PackedHulls].holding(world), world[PackedMeshes].holding(world)
     place_fast(
         fast, collider.shape, collider.size, collider.geometry, pose.body_row, pose.position, pose.rotation,
-        center, world[Transform].rotation, hulls, meshes.root, *looked,
+        center, world[Transform].rotation, world[Motion].angular, hulls, meshes.root, *looked,
     )  # fmt: skip
     room = np.concatenate([hulls.vertices, np.zeros((TRIANGLE_CORNERS, 3))])
     return Land(meshes.bounds, meshes.nodes, meshes.triangles, room)

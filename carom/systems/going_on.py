@@ -91,7 +91,7 @@ def go_on(world: World, dt: float) -> None:
         contact.extent, contact.other_position, contact.other_rotation, contact.surface, contact.friction,
         contact.restitution, contact.resting, contact.impulse, contact.friction_impulse, contact.strikes,
         contact.plastic, *world[Fast].all.looked, *world[Fast].land, world[Fast].all.asked,
-        world[Fast].all.near, world[Fast].all.left, world[Fast].all.angular, *world[Fast].left_out, world[Fast].trusts,
+        world[Fast].all.near, world[Fast].all.left, *world[Fast].left_out, world[Fast].trusts,
         ledger.pull, ledger.arc, *room_for_log(), spent,
     )  # fmt: skip
     log_impacts(world, cut, count, pair, log)

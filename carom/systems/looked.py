@@ -69,7 +69,7 @@ class FastPairs(NamedTuple):
     Those are ``asked`` whose contacts, followed straight on, do not say when they meet. ``left`` is how far (m) their
     bodies may still move before what is known of their contacts is no longer trusted, 0 where nothing is known. Who has
     been ``near`` since contacts were found is trusted anew in each substep.
-    ``linear`` and ``angular`` are all velocities when they were found.
+    ``linear`` are all velocities when they were found.
     """
 
     pairs: Integers
@@ -78,19 +78,15 @@ class FastPairs(NamedTuple):
     near: Booleans
     left: Floats
     linear: Floats
-    angular: Floats
 
     @classmethod
-    def of(cls, pairs: Integers, looked: Looked, linear: Floats, angular: Floats) -> FastPairs:
+    def of(cls, pairs: Integers, looked: Looked, linear: Floats) -> FastPairs:
         """Return pairs of whom nothing is known yet, as bodies move."""
         n = len(pairs)
-        return cls(
-            pairs, looked, np.ones(n, np.bool_), np.ones(n, np.bool_), np.zeros(n), np.array(linear), np.array(angular)
-        )
+        ones = np.ones(n, np.bool_)
+        return cls(pairs, looked, ones, ones.copy(), np.zeros(n), np.array(linear))
 
 
 NOWHERE = Land(np.empty(0, np.float32), np.empty(0, np.int32), np.empty(0), np.zeros((TRIANGLE_CORNERS, 3)))
 NONE_LEFT_OUT = LeftOut.room(0)
-NO_PAIRS = FastPairs.of(
-    np.empty((0, 2), np.int64), Looked.room(np.empty((0, NUMBERS))), np.empty((0, 3)), np.empty((0, 3))
-)
+NO_PAIRS = FastPairs.of(np.empty((0, 2), np.int64), Looked.room(np.empty((0, NUMBERS))), np.empty((0, 3)))

@@ -75,8 +75,8 @@ def without_seeming(
     times = np.empty(len(free))
     land = look_at(world, free.copy(), center, looked)  # of meshes the sides change places
     foresee_meetings(
-        span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, motion.angular,
-        accelerations(world), center, world[Transform].rotation, world[Flight].reach, *looked, *land,
+        span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, accelerations(world),
+        center, world[Transform].rotation, world[Flight].reach, *looked, *land,
         np.ones(len(free), np.bool_), np.zeros(len(free), np.bool_), np.zeros(len(free)), times,
     )  # fmt: skip
     passes = times == NEVER

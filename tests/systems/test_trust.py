@@ -13,12 +13,13 @@ from carom.systems.constants import TRUST as TRUST_PART
 from carom.systems.continuous import Fast
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.contacts import detect
+from carom.systems.kernels import swinging
 from carom.systems.kernels.trust import ask_straying, spend_trust
 from carom.systems.simulation import Simulation
 
 TRUST, REACH = 0.04, 0.5
 STILL, ALONG, ACROSS = np.zeros((1, 3)), np.array([[4.0, 0.0, 0.0]]), np.array([[0.0, 0.0, 4.0]])
-NUMBERS = np.array([[REACH, 0.0, 0.0, TRUST]])
+UPRIGHT = np.tile((0.0, 0.0, 0.0, 1.0), (2, 1))
 
 
 def spend(
@@ -26,10 +27,21 @@ def spend(
     left: float = TRUST,
 ) -> tuple[bool, float]:  # fmt: skip
     """Return whether a pair is looked after, and what is left, 2 ms after a look and 10 ms before the next."""
-    asks, lefts, pair = np.array([asked]), np.array([left]), np.array([[0, -1]])
-    spend_trust(0.002, pair, NUMBERS, linear, angular, before, spin, lefts)
-    ask_straying(0.01, pair, NUMBERS, linear, angular, before, spin, asks)
+    asks, lefts, pair, numbers = np.array([asked]), np.array([left]), np.array([[0, -1]]), of_pair(spin=spin)
+    spend_trust(0.002, pair, numbers, UPRIGHT, linear, angular, before, lefts)
+    ask_straying(0.01, pair, numbers, UPRIGHT, linear, angular, before, asks)
     return bool(asks[0]), float(lefts[0])
+
+
+def of_pair(*, other: float = 0.0, spin: Floats = STILL) -> Floats:
+    """Return the numbers of a pair whose first turns about an axis through all of it, as a pencil does about its own.
+
+    The second reaches so far (m) from its centre.
+    """
+    numbers = np.zeros((1, swinging.NUMBERS))
+    numbers[0, swinging.REACH : swinging.REACH + 2] = REACH, other
+    numbers[0, swinging.TRUSTED], numbers[0, swinging.SPIN : swinging.SPIN + 3] = TRUST, spin[0]
+    return numbers
 
 
 @pytest.mark.parametrize(("linear", "before"), [(ALONG, ALONG), (STILL, ALONG), (ALONG, STILL)])
@@ -40,20 +52,26 @@ def test_who_is_looked_after_spends_the_way_it_may_have_come(linear: Floats, bef
 
 
 def test_turning_counts_at_the_reach() -> None:
-    """4 rad/s half a metre from the centre are 2 m/s, all of which count; 4 m/s beside it do in part."""
+    """4 rad/s half a metre from the centre are 2 m/s, all of which count; 4 m/s beside it do in part.
+
+    But about the axis about which it turned at first it comes nowhere, however fast it is by now.
+    """
     left = TRUST - 0.002 * (GLIDING * 4.0 + 2.0)
     assert spend(asked=True, angular=ACROSS)[1] == pytest.approx(left, rel=1e-12)
+    for faster in (1.0, 100.0):
+        found = spend(asked=False, angular=faster * ACROSS, spin=ACROSS)
+        assert found == (False, pytest.approx(TRUST - 0.002 * GLIDING * 4.0, rel=1e-12))
 
 
 def test_only_what_moves_against_each_other_counts() -> None:
     """Two that fly side by side spend nothing; where one was stopped on the way, all of its speed."""
-    numbers, both, lefts = np.array([[REACH, REACH, 0.0, TRUST]]), np.tile(ALONG, (2, 1)), np.array([TRUST])
+    numbers, both, lefts = of_pair(other=REACH), np.tile(ALONG, (2, 1)), np.array([TRUST])
     pair, still, stopped = np.array([[0, 1]]), np.zeros((2, 3)), np.vstack([ALONG, STILL])
-    spend_trust(0.002, pair, numbers, both, still, both, still, lefts)
+    spend_trust(0.002, pair, numbers, UPRIGHT, both, still, both, lefts)
     assert lefts == TRUST
     for now, before in ((both, stopped), (stopped, both)):
         lefts[:] = TRUST
-        spend_trust(0.002, pair, numbers, now, still, before, still, lefts)
+        spend_trust(0.002, pair, numbers, UPRIGHT, now, still, before, lefts)
         assert lefts == pytest.approx(TRUST - GLIDING * 0.002 * 4.0, rel=1e-12)
 
 
@@ -98,7 +116,7 @@ def test_who_was_not_near_when_contacts_were_found_is_not_trusted_once_he_is(nea
         reach_within(world, simulation.settings.dt)
         detect(world, simulation.settings.dt, 1.0 / 240.0)
         fast = world[Fast]
-        assert fast.all.looked.numbers[:, 3] == half * TRUST_PART
+        assert fast.all.looked.numbers[:, swinging.TRUSTED] == half * TRUST_PART
         fast.all.asked[:], fast.all.near[:], fast.all.left[:] = True, near, 0.0
         time = fast.next_look(world, 1.0 / 240.0, found=True)
     wanted = (0.6 - 0.5 * MEET) * half * TRUST_PART / speed

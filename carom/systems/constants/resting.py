@@ -22,7 +22,7 @@ TURNED = 1e-6
 
 # Radians by which bodies turn before what their inertia is about contacts is found anew. Larger: it is that of some
 # substeps ago, and tops that spin gain speed by what keeps them up. Smaller: it takes time, for what hardly turns.
-SWUNG = 1e-3
+STALE_TURN = 1e-3
 
 # Points of a manifold; a pair with more on one plane has several.
 MANIFOLD_POINTS = 4

@@ -13,7 +13,18 @@ from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, POINT_SHAPE, SPHERE_SHAPE
 from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
 from carom.systems.kernels.spatial import cross, product, turn
-from carom.systems.kernels.swinging import LEVER, REACH, SMALLER, SWING, TRUSTED, lever_of, reach_of
+from carom.systems.kernels.swinging import (
+    LEVER,
+    REACH,
+    SMALLER,
+    SPIN,
+    SWING,
+    TRUSTED,
+    lever_of,
+    reach_of,
+    spin_of,
+    swing_about,
+)
 
 NEVER = 1e300
 TRIANGLE_CORNERS = 3
@@ -174,13 +185,13 @@ def find_fast(
 
 @kernel("pairs", "bodies", "numbers", "cores", "roots", "position", "rotation")
 def place_fast(
-    pairs, shape, size, geometry, body_row, pose_position, pose_rotation, center, body_rotation, hulls,
+    pairs, shape, size, geometry, body_row, pose_position, pose_rotation, center, body_rotation, angular, hulls,
     root, bodies, numbers, cores, roots, position, rotation,
 ):  # fmt: skip
     """Put the mesh of a pair first, a half space second, and write what both shapes are around, and where they are.
 
-    They are in the frames of their ``bodies``, or in the world. Of a mesh there is where its tree begins, and the room
-    behind the vertices of all hulls for those of one triangle at a time.
+    They are in the frames of their ``bodies``, or in the world; how those turn is written too. Of a mesh there is where
+    its tree begins, and the room behind the vertices of all hulls for those of one triangle at a time.
     """
     for p in range(len(pairs)):
         if shape[pairs[p, 1]] in (MESH_SHAPE, FIELD_SHAPE) or shape[pairs[p, 0]] == PLANE_SHAPE:
@@ -200,11 +211,15 @@ def place_fast(
             i = bodies[p, side] = body_row[c]
             x, y, z = pose_position[c, 0], pose_position[c, 1], pose_position[c, 2]
             q = (pose_rotation[c, 0], pose_rotation[c, 1], pose_rotation[c, 2], pose_rotation[c, 3])
+            wx, wy, wz = 0.0, 0.0, 0.0
             if i >= 0:
+                wx, wy, wz = spin_of(i, body_rotation, angular)
                 bx, by, bz, bw = -body_rotation[i, 0], -body_rotation[i, 1], -body_rotation[i, 2], body_rotation[i, 3]
                 x, y, z = turn(bx, by, bz, bw, x - center[i, 0], y - center[i, 1], z - center[i, 2])
                 q = product(bx, by, bz, bw, q[0], q[1], q[2], q[3])
             position[p, side, 0], position[p, side, 1], position[p, side, 2] = x, y, z
+            for k, w in enumerate((wx, wy, wz)):
+                numbers[p, SPIN + 3 * side + k] = w
             for k in range(4):
                 rotation[p, side, k] = q[k]
 
@@ -215,7 +230,7 @@ def find_trusts(bodies, numbers, linear, angular, trusts):
 
     That is how far its contacts are trusted (m), how far it reaches from its centre (m), how fast those are whom it may
     meet (m/s), as seen from the first of them, whose velocity comes next (3), and its lever (m) about the axis about
-    which it turns, the rest (3); a ball about its body's centre turns without effect.
+    which it turns, its spin as it sees that (3); a ball about its body's centre turns without effect.
     """
     for p in range(len(bodies)):
         for side in range(2):
@@ -228,9 +243,17 @@ def find_trusts(bodies, numbers, linear, angular, trusts):
             trusts[i, 1] = max(trusts[i, 1], numbers[p, REACH + side])
             trusts[i, 6] = max(trusts[i, 6], numbers[p, LEVER + side])
             for k in range(3):
-                trusts[i, 7 + k] = angular[i, k]
+                trusts[i, 7 + k] = numbers[p, SPIN + 3 * side + k]
             comes = between(o, i, linear, trusts[:, 3:]) + length_of(o, angular) * numbers[p, LEVER + 1 - side]
             trusts[i, 2] = max(trusts[i, 2], comes)
+
+
+@woven
+def coming_of(i, turns, linear, angular, trusts):
+    """Return how fast (m/s) body i and those whom it may meet come to each other as it moves now."""
+    x, y, z = spin_of(i, turns, angular)
+    swing = swing_about(x, y, z, trusts[i, 7], trusts[i, 8], trusts[i, 9], trusts[i, 6], trusts[i, 1])
+    return between(i, i, linear, trusts[:, 3:]) + trusts[i, 2] + swing
 
 
 @woven

@@ -20,12 +20,11 @@ from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body, is_on_joint
 from carom.systems.kernels.bouncing import patience_of, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
-from carom.systems.kernels.fast_pairs import between
+from carom.systems.kernels.fast_pairs import coming_of
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.reach import time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
-from carom.systems.kernels.swinging import swing_about
 from carom.systems.kernels.tournament import enter_time, pairs_of_bodies
 
 DONE, OUT_OF_REACH, TO_LOOK = 0, 1, 2  # why a flight ends
@@ -269,10 +268,7 @@ def fly(
             )  # fmt: skip
             if within < h - now:
                 end = min(end, now + within)
-            quick = between(body, body, linear, trusts[:, 3:]) + trusts[body, 2] + swing_about(
-                angular[body, 0], angular[body, 1], angular[body, 2],
-                trusts[body, 7], trusts[body, 8], trusts[body, 9], trusts[body, 6], trusts[body, 1],
-            )  # fmt: skip
+            quick = coming_of(body, rotation, linear, angular, trusts)
             if quick * (h - now) > trusts[body, 0]:
                 end, veers = min(end, now + MEET * trusts[body, 0] / quick), True
     return now, reason_of(now, h, until, veers), events, cut, log_count, log_pair, log

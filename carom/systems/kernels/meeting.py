@@ -38,15 +38,15 @@ def across(i, nx, ny, nz, angular):
 
 
 @inlined
-def most_of(p, i, o, limit, numbers, linear, angular, found_angular, felt):
+def most_of(p, i, o, limit, numbers, turns, linear, angular, felt):
     """Return by how much forces may hasten pair p within ``limit`` (s), and how fast any two points may close then.
 
     Before the latter how fast turning moves either; and at last how fast trust in contacts goes, which stay on their
     faces while bodies glide.
     """
     pull = (length_of(i, felt) + length_of(o, felt)) * limit
-    swing_i = swing_now(p, 0, i, angular, found_angular, numbers)
-    swing_o = swing_now(p, 1, o, angular, found_angular, numbers)
+    swing_i = swing_now(p, 0, i, turns, angular, numbers)
+    swing_o = swing_now(p, 1, o, turns, angular, numbers)
     gliding = between(i, o, linear, linear) + pull
     return pull, swing_i, swing_o, gliding + swing_i + swing_o, GLIDING * gliding + swing_i + swing_o
 
@@ -59,7 +59,7 @@ def time_of_way(way, speed, limit):
 
 @inlined
 def meet(
-    p, i, o, limit, found, ends, numbers, core, vertices, center, turns, linear, angular, found_angular, felt,
+    p, i, o, limit, found, ends, numbers, core, vertices, center, turns, linear, angular, felt,
     detected_center, detected_turns, bodies_reach, local_position, local_rotation, position, rotation,
     place, corner, name, weight, seen, corners, face, plane, rim,
 ):  # fmt: skip
@@ -70,7 +70,7 @@ def meet(
     counts wholly where a face ``ends``. And now, where points arrive that were too far to be found.
     """
     trust, around, time = numbers[p, TRUSTED], core[AROUND] + core[CORE + AROUND], 0.0
-    pull, swing_i, swing_o, most, spent = most_of(p, i, o, limit, numbers, linear, angular, found_angular, felt)
+    pull, swing_i, swing_o, most, spent = most_of(p, i, o, limit, numbers, turns, linear, angular, felt)
     nx, ny, nz = 0.0, 1.0, 0.0
     for _ in range(MOST_LOOKS):
         put_both(i, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
@@ -119,7 +119,7 @@ def meet(
 
 @kernel("room", "near", "left", "times", makes_arrays=True, within=True)
 def foresee_meetings(
-    span, first_only, found, center, turns, linear, angular, found_angular, felt,
+    span, first_only, found, center, turns, linear, angular, felt,
     detected_center, detected_turns, reach, bodies, numbers, cores, roots, local_position, local_rotation,
     bounds, nodes, triangles, room, asked, near, left, times,
 ):  # fmt: skip
@@ -128,10 +128,9 @@ def foresee_meetings(
     NEVER if not in ``span``. Where contacts have been ``found``, who has been ``near`` ever since is trusted for a way
     that is written into ``left`` (m), but of meshes, of which some triangles may be near and others not. Else it is for
     what is left of that. Points arrive that were farther apart than contacts were sought, as bodies ``reach``, where
-    they were ``detected``; when pairs were found, bodies turned at ``found_angular``. Where only the first counts,
-    later ones are not told. Local poses (n, 2, ...) are of both shapes about the centres of their bodies, of what
-    stands in the world. ``room`` are the vertices of all hulls, and three more for a triangle of a mesh, which is the
-    first of a pair that has one of ``roots``.
+    they were ``detected``. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both
+    shapes about the centres of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and
+    three more for a triangle of a mesh, which is the first of a pair that has one of ``roots``.
     """
     place = np.empty(PLACE)
     corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
@@ -148,12 +147,10 @@ def foresee_meetings(
         if not known and left[p] > 0.0:
             soonest = 0.0
             if left[p] > MEET * numbers[p, TRUSTED]:
-                soonest = time_of_way(
-                    left[p], most_of(p, i, o, limit, numbers, linear, angular, found_angular, felt)[4], limit
-                )
+                soonest = time_of_way(left[p], most_of(p, i, o, limit, numbers, turns, linear, angular, felt)[4], limit)
         elif roots[p] < 0:
             soonest, trusted = meet(
-                p, i, o, limit, known, False, numbers, core, room, center, turns, linear, angular, found_angular, felt,
+                p, i, o, limit, known, False, numbers, core, room, center, turns, linear, angular, felt,
                 detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,
                 place, corner, name, weight, seen, corners, face, plane, rim,
             )  # fmt: skip
@@ -173,8 +170,8 @@ def foresee_meetings(
                     room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * touched[c] + k]
                 time, way = meet(
                     p, i, o, min(limit, soonest), known, True, numbers, core, room, center, turns, linear, angular,
-                    found_angular, felt, detected_center, detected_turns, reach, local_position, local_rotation,
-                    position, rotation, place, corner, name, weight, seen, corners, face, plane, rim,
+                    felt, detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,
+                    place, corner, name, weight, seen, corners, face, plane, rim,
                 )  # fmt: skip
                 soonest, trusted = min(soonest, time), max(trusted, way)
         near[p] = near[p] and (trusted > 0.0 or not found)

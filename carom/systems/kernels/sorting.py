@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, ROOT_GAP, SLOP, SWUNG, TOUCH
+from carom.systems.constants import APPROACH, REST_SPEED_FACTOR, ROOT_GAP, SLOP, STALE_TURN, TOUCH
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.ball_contacts import measure_ball, measure_balls_on_still
 from carom.systems.kernels.ball_seams import is_borne_beside
@@ -58,9 +58,9 @@ def sort_groups(
     """Say which manifolds rest at the start of the substep and prepare them.
 
     A group is prepared when it is ``fresh`` from detection, when others of it rest, and where balls have moved on or
-    bodies turned (SWUNG); it ``looks`` at its manifolds one by one where they have to be measured so. Of two balls the
-    contact table learns later (`write_touches`). What rested before is read from it where it is ``stale``: someone else
-    has written it since; and where bodies may be ``joined``.
+    bodies turned (STALE_TURN); it ``looks`` at its manifolds one by one where they have to be measured so. Of two balls
+    the contact table learns later (`write_touches`). What rested before is read from it where it is ``stale``: someone
+    else has written it since; and where bodies may be ``joined``.
     Mark the bodies of those that rest as touching, and in ``leans``: those of balls on exact arcs in the second row, of
     others in the first. Count in ``numbers``, for each thread, how many rest.
     """
@@ -147,7 +147,7 @@ def sort_groups(
         if asks[g] == BALLS:
             if changed:
                 weigh_balls(g, r, rests, of_a, of_b, rows, packed)
-        elif asks[g] != IDLE and (changed or moved_on or some(load(rows, r + of.SWUNG) - SWUNG)):
+        elif asks[g] != IDLE and (changed or moved_on or some(load(rows, r + of.SWUNG) - STALE_TURN)):
             prepare(g, r, points[g], asks[g], rests, of_a, of_b, rows, packed)
     numbers[crew[1]] = number
     wait_for_all(crew, 1)

@@ -60,7 +60,7 @@ def take_substeps(
     row_a, row_b, shape, bound_radius, kind, ball, other, sign, radius, extent,
     other_position, other_rotation, surface, friction, restitution, resting, impulse, friction_impulse,
     strikes, plastic, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
-    asked, near, left, found_angular, far_bodies, far_normals, gaps, nears, places, trusts, pull, arc, log_pair, log,
+    asked, near, left, far_bodies, far_normals, gaps, nears, places, trusts, pull, arc, log_pair, log,
     spent,
 ):  # fmt: skip
     """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
@@ -139,9 +139,9 @@ def take_substeps(
         flown = False
         at, reason, events, until = h, DONE, none, np.inf
         if len(fast):
-            stray(k * h, fast, numbers, linear, angular, linear, found_angular, asked)  # planes of contacts stay
+            stray(k * h, fast, numbers, rotation, linear, angular, linear, asked)  # planes of contacts stay
             look(
-                h, True, True, center, rotation, linear, angular, found_angular, felt,
+                h, True, True, center, rotation, linear, angular, felt,
                 detected_center, detected_rotation, reach, fast, numbers, cores, roots, local_position, local_rotation,
                 bounds, nodes, triangles, room, asked, near, left, times,
             )  # fmt: skip

@@ -6,16 +6,16 @@ from math import sqrt
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.cores import ELLIPSOID_SHAPE
-from carom.systems.kernels.frames import turned
+from carom.systems.kernels.frames import turned, turned_back
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.spatial import cross
 from carom.systems.kernels.unrolling import rolls
 
 #: Numbers of a pair: how far either core reaches from the centre of its body, which is the smaller, and how far a
-#: contact is trusted; how far from the axes about which their bodies turn either core reaches, and how fast turning
-#: moves the smaller as seen from the other.
-NUMBERS = 7
-REACH, SMALLER, TRUSTED, LEVER, SWING = 0, 2, 3, 4, 6
+#: contact is trusted; how far from the axes about which their bodies turn either core reaches, how fast turning moves
+#: the smaller as seen from the other, and how both bodies turn about their own axes.
+NUMBERS = 13
+REACH, SMALLER, TRUSTED, LEVER, SWING, SPIN = 0, 2, 3, 4, 6, 7
 
 
 @woven
@@ -61,10 +61,17 @@ def is_of_revolution(c, shape, size):
 
 
 @woven
-def swing_about(x, y, z, found_x, found_y, found_z, lever, reach):
-    """Return how fast (m/s) a core moves by turning at (x, y, z), rad/s.
+def spin_of(i, turns, angular):
+    """Return how fast body i turns (rad/s) about its own axes."""
+    return turned_back(turns, i, angular[i, 0], angular[i, 1], angular[i, 2])
 
-    About the axis about which its body turned when its pair was found it has its ``lever``, about others its ``reach``.
+
+@woven
+def swing_about(x, y, z, found_x, found_y, found_z, lever, reach):
+    """Return how fast (m/s) a core moves as its body turns at (x, y, z), rad/s, about its own axes.
+
+    About the axis about which that turned when its pair was found it has its ``lever``, about others its ``reach``: on
+    the body it stays the axis it was, wherever that has turned to.
     """
     squared = found_x * found_x + found_y * found_y + found_z * found_z
     part = (x * found_x + y * found_y + z * found_z) / squared if squared > 0.0 else 0.0
@@ -73,17 +80,19 @@ def swing_about(x, y, z, found_x, found_y, found_z, lever, reach):
 
 
 @woven
-def swing_of(p, side, i, x, y, z, found_angular, numbers):
-    """Return how fast (m/s) one of pair p, of body i, moves by turning at (x, y, z), as `swing_about`."""
+def swing_of(p, side, x, y, z, numbers):
+    """Return how fast (m/s) one of pair p moves as its body turns at (x, y, z), as `swing_about`."""
+    spin = SPIN + 3 * side
     return swing_about(
-        x, y, z, found_angular[i, 0], found_angular[i, 1], found_angular[i, 2],
+        x, y, z, numbers[p, spin], numbers[p, spin + 1], numbers[p, spin + 2],
         numbers[p, LEVER + side], numbers[p, REACH + side],
     )  # fmt: skip
 
 
 @woven
-def swing_now(p, side, i, angular, found_angular, numbers):
+def swing_now(p, side, i, turns, angular, numbers):
     """Return how fast (m/s) one of pair p, of body i or none, moves as that turns now."""
     if i < 0:
         return 0.0
-    return swing_of(p, side, i, angular[i, 0], angular[i, 1], angular[i, 2], found_angular, numbers)
+    x, y, z = spin_of(i, turns, angular)
+    return swing_of(p, side, x, y, z, numbers)

@@ -5,11 +5,10 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APART_MARGIN, GLIDING, MEET
 from carom.systems.kernels.arriving import sought_to
-from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.fast_pairs import NEVER, between, motion_of
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.spatial import cross
-from carom.systems.kernels.swinging import LEVER, SMALLER, SWING, TRUSTED, swing_now, swing_of
+from carom.systems.kernels.swinging import SMALLER, SPIN, SWING, TRUSTED, spin_of, swing_now, swing_of
 
 
 @woven
@@ -61,7 +60,7 @@ def find_agreeing(
 
 
 @kernel("asked", within=True)
-def ask_straying(time, bodies, numbers, linear, angular, before_linear, before_angular, asked):
+def ask_straying(time, bodies, numbers, turns, linear, angular, before, asked):
     """Let who agreed when pairs were found, as velocities were ``before``, be ``asked`` once it goes another way.
 
     That is by more than at which a contact is found, within the ``time`` (s): as other impacts have it and, without
@@ -73,16 +72,15 @@ def ask_straying(time, bodies, numbers, linear, angular, before_linear, before_a
             i = bodies[p, side]
             if i < 0:
                 continue
-            x, y, z = (
-                angular[i, 0] - before_angular[i, 0], angular[i, 1] - before_angular[i, 1],
-                angular[i, 2] - before_angular[i, 2],
-            )  # fmt: skip
-            strays += between(i, i, linear, before_linear) + swing_of(p, side, i, x, y, z, before_angular, numbers)
+            x, y, z = spin_of(i, turns, angular)
+            spin = SPIN + 3 * side
+            x, y, z = x - numbers[p, spin], y - numbers[p, spin + 1], z - numbers[p, spin + 2]
+            strays += between(i, i, linear, before) + swing_of(p, side, x, y, z, numbers)
         asked[p] = asked[p] or strays * time > MEET * numbers[p, TRUSTED]
 
 
 @kernel("left")
-def spend_trust(elapsed, bodies, numbers, linear, angular, before_linear, before_angular, left):
+def spend_trust(elapsed, bodies, numbers, turns, linear, angular, before, left):
     """Take from what is ``left`` of the way (m) for which contacts of pairs are trusted what bodies went since a look.
 
     That was ``elapsed`` seconds ago, and how far they glide counts little (GLIDING); velocities ``before`` are those
@@ -91,13 +89,14 @@ def spend_trust(elapsed, bodies, numbers, linear, angular, before_linear, before
     for p in range(len(bodies)):
         i, o = bodies[p, 0], bodies[p, 1]
         came = GLIDING * max(
-            between(i, o, linear, linear), between(i, o, linear, before_linear),
-            between(i, o, before_linear, linear), between(i, o, before_linear, before_linear),
+            between(i, o, linear, linear), between(i, o, linear, before),
+            between(i, o, before, linear), between(i, o, before, before),
         )  # fmt: skip
         for side in range(2):
-            body, lever = bodies[p, side], numbers[p, LEVER + side]
+            spin = SPIN + 3 * side
             came += max(
-                swing_now(p, side, body, angular, before_angular, numbers), length_of(body, before_angular) * lever
+                swing_now(p, side, bodies[p, side], turns, angular, numbers),
+                swing_of(p, side, numbers[p, spin], numbers[p, spin + 1], numbers[p, spin + 2], numbers),
             )
         rest = left[p] - came * elapsed
         left[p] = rest if rest > APART_MARGIN * numbers[p, TRUSTED] else 0.0  # most often all of it, but for rounding
