@@ -62,6 +62,29 @@ def test_a_heavy_cube_sinks_in_by_what_springs_yield_that_bear_it(ratio: float, 
     assert np.abs(world[Motion].linear[rows]).max() < 1e-10
 
 
+@pytest.mark.parametrize("resistance", [0.0, 0.02])
+@pytest.mark.parametrize(("ratio", "below"), [(ratio, below) for ratio in (10.0, 100.0, 1000.0) for below in (1, 3)])
+def test_so_does_a_heavy_ball(ratio: float, below: int, resistance: float) -> None:
+    """On light ones: to rounding, but where loads are such as piles do not reach up to half as deep again."""
+    simulation = Simulation(sleeping=False, checked=False)
+    rolls = {"rolling_friction": resistance}
+    simulation.add(collider={"plane": {}}, material=rolls)
+    masses = [1.0] * below + [ratio]
+    for k, mass in enumerate(masses):
+        simulation.add(
+            collider={"sphere": {"radius": 0.5}}, body={"mass": mass}, material=rolls,
+            transform={"position": (0.0, 0.5 + k, 0.0)},
+        )  # fmt: skip
+    simulation.step(1200)
+    height = np.diff(simulation.world[Transform].position[simulation.world.row_numbers(RigidBody), 1], prepend=-0.5)
+    for k in range(below + 1):
+        bodies = 1.0 / masses[k] + (1.0 / masses[k - 1] if k else 0.0)
+        yields = sunk(sum(masses[k:]), bodies, rigid=k == 0)
+        least, most = (0.99, 1.5) if ratio > 10.0 else (1.0, 1.0)
+        assert least * yields - 1e-11 <= 1.0 - height[k] <= most * yields + 1e-11
+    assert np.abs(simulation.world[Motion].linear).max() < 1e-10
+
+
 @pytest.mark.parametrize(
     ("ratio", "below", "aside"),
     [(ratio, below, aside) for ratio in (100.0, 250.0, 1000.0) for below in (1, 3) for aside in (0.1, 0.2, 0.3)],

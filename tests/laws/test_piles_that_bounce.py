@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.spatial.distance import pdist
 
 from carom.ecs import Motion, RigidBody, Transform
 from carom.ecs.relations.contact import Contact
@@ -39,9 +40,9 @@ def add_bin(simulation: Simulation, side: float, material: dict[str, float]) -> 
     ("shape", "masses"), [*((shape, (500.0,)) for shape in SHAPES), ("balls", (1.0, 100.0, 10.0))], ids=str
 )
 def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ...], restitution: float) -> None:
-    """Bodies dropped into a bin, where walls press them: in the eleventh and twelfth second nobody strikes anybody.
+    """Bodies dropped into a bin, where walls press them: after twelve seconds nobody strikes anybody for two more.
 
-    Not even light ones that are wedged between heavy ones, which sink into them.
+    Not even light ones that are wedged between heavy ones, which do not sink into them.
     """
     simulation, random = Simulation(checked=False), np.random.default_rng(0)
     material = {"restitution": restitution} | RESISTANCE.get(shape, {})
@@ -51,20 +52,20 @@ def test_nothing_strikes_in_a_pile_that_lies(shape: str, masses: tuple[float, ..
     for k, place in enumerate(places):
         body = {"mass": masses[k % len(masses)]}
         simulation.add(collider=SHAPES[shape], body=body, transform={"position": tuple(place)}, material=material)
-    simulation.step(600)  # until then a ball may roll, which nothing slows, and meet somebody
+    simulation.step(720)  # until then a ball may roll, which nothing slows, and meet somebody
     for _ in range(120):
         simulation.step()
         assert simulation.world[Impact].count == 0
     rows, contact = simulation.world.row_numbers(RigidBody), simulation.world[Contact]
     assert np.abs(simulation.world[Transform].position[rows][:, [0, 2]]).max() < SIDE / 2.0
     assert np.linalg.norm(simulation.world[Motion].linear[rows], axis=1).max() <= 0.05  # balls roll on
-    assert contact.depth[: contact.count].max() <= (0.005 if len(masses) == 1 else 0.1)
+    assert contact.depth[: contact.count].max() <= (0.005 if len(masses) == 1 else 0.02)
 
 
 @pytest.mark.parametrize("masses", [(1.0,), (1.0, 100.0, 10.0)], ids=str)
 @pytest.mark.parametrize("restitution", [0.0, 0.5, 0.9])
 def test_a_pile_of_balls_falls_asleep(restitution: float, masses: tuple[float, ...]) -> None:
-    """A hundred in a bin, which roll with resistance, within 15 s."""
+    """A hundred in a bin, which roll with resistance, within 15 s; none has sunk into another by 2 % of its size."""
     simulation, random = Simulation(checked=False, sleeping=True), np.random.default_rng(3)
     material = {"restitution": restitution, "rolling_friction": 0.02, "spinning_friction": 0.02}
     add_bin(simulation, 4.6, material)
@@ -74,7 +75,9 @@ def test_a_pile_of_balls_falls_asleep(restitution: float, masses: tuple[float, .
         body = {"mass": masses[k % len(masses)]}
         simulation.add(collider=SHAPES["balls"], body=body, transform={"position": tuple(place)}, material=material)
     simulation.step(900)
-    assert simulation.world[Motion].asleep[simulation.world.row_numbers(RigidBody)].all()
+    rows = simulation.world.row_numbers(RigidBody)
+    assert simulation.world[Motion].asleep[rows].all()
+    assert pdist(simulation.world[Transform].position[rows]).min() >= 0.98
 
 
 def test_an_elastic_gas_keeps_its_energy() -> None:

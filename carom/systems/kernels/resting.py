@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import CALM, HEAVY, MANIFOLD_POINTS, MORE_SWEEPS, START_SWEEPS, STIRRED
+from carom.systems.constants import CALM, MANIFOLD_POINTS, MORE_SWEEPS, ROLL_SWEEPS, START_SWEEPS, STIRRED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, part_of_run, wait_for_all
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS, RUNS
@@ -19,16 +19,15 @@ from carom.systems.kernels.lanes import (
     load,
     planes,
     scatter,
-    smaller,
     some,
     spread,
     store,
     which,
 )
 from carom.systems.kernels.levers import frame_of, parting_of
-from carom.systems.kernels.packing import INVERSE_MASS, VELOCITY, read_velocities, write_velocities
+from carom.systems.kernels.packing import VELOCITY, read_velocities, write_velocities
 from carom.systems.kernels.pressing import SCRATCH_ROWS, press_points
-from carom.systems.kernels.resting_balls import parted_by, press_balls, press_balls_warm
+from carom.systems.kernels.resting_balls import outweighs, parted_by, press_balls, press_balls_warm
 from carom.systems.kernels.rubbing import BALLS, IDLE, ROLLING, RUBBING, TWISTING, roll, rub, slip, swerved
 from carom.systems.kernels.softness import of_any_load
 from carom.systems.kernels.stirring import (
@@ -133,7 +132,7 @@ def press_groups(
                         yielding = of_any_load(yielding)
                     excess, starts, bears, heavy = press(
                         g, row[g], points[g], asks[g], 1.0 / h, yielding, bearing, limit, g < ends[0],
-                        of_a, of_b, lanes, bodies, scratch,
+                        1 if again else ROLL_SWEEPS, of_a, of_b, lanes, bodies, scratch,
                     )  # fmt: skip
                     if len(joined):
                         heavy = larger(heavy, last_of(g, index_a, index_b, joined))
@@ -186,19 +185,21 @@ def sum_impulses(r, points, lanes):
 
 @woven
 def press(
-    g, r, points, asks, per_second, yielding, bearing, limit, both_yield, index_a, index_b, lanes, bodies, scratch
+    g, r, points, asks, per_second, yielding, bearing, limit, both_yield, roll_sweeps,
+    index_a, index_b, lanes, bodies, scratch,
 ):  # fmt: skip
     """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling.
 
+    Friction and rolling are solved by turns, at most so many times (``roll_sweeps``).
     All but rolling is found in the frames of manifolds, and what bodies move by is added up once.
     Return more than 0 where that changes by more than the ``limit`` (m/s) how fast bodies part: their centres where
     ``both_yield``, else each of their points, of flat ones many times as fast. More than 0 where no point has pressed
     before: friction turns bodies, against which points cannot press before the next sweep. And more than 0 where points
-    are loaded (`borne`), and where one body is so much heavier that others bear it (`outweighs`). Balls need none.
+    are loaded (`borne`), and where one body is so much heavier that others bear it (`outweighs`).
     """
     if asks == BALLS:
-        excess = press_balls(g, r, per_second, yielding, limit, index_a, index_b, lanes, bodies)
-        return excess, spread(0.0), spread(0.0), spread(0.0)
+        excess, bears, heavy = press_balls(g, r, per_second, yielding, bearing, limit, index_a, index_b, lanes, bodies)
+        return excess, spread(0.0), bears, heavy
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     parting, slipping = parting_of(r, lanes, a, b), slip(r, lanes, a, b)
     # Loops over a known number of points are unrolled.
@@ -213,7 +214,7 @@ def press(
     total, twisting, push, by_t, by_u, excess, bears = solved
     if asks == ROLLING:
         a, b = pressed(r, lanes, a, b, push, by_t, by_u)
-        a, b = roll(g, r, total, twisting, a, b, index_a, index_b, lanes, bodies)
+        a, b = roll(g, r, roll_sweeps, total, twisting, a, b, index_a, index_b, lanes, bodies)
     elif asks >= RUBBING:
         slipping = swerved(r, points, lanes, slipping, push, by_t, by_u)
         along, across, by_n, _ = rub(r, asks, slipping, total, twisting, lanes)
@@ -227,10 +228,3 @@ def press(
         second = load(lanes, r + MANIFOLD_ROWS + POINT_ROWS + of.DEPTH) - spread(0.5 * ABSENT)
         starts = choose(second, choose(total - push, spread(0.0), total), spread(0.0))
     return parted_by(push, a, b) - limit if both_yield else excess, starts, bears, outweighs(a, b)
-
-
-@woven
-def outweighs(a, b):
-    """Return more than 0 where one of two bodies that move is more than HEAVY times as heavy as the other."""
-    of_heavy, of_light = smaller(a[INVERSE_MASS], b[INVERSE_MASS]), larger(a[INVERSE_MASS], b[INVERSE_MASS])
-    return choose(of_heavy, of_light - HEAVY * of_heavy, spread(0.0))

@@ -7,14 +7,15 @@ line are alike.
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.constants import HEAVY
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import MANIFOLD_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, plus, three, times
-from carom.systems.kernels.lanes import choose, gather, larger, load, root, scatter, spread, store
+from carom.systems.kernels.lanes import choose, gather, larger, load, root, scatter, smaller, spread, store
 from carom.systems.kernels.manifolds import inverse_or_none
 from carom.systems.kernels.packing import EVEN_INERTIA, INVERSE_MASS, VELOCITY
-from carom.systems.kernels.softness import aimed_at, of_any_load
+from carom.systems.kernels.softness import aimed_at, borne
 
 
 @woven
@@ -82,16 +83,17 @@ def press_balls_warm(g, r, index_a, index_b, lanes, bodies):
 
 
 @woven
-def press_balls(g, r, per_second, yielding, limit, index_a, index_b, lanes, bodies):
+def press_balls(g, r, per_second, yielding, bearing, limit, index_a, index_b, lanes, bodies):
     """Solve a group once, as `press_points` and `rub` do: what parts balls does not rub them, so that both are one.
 
-    Return more than 0 where that changes how fast they part by more than the ``limit`` (m/s).
+    Return more than 0 where that changes how fast they part by more than the ``limit`` (m/s), where they are loaded
+    (`borne`), and where one is so much heavier that the other bears it (`outweighs`).
     """
     a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
     q, zero = r + MANIFOLD_ROWS, spread(0.0)
     depth, before, mass = load(lanes, q + of.DEPTH), load(lanes, q + of.WARM), load(lanes, q + of.MASS)
     parts, slips = parting_of_balls(r, lanes, a, b)
-    after = larger(zero, aimed_at(depth, before, mass, parts, per_second, yielding[0], of_any_load(yielding), zero)[0])
+    after = larger(zero, aimed_at(depth, before, mass, parts, per_second, yielding[0], yielding, bearing)[0])
     store(lanes, q + of.WARM, after)
     f = three(lanes, r + of.RUB)
     new = minus(f, times(load(lanes, r + of.GIVE), slips))
@@ -101,7 +103,14 @@ def press_balls(g, r, per_second, yielding, limit, index_a, index_b, lanes, bodi
     a, b = struck_balls(r, lanes, a, b, after - before, minus(new, f))
     scatter(bodies[VELOCITY], index_a, g, a)
     scatter(bodies[VELOCITY], index_b, g, b)
-    return parted_by(after - before, a, b) - limit
+    return parted_by(after - before, a, b) - limit, borne(before, after, mass, per_second), outweighs(a, b)
+
+
+@woven
+def outweighs(a, b):
+    """Return more than 0 where one of two bodies that move is more than HEAVY times as heavy as the other."""
+    of_heavy, of_light = smaller(a[INVERSE_MASS], b[INVERSE_MASS]), larger(a[INVERSE_MASS], b[INVERSE_MASS])
+    return choose(of_heavy, of_light - HEAVY * of_heavy, spread(0.0))
 
 
 @woven

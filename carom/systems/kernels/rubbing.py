@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
-from carom.systems.constants import ROLL_SWEEPS, ROLLING_SOLVED
+from carom.systems.constants import ROLLING_SOLVED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.impulses import rolled, struck
 from carom.systems.kernels.kernel import woven
@@ -68,10 +68,10 @@ def swerved(r, points, lanes, slipping, push, by_t, by_u):
 
 
 @woven
-def roll(g, r, total, twisting, a, b, index_a, index_b, lanes, bodies):
-    """Solve friction and rolling of a group by turns; return the velocities of both bodies."""
+def roll(g, r, sweeps, total, twisting, a, b, index_a, index_b, lanes, bodies):
+    """Solve friction and rolling of a group by turns, at most so many; return the velocities of both bodies."""
     (_, _, n), zero, most = frame_of(r, lanes), spread(0.0), load(lanes, r + of.FRICTION) * total
-    for _ in range(ROLL_SWEEPS):
+    for _ in range(sweeps):
         slipping = slip(r, lanes, a, b)
         t, u, by_n, slides = rub(r, ROLLING, slipping, total, twisting, lanes)
         a, b = struck(r, lanes, a, b, t, u, zero, zero, zero, by_n)
