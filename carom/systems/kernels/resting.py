@@ -190,8 +190,8 @@ def press(
 ):  # fmt: skip
     """Solve a group once: the points of each manifold one after the other, then friction, spinning and rolling.
 
-    Friction and rolling are solved by turns, at most so many times (``roll_sweeps``).
-    All but rolling is found in the frames of manifolds, and what bodies move by is added up once.
+    All but rolling is found in the frames of manifolds, and what bodies move by is added up once; friction and rolling
+    are solved by turns, at most so many times (``roll_sweeps``).
     Return more than 0 where that changes by more than the ``limit`` (m/s) how fast bodies part: their centres where
     ``both_yield``, else each of their points, of flat ones many times as fast. More than 0 where no point has pressed
     before: friction turns bodies, against which points cannot press before the next sweep. And more than 0 where points
