@@ -4,6 +4,11 @@
 # near. Larger: depths are wrong by as much and normals of round bodies by its root; smaller: refining takes longer.
 BRACKET = 1e-8
 
+# m, and part of what a pair reaches. FCL is not asked of pairs that are apart by more than they reach and this, found
+# by a search that ends once it knows their distance to that part. Smaller than BRACKET: what is as far as it reaches
+# might be missed; larger: FCL is asked in vain, as with a larger part; with a smaller one the search takes longer.
+SURELY_APART, ROUGHLY = 1e-6, 0.1
+
 # m. A corner that is less above a face of the growing polytope lies in it. Larger: bounds are wrong by as much;
 # smaller: rounding folds faces that lie in one plane.
 SEEN = 1e-12

@@ -14,6 +14,7 @@ from carom.systems.detection.fcl_single import measure_alone
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.kernels.fcl_narrow import refine_answers
 from carom.systems.kernels.fcl_order import arrange_for_fcl
+from carom.systems.kernels.fcl_reach import keep_near
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
 from carom.systems.shapes.cone import Cone
@@ -33,6 +34,16 @@ HAS_CORE = np.zeros(2 + max(shape.number for shape in CORES), np.bool_)
 HAS_CORE[[shape.number for shape in CORES]] = True
 ALONG_Z = np.zeros(len(HAS_CORE), np.bool_)
 ALONG_Z[[shape.number for shape in CORES if shape.along_z]] = True
+
+
+def near_enough(world: World, which: Integers, pairs: Integers, reaches: Floats) -> Integers:
+    """Return those of the pairs ``which`` that FCL is to be asked about: a kernel has not found them out of reach."""
+    collider, pose, kept = world[Collider], world[ColliderPose], np.empty_like(which)
+    count = keep_near(
+        which, pairs, reaches, collider.shape, collider.size, pose.position, pose.rotation, collider.geometry,
+        world[PackedHulls].holding(world), kept,
+    )  # fmt: skip
+    return kept[:count]
 
 
 def measure_by_fcl(world: World, which: Integers, pairs: Integers, reaches: Floats, points: Points) -> int:

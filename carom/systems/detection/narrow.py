@@ -10,7 +10,7 @@ from carom.ecs import Collider, ColliderPose, World
 from carom.ecs.column import Booleans, Floats, Integers
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.apart import Apart
-from carom.systems.detection.fcl_pairs import measure_by_fcl
+from carom.systems.detection.fcl_pairs import measure_by_fcl, near_enough
 from carom.systems.detection.hulls import PackedHulls
 from carom.systems.detection.meshes import PackedMeshes
 from carom.systems.detection.validity import without_faulty
@@ -159,8 +159,9 @@ def measure_pairs(
     for number, count in buckets:
         bucket, begin = slice(begin, begin + count), begin + count
         if number == BY_FCL:
-            answered.fcl += count
-            taken = measure_by_fcl(world, order[bucket], pairs, reaches, points)
+            asked = order[bucket] if table is NO_STAND_INS else near_enough(world, order[bucket], pairs, reaches)
+            answered.fcl, answered.kernels = answered.fcl + len(asked), answered.kernels + count - len(asked)
+            taken = measure_by_fcl(world, asked, pairs, reaches, points)
             continue
         answered.kernels += count
         FUNCTIONS[number - 1](
