@@ -29,7 +29,7 @@ CLOSED = [(a, b) for a in BALLS for b in ("sphere", "point", "box", "plane")]
 CLOSED += [(b, a) for a, b in CLOSED if b not in BALLS]
 
 
-@pytest.mark.parametrize("count", [200, pytest.param(2000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [800, pytest.param(2000, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("a", "b"), CLOSED)
 def test_kernels_agree_with_fcl(a: str, b: str, count: int) -> None:
     """In random poses, near and deep: the same normal and depth to 1e-9, 2e-9 m with FCL's points.
