@@ -17,7 +17,6 @@ from carom.systems.kernels.fast_pairs import (
     find_far,
     find_fast,
     find_quick,
-    find_trusts,
     let_go,
     place_fast,
     take_quick,
@@ -25,7 +24,7 @@ from carom.systems.kernels.fast_pairs import (
 from carom.systems.kernels.left_out import when_near, write_left_out
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.swinging import NUMBERS
-from carom.systems.kernels.trust import ask_straying, find_agreeing, spend_trust
+from carom.systems.kernels.trust import ask_straying, find_agreeing, find_trusts, spend_trust
 from carom.systems.looked import NO_PAIRS, NONE_LEFT_OUT, NOWHERE, FastPairs, Land, LeftOut, Looked
 from carom.systems.progress import Progress
 from carom.systems.settings import Settings

@@ -20,12 +20,12 @@ from carom.systems.kernels.blows import blow, foresee_blow
 from carom.systems.kernels.bodies import advance_body, is_on_joint
 from carom.systems.kernels.bouncing import patience_of, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
-from carom.systems.kernels.fast_pairs import coming_of
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.reach import time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
 from carom.systems.kernels.tournament import enter_time, pairs_of_bodies
+from carom.systems.kernels.trust import coming_of
 
 DONE, OUT_OF_REACH, TO_LOOK = 0, 1, 2  # why a flight ends
 FEW_IMPACTS = 64  # a flight has room for at first

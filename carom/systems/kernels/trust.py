@@ -2,13 +2,59 @@
 
 from __future__ import annotations
 
+from math import inf
+
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import APART_MARGIN, GLIDING, MEET
 from carom.systems.kernels.arriving import sought_to
+from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.fast_pairs import NEVER, between, motion_of
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.spatial import cross
-from carom.systems.kernels.swinging import SMALLER, SPIN, SWING, TRUSTED, spin_of, swing_now, swing_of
+from carom.systems.kernels.swinging import (
+    LEVER,
+    REACH,
+    SMALLER,
+    SPIN,
+    SWING,
+    TRUSTED,
+    spin_of,
+    swing_about,
+    swing_now,
+    swing_of,
+)
+
+
+@kernel("trusts")
+def find_trusts(bodies, numbers, linear, angular, trusts):
+    """Write of each body of these pairs how far it is trusted to go, how far it reaches, and how fast others come.
+
+    That is how far its contacts are trusted (m), how far it reaches from its centre (m), how fast those are whom it may
+    meet (m/s), as seen from the first of them, whose velocity comes next (3), and its lever (m) about the axis about
+    which it turns, its spin as it sees that (3); a ball about its body's centre turns without effect.
+    """
+    for p in range(len(bodies)):
+        for side in range(2):
+            i, o = bodies[p, side], bodies[p, 1 - side]
+            if i < 0:
+                continue
+            for k in range(3 if trusts[i, 0] == inf and o >= 0 else 0):
+                trusts[i, 3 + k] = linear[o, k]
+            trusts[i, 0] = min(trusts[i, 0], numbers[p, TRUSTED])
+            trusts[i, 1] = max(trusts[i, 1], numbers[p, REACH + side])
+            trusts[i, 6] = max(trusts[i, 6], numbers[p, LEVER + side])
+            for k in range(3):
+                trusts[i, 7 + k] = numbers[p, SPIN + 3 * side + k]
+            comes = between(o, i, linear, trusts[:, 3:]) + length_of(o, angular) * numbers[p, LEVER + 1 - side]
+            trusts[i, 2] = max(trusts[i, 2], comes)
+
+
+@woven
+def coming_of(i, turns, linear, angular, trusts):
+    """Return how fast (m/s) body i and those whom it may meet come to each other as it moves now."""
+    x, y, z = spin_of(i, turns, angular)
+    swing = swing_about(x, y, z, trusts[i, 7], trusts[i, 8], trusts[i, 9], trusts[i, 6], trusts[i, 1])
+    return between(i, i, linear, trusts[:, 3:]) + trusts[i, 2] + swing
 
 
 @woven
