@@ -24,9 +24,12 @@ from carom.systems.kernels.fast_pairs import (
 from carom.systems.kernels.left_out import when_near, write_left_out
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.swinging import NUMBERS
+from carom.systems.kernels.telling import ask_told
+from carom.systems.kernels.told import renew_told, write_told
 from carom.systems.kernels.trust import ask_straying, find_agreeing, find_trusts, spend_trust
-from carom.systems.looked import NO_PAIRS, NONE_LEFT_OUT, NOWHERE, FastPairs, Land, LeftOut, Looked
+from carom.systems.looked import NO_PAIRS, NONE_LEFT_OUT, NONE_TOLD, NOWHERE, FastPairs, Land, LeftOut, Looked, Told
 from carom.systems.progress import Progress
+from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 
 
@@ -38,7 +41,8 @@ class Fast(Resource):
     """
 
     def __init__(self) -> None:
-        self.all, self.land, self.left_out = NO_PAIRS, NOWHERE, NONE_LEFT_OUT
+        self.all, self.land, self.left_out, self.told = NO_PAIRS, NOWHERE, NONE_LEFT_OUT, NONE_TOLD
+        self._times: Floats = np.empty(0)  # when each pair is to be looked at, by the last look
         self.trusts: Floats = np.zeros((0, 10))
         self._limited = False  # whether some of them are finite
 
@@ -68,7 +72,7 @@ class Fast(Resource):
         given, reaches = fast.copy(), numbers.copy()
         self.land, self._limited = look_at(world, fast, center, self.all.looked), True
         find_trusts(self.all.looked.bodies, numbers, motion.linear, motion.angular, self.trusts)
-        times, agrees = self._times(world, center, span, found=True), np.empty(len(fast), np.bool_)
+        times, agrees = self._foresee(world, center, span, found=True), np.empty(len(fast), np.bool_)
         find_agreeing(
             given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
             pose.body_row, world[Flight].reach, center, motion.linear, motion.angular, agrees,
@@ -93,6 +97,42 @@ class Fast(Resource):
             )  # fmt: skip
         return found.without(far, number)
 
+    def note(self, world: World) -> None:
+        """Note where on their bodies the contacts in the table are."""
+        self.told = NONE_TOLD
+        if not len(self.all.pairs):
+            return
+        contact = world[Contact]
+        self.told = Told.room(len(self.all.pairs), contact.count)
+        write_told(
+            self.all.pairs, contact.count, contact.kind, contact.row_a, contact.row_b, contact.body_a, contact.body_b,
+            contact.normal, contact.depth, contact.point, world[Collider].bound_radius, world[Flight].detected_center,
+            world[Transform].rotation, *self.told,
+        )  # fmt: skip
+
+    def tells(self, world: World, span: float) -> bool:
+        """Tell whether all who are to be looked at now meet where contacts in the table tell, and write how these are.
+
+        Then nobody needs to be detected anew: they are trusted again, within ``span`` seconds, and may strike again.
+        """
+        of, contact, motion, tells = self.all, world[Contact], world[Motion], np.empty(len(self.all.pairs), np.bool_)
+        center, rotation = world[Flight].center, world[Transform].rotation
+        bodies = contact.body_a, contact.body_b, contact.normal
+        if not ask_told(
+            span, center, rotation, motion.linear, motion.angular, accelerations(world), *of.looked, *self.land,
+            of.asked, self._times, *bodies, *self.told, of.left, tells,
+        ):  # fmt: skip
+            return False
+        collider, resting = world[Collider], world[Resting]
+        resting.sink(world)
+        renew_told(
+            resting.count, resting.start, resting.group_of, resting.lane_of, resting.row, resting.stale,
+            contact.row_a, contact.row_b, collider.shape, collider.bound_radius, *bodies, *self.told, tells,
+            center, rotation, motion.linear, motion.angular, contact.depth, contact.offset_a, contact.offset_b,
+            contact.resting, resting.lanes,
+        )  # fmt: skip
+        return True
+
     def let_go(self, contact: Contact) -> None:
         """Let contacts strike again of pairs of which one is new, or that are looked after: they may turn onto one."""
         let_go(self.pairs, contact.count, contact.row_a, contact.row_b, contact.resting)
@@ -109,7 +149,7 @@ class Fast(Resource):
         if not self.all.asked.any():
             return np.inf
         center, motion = world[Flight].center, world[Motion]
-        first = float(self._times(world, center, span, found=found, first_only=True).min())
+        first = float(self._foresee(world, center, span, found=found, first_only=True).min())
         near = when_near(span, *self.left_out, center, world[Transform].rotation, motion.linear, motion.angular)
         time = min(first, near)
         return time if time < span else np.inf
@@ -136,10 +176,10 @@ class Fast(Resource):
             before, of.asked,
         )  # fmt: skip
 
-    def _times(self, world: World, center: Floats, span: float, *, found: bool, first_only: bool = False) -> Floats:
+    def _foresee(self, world: World, center: Floats, span: float, *, found: bool, first_only: bool = False) -> Floats:
         """Return when (n,) each pair is to be looked at again."""
         motion, flight, of = world[Motion], world[Flight], self.all
-        times = np.empty(len(of.pairs))
+        times = self._times = np.empty(len(of.pairs))
         foresee_meetings(
             span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular,
             accelerations(world), flight.detected_center, flight.detected_rotation, flight.reach,

@@ -63,6 +63,19 @@ class LeftOut(NamedTuple):
         )  # fmt: skip
 
 
+class Told(NamedTuple):
+    """Where contacts of pairs that are looked after are on the cores of both bodies, as `write_told` says it."""
+
+    spans: Integers
+    around: Floats
+    places: Floats
+
+    @classmethod
+    def room(cls, pairs: int, count: int) -> Told:
+        """Return room for ``count`` contacts of so many pairs, to be written."""
+        return cls(np.empty((pairs, 2), np.int64), np.empty(count), np.empty((count, 2, 3)))
+
+
 class FastPairs(NamedTuple):
     """Pairs (n, 2) of collider rows that are fast, a mesh first, and what is looked at of them.
 
@@ -89,4 +102,5 @@ class FastPairs(NamedTuple):
 
 NOWHERE = Land(np.empty(0, np.float32), np.empty(0, np.int32), np.empty(0), np.zeros((TRIANGLE_CORNERS, 3)))
 NONE_LEFT_OUT = LeftOut.room(0)
+NONE_TOLD = Told.room(0, 0)
 NO_PAIRS = FastPairs.of(np.empty((0, 2), np.int64), Looked.room(np.empty((0, NUMBERS))), np.empty((0, 3)))

@@ -123,7 +123,7 @@ def hand_impulses_over(world: World, dt: float) -> None:
 def drift(world: World, dt: float) -> None:
     """Fly every body along its arc, reflected at each impact; detect anew where one may meet whom nobody foresaw."""
     contact, progress, fast = world[Contact], world[Progress], world[Fast]
-    at, events, looks, stuck, soon = 0.0, 0, 0, 0, None
+    at, events, looks, stuck, soon = 0.0, 0, 0.0, 0, None
     begun, progress.stopped = progress.stopped, None
     if contact.count and not begun:
         contact.strikes[: contact.count] = contact.plastic[: contact.count] = 0
@@ -141,8 +141,15 @@ def drift(world: World, dt: float) -> None:
         _finish(world, dt, ended=False)
         left = dt - at
         soon = fast.look_on(world, at - before[0], left) if looks < MOST_LOOKS else inf
+        told = soon == 0.0 and (at, events) != before and fast.tells(world, left)
+        if told:
+            _begin_anew(world)
+            soon = fast.next_look(world, left, found=False)
         holds = soon > 0.0 and (at, events) != before and (reason == TO_LOOK or detection_holds(world, left))
-        looks += not holds or events == before[1]  # there is an end to impacts anyway
+        if told and holds:  # each pair at its own time
+            looks += 1.0 / len(fast.all.pairs)
+        else:
+            looks += not holds or events == before[1]  # there is an end to impacts anyway
         if holds:
             continue
         soon = None
@@ -150,11 +157,16 @@ def drift(world: World, dt: float) -> None:
         world[Resting].hand_over(world)
         detect_again(world, left)
         fast.let_go(contact)
-        rows, flight = world[Awake].now(world), world[Flight]
-        flight.start_center[rows], flight.turned[rows] = flight.center[rows], 0.0  # depths are those of now
+        _begin_anew(world)
         stuck = stuck + 1 if (at, events) == before else 0
         if stuck > 1:  # whose speed has no square leaves any reach at once; it is told at the end of the step
-            flight.reach[rows] = inf
+            world[Flight].reach[world[Awake].now(world)] = inf
+
+
+def _begin_anew(world: World) -> None:
+    """Let bodies fly on from where they are: depths are those of now."""
+    rows, flight = world[Awake].now(world), world[Flight]
+    flight.start_center[rows], flight.turned[rows] = flight.center[rows], 0.0
 
 
 def _fly(world: World, at: float, h: float, events: int, until: float) -> tuple[float, int, int]:

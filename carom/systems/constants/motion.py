@@ -17,7 +17,25 @@ TRUST = 0.25
 # what glides over an edge at hundreds of m/s is struck by the face that has ended there.
 GLIDING = 0.25
 
-# Part of that at which a body on its way is near enough for its contact to be found. Smaller: more steps to come there.
+# Part of what contacts are trusted by which the nearest of them and its pair may differ in how far they are apart, where
+# contacts still tell how that meets. Larger: rims that roll on are struck beside where they touch. Smaller: more
+# detections.
+TOLD = 0.05
+
+# Cosine of 0.04 rad, by which the normal of such a contact may lean. Smaller: what turns about an edge is struck along
+# where its face was. Larger: more detections.
+TOLD_ALIKE = 0.9992
+
+# Part of what contacts are trusted that is left where they are asked too when others are. Larger: more are asked each
+# time. Smaller: more often.
+SOON_SPENT = 0.5
+
+# Part of what contacts are trusted by which the nearest of something round must be off to be put where that is nearest.
+# Larger: it stays behind as a rim rolls on. Smaller: of those of two faces that lie on each other one is put anywhere.
+ROLLED_ASIDE = 0.005
+
+# Part of what contacts are trusted at which a body on its way is near enough for its contact to be found. Smaller: more
+# steps to come there.
 MEET = 0.25
 
 # Steps towards a meeting, and detections in the middle of a substep for those who are fast. Fewer: bodies that tumble
@@ -26,7 +44,7 @@ MOST_LOOKS = 64
 
 # Pairs of two fast bodies that can both be pushed, up to which they are looked after, and detections in a step up to
 # which they are. More: clouds of fragments are detected again and again. Fewer: some turn off by a tenth.
-FEW_MEETING = 8
+FEW_MEETING = 32
 
 # m/s. A body no point of which is faster may fall asleep, with its island. Larger: what rolls out slowly stops short.
 # Smaller: tall piles, of which cubes tremble by a tenth of this, stay awake longer.

@@ -97,6 +97,7 @@ def detect(world: World, left: float, soon: float) -> None:
         np.copyto(world[Flight].detected_rotation, world[Transform].rotation)
     world[Fast].find(world, *fast, free, found, left)
     store(world, without_seams(world, world[Fast].trusted(world, found)), left)
+    world[Fast].note(world)
 
 
 def find(world: World, pairs: Integers, span: float) -> Found:

@@ -18,9 +18,9 @@ from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, w
 from carom.systems.kernels.distance import APART, FAR, MEETING
 from carom.systems.kernels.expansion import expand
 from carom.systems.kernels.fast_pairs import NEVER, between
-from carom.systems.kernels.frames import put, put_both, turned, turned_back
+from carom.systems.kernels.frames import put, put_both, turned
 from carom.systems.kernels.kernel import inlined, kernel
-from carom.systems.kernels.mesh_tree import FEW, TRIANGLE, all_triangles
+from carom.systems.kernels.mesh_tree import FEW, put_triangle, triangles_around
 from carom.systems.kernels.nearing import MOST_STEPS, near
 from carom.systems.kernels.parting_cores import normal_or_centers, part_from_half_space
 from carom.systems.kernels.polytope import MOST_CORNERS, MOST_FACES
@@ -157,17 +157,14 @@ def foresee_meetings(
             left[p] = trusted
         else:
             put(0, i, 0.0, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
-            lx, ly, lz = center[o, 0] - position[0, 0], center[o, 1] - position[0, 1], center[o, 2] - position[0, 2]
-            lx, ly, lz = turned_back(rotation, 0, lx, ly, lz)
             wide = numbers[p, REACH + 1] + core[CORE + AROUND] + numbers[p, TRUSTED]  # and turning, but of the mesh
             wide += limit * (between(i, o, linear, linear) + length_of(i, angular) * numbers[p, REACH])
-            count, touched = all_triangles(
-                roots[p], bounds, nodes, triangles,
-                lx - wide, ly - wide, lz - wide, lx + wide, ly + wide, lz + wide, touched,
+            count, touched = triangles_around(
+                roots[p], bounds, nodes, triangles, position, rotation, center[o, 0], center[o, 1], center[o, 2], wide,
+                touched,
             )  # fmt: skip
             for c in range(count):
-                for k in range(9):
-                    room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * touched[c] + k]
+                put_triangle(touched[c], triangles, room)
                 time, way = meet(
                     p, i, o, min(limit, soonest), known, True, numbers, core, room, center, turns, linear, angular,
                     felt, detected_center, detected_turns, reach, local_position, local_rotation, position, rotation,

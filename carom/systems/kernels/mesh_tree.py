@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.kernels.kernel import kernel, making, woven
+from carom.systems.kernels.frames import turned_back
+from carom.systems.kernels.kernel import inlined, kernel, making, woven
 from carom.systems.kernels.selection import select, widest_axis
 
 LEAF = 8  # triangles at most
@@ -94,6 +95,25 @@ def all_triangles(root, bounds, nodes, triangles, lx, ly, lz, hx, hy, hz, found)
         if near <= len(found):
             return near, found
         found = grown(found)
+
+
+@making
+def triangles_around(root, bounds, nodes, triangles, position, rotation, x, y, z, wide, found):
+    """Return what `all_triangles` does, as near as ``wide`` (m) along each axis to a place in the world.
+
+    The mesh is at the first position and rotation.
+    """
+    x, y, z = turned_back(rotation, 0, x - position[0, 0], y - position[0, 1], z - position[0, 2])
+    return all_triangles(
+        root, bounds, nodes, triangles, x - wide, y - wide, z - wide, x + wide, y + wide, z + wide, found
+    )  # fmt: skip
+
+
+@inlined
+def put_triangle(t, triangles, room):
+    """Write the corners of a triangle into the last three vertices that there is ``room`` for."""
+    for k in range(9):
+        room[len(room) - 3 + k // 3, k % 3] = triangles[TRIANGLE * t + k]
 
 
 @making

@@ -184,6 +184,7 @@ def compile_frame() -> None:
 def compile_rest() -> None:
     """Let a ball fall asleep and wake, and another, which is not balanced, fly at one that stands; reach out."""
     from carom.ecs.components.joint import FREE, LOCKED, Joint
+    from carom.systems.continuous import Fast
     from carom.systems.kernels.crew import make_crew, serve
     from carom.systems.kernels.observing import compile_observing
     from carom.systems.kinematics import Kinematics
@@ -203,6 +204,8 @@ def compile_rest() -> None:
     unbalanced = {"mass": 1.0, "center_of_mass": (0.1, 0.0, 0.0)}
     simulation.add(collider=ball, body=unbalanced, transform=place, motion=flies)
     simulation.step()
+    with simulation.world.faces(None):
+        simulation.world[Fast].tells(simulation.world, 1.0)
     simulation.wake(sleeper)
     simulation.step()
     why_awake(simulation, sleeper)
