@@ -17,8 +17,8 @@ TRUST = 0.25
 # what glides over an edge at hundreds of m/s is struck by the face that has ended there.
 GLIDING = 0.25
 
-# Part of what contacts are trusted by which the nearest of them and its pair may differ in how far they are apart, where
-# contacts still tell how that meets. Larger: rims that roll on are struck beside where they touch. Smaller: more
+# Part of what contacts are trusted by which the nearest of them may be nearer or farther than its pair, where contacts
+# still tell how that meets. Larger: rims that roll on are struck beside where they touch. Smaller: more
 # detections.
 TOLD = 0.05
 
