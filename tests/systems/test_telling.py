@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from carom.ecs import Collider, Transform
+from carom.ecs import Collider, Motion, Transform
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -59,17 +59,17 @@ def found(
     return simulation
 
 
-def tells(simulation: Simulation, way: Floats, turn: Floats) -> bool:
-    """Tell whether the contacts tell where the body meets once it has come so far and turned so."""
+def tells(simulation: Simulation, way: Floats, turn: Floats, *, span: float = 1e-6) -> bool:
+    """Tell whether the contacts tell where the body meets once it has come so far and turned so, and ``span`` on."""
     world, row = simulation.world, simulation.world.row(int(simulation.world.find("it")))
     with world.faces(None):
         transform, flight, fast = world[Transform], world[Flight], world[Fast]
         transform.rotation[row] = quaternion.multiply(turn, transform.rotation[row])
         flight.center[row] = flight.start_center[row] = flight.detected_center[row] + way
         fast.all.asked[:], fast.all.near[:], fast.all.left[:] = True, True, 0.0
-        assert fast.next_look(world, 1e-6, found=False) == 0.0
-        answer = fast.tells(world, 1e-6)
-        assert (fast.next_look(world, 1e-6, found=False) > 0.0) == answer  # it is trusted again
+        assert fast.next_look(world, span, found=False) == 0.0
+        answer = fast.tells(world, span)
+        assert (fast.next_look(world, span, found=False) > 0.0) == answer  # it is trusted again
     return answer
 
 
@@ -122,6 +122,17 @@ def test_who_has_come_beyond_the_end_of_a_face_is_detected_anew() -> None:
     for way, answer in ((0.01, True), (0.0205, False)):
         simulation = found(PLATE, rotation, TILE, at=(end - 0.02 - corner, 0.0))
         assert tells(simulation, np.array([way, 0.0, 0.0]), EVEN) == answer
+
+
+@pytest.mark.parametrize(("speed", "answer"), [(20.0, False), (-20.0, True), (0.2, True)])
+def test_who_comes_beyond_the_end_before_it_is_asked_again_is_detected_anew(speed: float, answer: bool) -> None:
+    """It is 2 mm before the end; contacts are trusted for 5 mm, and for a millisecond."""
+    rotation, end = quaternion.from_axis_angle(Z, 1.0), 2.0
+    corner = quaternion.rotate(rotation, np.array([-0.3, -0.02, 0.0]))[0]
+    simulation = found(PLATE, rotation, TILE, at=(end - 0.002 - corner, 0.0))
+    with simulation.world.edit(Motion) as motion:
+        motion.linear[:], motion.angular[:] = (speed, 0.0, 0.0), 0.0
+    assert tells(simulation, np.zeros(3), EVEN, span=1e-3) == answer
 
 
 @pytest.mark.parametrize(("angle", "answer"), [(0.01, True), (0.1, False)])
