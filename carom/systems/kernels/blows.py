@@ -25,6 +25,7 @@ from carom.systems.kernels.bodies import (
     surface_velocity,
 )
 from carom.systems.kernels.bouncing import bounce_of
+from carom.systems.kernels.coming_up import coming_up
 from carom.systems.kernels.kernel import inlined, making
 from carom.systems.kernels.leaping import leap, times_of_way
 from carom.systems.kernels.point_coupling import couple_points, part_points, parted, yields_at
@@ -121,8 +122,13 @@ def blow(
     if speed <= APPROACH:
         return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, True
     i, o, to_i = (a, b, -1.0) if a >= 0 else (b, a, 1.0)
+    c = touching[0]
+    turning = coming_up(
+        a, b, at_a[c, 0], at_a[c, 1], at_a[c, 2], at_b[c, 0], at_b[c, 1], at_b[c, 2], nx, ny, nz, linear, angular,
+        inverse_mass,
+    )  # fmt: skip
     bounce = bounce_of(
-        restitution[first], speed, i, o, to_i * nx, to_i * ny, to_i * nz, h, struck_before, felt, acceleration
+        restitution[first], speed, i, o, to_i * nx, to_i * ny, to_i * nz, h, struck_before, felt, acceleration, turning
     )  # fmt: skip
     movable, solved = movable_of(a, b, inverse_mass), SOLVED * max(1.0, speed)
     for restoring in (False, True):  # until no point closes, then with what the bodies give back

@@ -29,10 +29,11 @@ def pushed(a, b, felt):
 
 
 @woven
-def bounce_of(e, speed, i, o, nx, ny, nz, h, struck_before, felt, acceleration):
+def bounce_of(e, speed, i, o, nx, ny, nz, h, struck_before, felt, acceleration, turning):
     """Return the restitution e of an impact at ``speed`` (m/s) along the normal n from o to i, or 0 if none bounces.
 
-    That is so where what presses the two together would let them land again within the substep of ``h`` seconds, and
+    That is so where what presses the two together, forces and ``turning`` (m/s2, as `coming_up` returns it), would let
+    them land again within the substep of ``h`` seconds, and
     where as many bounces as they have had in it leave nothing of a speed: what drives them into each other meanwhile
     are others who do the same, without end (McNamara and Young, Physics of Fluids A 4, 496, 1992).
     """
@@ -41,7 +42,7 @@ def bounce_of(e, speed, i, o, nx, ny, nz, h, struck_before, felt, acceleration):
         pressing = max(pressing, pushed(i, o, felt))
         if e**struck_before < ENDED:
             return 0.0
-    return e if speed > REST_SPEED_FACTOR * max(0.0, pressing) * h else 0.0
+    return e if speed > REST_SPEED_FACTOR * (max(0.0, pressing) + turning) * h else 0.0
 
 
 @woven

@@ -11,6 +11,7 @@ from carom.systems.kernels.balls import BOX
 from carom.systems.kernels.balls_in_lanes import are_balls, measure_balls_in_lanes
 from carom.systems.kernels.balls_on_still import are_on_still
 from carom.systems.kernels.bodies import is_on_joint
+from carom.systems.kernels.coming_up import coming_up_in_lanes
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.filling import find_tangents, place_points, places_of
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
@@ -221,16 +222,17 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     n, zero = three(lanes, r + of.NORMAL), spread(0.0)
     if balls:
         v, w = gather_four(bodies[VELOCITY], index_a, g, 0), gather_four(bodies[VELOCITY], index_b, g, 0)
-        parting, yields = (dot(n, minus(w, v)), zero, zero), v[INVERSE_MASS] + w[INVERSE_MASS]
+        parting, yields, turning = (dot(n, minus(w, v)), zero, zero), v[INVERSE_MASS] + w[INVERSE_MASS], zero
     else:
         a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
         parting, yields = parting_of(r, lanes, a, b), a[INVERSE_MASS] + b[INVERSE_MASS]
+        turning = coming_up_in_lanes(r, lanes, a, b)
     felt_a, felt_b = felt_of(bodies[MASS_AND_FELT], index_a, g), felt_of(bodies[MASS_AND_FELT], index_b, g)
     together, one = load(lanes, r + of.TOGETHER), spread(1.0)
     joined = together - 0.5 * JOINED
     restitution = load(lanes, r + of.RESTITUTION)
     waits = choose(joined, zero, larger(load(lanes, r + of.BALL), restitution))
-    pressing = larger(zero, larger(dot(n, felt_a), -dot(n, felt_b)))
+    pressing = larger(zero, larger(dot(n, felt_a), -dot(n, felt_b))) + turning
     held = zero
     for p in range(points):
         held = larger(held, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.WARM))
@@ -238,7 +240,7 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     bearing = held * (yields / h)
     # Without restitution there is no bounce to lose by resting, so that all that forces do counts; and bounces that
     # land again in the next substep, or that what one bears of the other would end within two, are none.
-    all_forces = root(larger(dot(felt_a, felt_a), dot(felt_b, felt_b)))
+    all_forces = root(larger(dot(felt_a, felt_a), dot(felt_b, felt_b))) + turning
     slow = choose(engaged, larger(all_forces, bearing), choose(restitution, pressing, all_forces))
     limit = slow * (REST_SPEED_FACTOR * h) + APPROACH
     near, striking = spread(-1.0), spread(-1.0)

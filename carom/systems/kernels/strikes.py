@@ -13,6 +13,7 @@ from carom.systems.kernels.bodies import (
     turned_by,
 )
 from carom.systems.kernels.bouncing import bounce_of
+from carom.systems.kernels.coming_up import coming_up
 from carom.systems.kernels.kernel import inlined
 from carom.systems.kernels.point_impulse import struck, within_energy
 from carom.systems.kernels.spatial import cross, spun
@@ -111,7 +112,8 @@ def strike(
     knx, kny, knz = kxx * nx + kxy * ny + kxz * nz, kxy * nx + kyy * ny + kyz * nz, kxz * nx + kyz * ny + kzz * nz
     if hardness(nx * knx + ny * kny + nz * knz, i, o, inverse_mass) == 0.0:  # what is locked lets the other pass
         return 0.0, 0.0, nx, ny, nz, px, py, pz, 0.0, 0.0, 0.0, True
-    bounce = bounce_of(restitution[p], -vn, i, o, nx, ny, nz, h, struck_before, felt, acceleration)
+    turning = coming_up(o, i, gx, gy, gz, rx, ry, rz, nx, ny, nz, linear, angular, inverse_mass)
+    bounce = bounce_of(restitution[p], -vn, i, o, nx, ny, nz, h, struck_before, felt, acceleration, turning)
     k = (kxx, kxy, kxz, kyy, kyz, kzz)
     jx, jy, jz, normal = struck(vn, sx, sy, sz, nx, ny, nz, k, bounce, friction[p])
     if friction[p] > 0.0:
