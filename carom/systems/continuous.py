@@ -117,17 +117,17 @@ class Fast(Resource):
         """
         of, contact, motion, tells = self.all, world[Contact], world[Motion], np.empty(len(self.all.pairs), np.bool_)
         center, rotation = world[Flight].center, world[Transform].rotation
-        bodies = contact.body_a, contact.body_b, contact.normal
+        of_contacts = contact.body_a, contact.body_b, contact.normal
         if not ask_told(
             span, center, rotation, motion.linear, motion.angular, accelerations(world), *of.looked, *self.land,
-            of.asked, self._times, *bodies, *self.told, of.left, tells,
+            of.asked, self._times, *of_contacts, *self.told, of.left, tells,
         ):  # fmt: skip
             return False
         collider, resting = world[Collider], world[Resting]
         resting.sink(world)
         renew_told(
             resting.count, resting.start, resting.group_of, resting.lane_of, resting.row, resting.stale,
-            contact.row_a, contact.row_b, collider.shape, collider.bound_radius, *bodies, *self.told, tells,
+            contact.row_a, contact.row_b, collider.shape, collider.bound_radius, *of_contacts, *self.told, tells,
             center, rotation, motion.linear, motion.angular, contact.depth, contact.offset_a, contact.offset_b,
             contact.resting, resting.lanes,
         )  # fmt: skip
