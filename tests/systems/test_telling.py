@@ -13,7 +13,7 @@ from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.ecs.spatial import quaternion
-from carom.systems.constants import TOLD, TRUST
+from carom.systems.constants import ROLLED_ASIDE, TOLD, TRUST
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
@@ -94,8 +94,8 @@ def test_who_has_come_on_by_as_much_as_it_is_thick_is_as_deep_as_contacts_tell(
     height = GAP + lowest(collider, rotation)
     rise = goal + lowest(collider, quaternion.multiply(turn, rotation)) - height
     assert tells(simulation, np.array([*random.uniform(-0.02, 0.02, 2), 0.0])[[0, 2, 1]] + rise * UP, turn)
-    exact = collider in (PLATE, ROD)
-    assert deepest(simulation) == pytest.approx(-goal, abs=1e-12 if exact else 0.01 * TOLD * TRUST)
+    exact = collider in (PLATE, ROD)  # what is less off than that stays where it is
+    assert deepest(simulation) == pytest.approx(-goal, abs=1e-12 if exact else 1.01 * ROLLED_ASIDE * TRUST * 0.02)
 
 
 def test_a_contact_that_is_off_does_not_tell() -> None:
@@ -139,14 +139,13 @@ def test_who_comes_beyond_the_end_before_it_is_asked_again_is_detected_anew(spee
 def test_who_has_turned_about_an_edge_is_detected_anew(angle: float, answer: bool) -> None:
     """It still touches there, but its face leads another way."""
     simulation = found(PLATE, EVEN, RIDGE, transform=ON_EDGE)
-    turn, down = quaternion.from_axis_angle(Z, angle), np.array([0.0, -0.02, 0.0])  # from its centre to its face
-    rise = GAP / np.cos(angle) - (GAP - down[1]) + 0.02 / np.cos(angle)
-    assert tells(simulation, rise * UP, turn) == answer
+    rise = (GAP + 0.02) * (1.0 / np.cos(angle) - 1.0)
+    assert tells(simulation, rise * UP, quaternion.from_axis_angle(Z, angle)) == answer
 
 
 @pytest.mark.parametrize("ground", [PLANE, TILE], ids=["plane", "field"])
 @pytest.mark.parametrize("collider", [PLATE, ROD], ids=["plate", "rod"])
-def test_what_tumbles_onto_the_ground_is_detected_once_in_a_step_and_strikes_as_ever(
+def test_what_tumbles_onto_the_ground_is_seldom_detected_anew_and_strikes_as_ever(
     collider: dict[str, Any], ground: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The first blow is that of a world that detects whenever contacts have been trusted as far as they are."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import MEET
 from carom.systems.kernels.fast_pairs import NEVER, first_of_pairs
-from carom.systems.kernels.frames import turned_back
+from carom.systems.kernels.frames import put_on
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.spatial import cross, turn
 from carom.systems.kernels.swinging import TRUSTED
@@ -28,10 +28,7 @@ def write_left_out(
         gaps[n], nears[n] = -depth[c], MEET * numbers[p, TRUSTED]
         for side in range(2):
             i = bodies[n, side] = body_row[row_a[c] if side == 0 else row_b[c]]
-            x, y, z = point[c, 0], point[c, 1], point[c, 2]
-            if i >= 0:
-                x, y, z = turned_back(rotation, i, x - center[i, 0], y - center[i, 1], z - center[i, 2])
-            places[n, side, 0], places[n, side, 1], places[n, side, 2] = x, y, z
+            put_on(n, side, i, point[c, 0], point[c, 1], point[c, 2], center, rotation, places)
         for k in range(3):
             normals[n, k] = normal[c, k]
         n += 1

@@ -6,16 +6,17 @@ import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.constants import ROLLED_ASIDE, SOON_SPENT, TOLD, TOLD_ALIKE
-from carom.systems.kernels.cores import AROUND, CONE, CORE, CYLINDER, ELLIPSOID, HALF_SPACE, KIND, PLACE, write_place
-from carom.systems.kernels.frames import placed, put_both, turned
-from carom.systems.kernels.kernel import inlined, kernel
+from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, write_place
+from carom.systems.kernels.frames import placed, put_both, put_on, turned
+from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.meeting import most_of
 from carom.systems.kernels.mesh_tree import FEW, put_triangle, triangles_around
 from carom.systems.kernels.nearing import MOST_STEPS
 from carom.systems.kernels.parting_cores import part, part_from_half_space
 from carom.systems.kernels.polytope import MOST_CORNERS, MOST_FACES
+from carom.systems.kernels.smooth import is_round
 from carom.systems.kernels.swinging import REACH, TRUSTED
-from carom.systems.kernels.told import gap_told, put_on
+from carom.systems.kernels.told import gap_told
 
 
 @kernel("room", "places", "left", "tells", makes_arrays=True)
@@ -78,7 +79,7 @@ def ask_told(
                     nearest, most_alike = c, alike
             off = abs(gap - rounds - told)
             true = nearest >= 0 and off <= TOLD * trust
-            if true and time == 0.0 and off > ROLLED_ASIDE * trust and (is_smooth(core, 0) or is_smooth(core, 1)):
+            if true and time == 0.0 and off > ROLLED_ASIDE * trust and is_round(core):
                 x, y, z = placed(position, rotation, 0, px, py, pz)
                 first = 0 if body_a[nearest] == i else 1
                 put_on(nearest, first, i, x, y, z, center, turns, places)
@@ -88,9 +89,3 @@ def ask_told(
         if true:
             left[p], tells[p] = trust, True
     return True
-
-
-@inlined
-def is_smooth(core, side):
-    """Tell whether a core turns beneath the points at which it touches."""
-    return core[side * CORE + KIND] in (CYLINDER, CONE, ELLIPSOID)

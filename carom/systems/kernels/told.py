@@ -6,7 +6,7 @@ from __future__ import annotations
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.blow_points import is_smooth, round_of
 from carom.systems.kernels.fast_pairs import first_of_pairs, is_of_pair
-from carom.systems.kernels.frames import turned_back
+from carom.systems.kernels.frames import put_on
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.spatial import spun, turn
@@ -39,14 +39,6 @@ def write_told(
             x, y, z = normal[c, 0], normal[c, 1], normal[c, 2]
             x, y, z = point[c, 0] + on * x, point[c, 1] + on * y, point[c, 2] + on * z
             put_on(c, side, i, x, y, z, center, rotation, places)
-
-
-@inlined
-def put_on(c, side, i, x, y, z, center, rotation, places):
-    """Write a place in the world as that of contact c on body i, or on what stands."""
-    if i >= 0:
-        x, y, z = turned_back(rotation, i, x - center[i, 0], y - center[i, 1], z - center[i, 2])
-    places[c, side, 0], places[c, side, 1], places[c, side, 2] = x, y, z
 
 
 @inlined
