@@ -54,7 +54,7 @@ def put_both(i, o, time, center, turns, linear, angular, local_position, local_r
 
 @inlined
 def put_on(n, side, i, x, y, z, center, rotation, places):
-    """Write a place of the world as the n-th of a side: in the frame of body i about its centre, or where that stands."""
+    """Write a place of the world as the n-th of a side: in the frame of body i about its centre, if there is one."""
     if i >= 0:
         x, y, z = turned_back(rotation, i, x - center[i, 0], y - center[i, 1], z - center[i, 2])
     places[n, side, 0], places[n, side, 1], places[n, side, 2] = x, y, z
