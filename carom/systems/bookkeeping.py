@@ -21,7 +21,7 @@ from carom.systems.linkage import Linkage
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.step import STEP
-from carom.systems.work import Moving, Pull, Velocities
+from carom.systems.work import Moving, Pull, Velocities, impulses_before
 
 if TYPE_CHECKING:
     from carom.systems.simulation import Simulation
@@ -114,7 +114,7 @@ class Bookkeeping:
         self._book_drag(self._start, self._dragged, np.where(self._kicked, h, 0.5 * h if scheme == "verlet" else 0.0))
         ledger.pull, ledger.arc = +flight.acceleration, np.zeros((len(flight.acceleration), ARC))
         self._arc_turns = flight.angular_acceleration[rows]
-        self._earlier, self._impacts = aligned(*world[Resting].lanes.shape), world.count(Impact)
+        self._earlier, self._impacts = impulses_before(world), world.count(Impact)
         self._earlier_joints = aligned(*world[Linkage].lanes.shape)
 
     def _hold(self) -> None:

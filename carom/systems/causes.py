@@ -18,7 +18,7 @@ from carom.systems.linkage import Linkage
 from carom.systems.observer import unobserved
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
-from carom.systems.work import BY_JOINTS, Moving
+from carom.systems.work import BY_JOINTS, Moving, impulses_before
 
 if TYPE_CHECKING:
     from carom.systems.simulation import Simulation
@@ -136,7 +136,7 @@ class _Account:
         self._add_drag(dragged - self._start, before * self._h)
         self._late = (1.0 - before) * self._h
         self._impacts = world.count(Impact)
-        self._earlier, self._earlier_joints = aligned(*world[Resting].lanes.shape), aligned(*world[Linkage].lanes.shape)
+        self._earlier, self._earlier_joints = impulses_before(world), aligned(*world[Linkage].lanes.shape)
 
     def _add_drag(self, change: Floats, time: float) -> None:
         """Share out what all drags did: each pulls by its flow, and by its part of the way that all have made of it."""

@@ -199,7 +199,7 @@ class Resting(Resource):
         sink_contacts(
             crew_for(world, self.count), self.groups, self.rows(world), flight.start_center, flight.center,
             flight.turned, world[RigidBody].inverse_mass, self.index_a, self.index_b, self.points, self.row,
-            self.bodies, self.lanes,
+            self.fresh, self.bodies, self.lanes,
         )  # fmt: skip
         tell_depths(
             crew_for(world, self.count), self.groups, self.first, self.size, self.row, contact.kind, self.lanes,

@@ -16,7 +16,7 @@ from carom.ecs.column import Floats, Integers
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.systems.bodies import dynamic_rows
-from carom.systems.kernels.accounting import find_work
+from carom.systems.kernels.accounting import count_from, find_work
 from carom.systems.kernels.joint_accounting import DROVE, ENTRIES, HELD, RUBBED, find_joint_work
 from carom.systems.kernels.lanes import WIDTH, aligned
 from carom.systems.kernels.packing import pack_velocities
@@ -26,6 +26,14 @@ from carom.systems.linkage import Linkage
 from carom.systems.resting import Resting
 
 BY_JOINTS = ("joints", "drives", "joint friction")
+
+
+def impulses_before(world: World) -> Floats:
+    """Return what impulses of contacts are counted from, once they are sorted, in a substep that begins."""
+    resting = world[Resting]
+    earlier = aligned(*resting.lanes.shape)
+    count_from(resting.groups, resting.points, resting.row, resting.asks, resting.lanes, earlier)
+    return earlier
 
 
 class Velocities(NamedTuple):

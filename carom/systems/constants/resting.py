@@ -24,6 +24,10 @@ TURNED = 1e-6
 # substeps ago, and tops that spin gain speed by what keeps them up. Smaller: it takes time, for what hardly turns.
 STALE_TURN = 1e-3
 
+# Radians by which one of two bodies turns in a substep before the frames of their contacts go on with the face. Larger:
+# what goes round together creeps. Smaller: it takes time, for what hardly does.
+LAGS = 1e-3
+
 # Points of a manifold; a pair with more on one plane has several.
 MANIFOLD_POINTS = 4
 

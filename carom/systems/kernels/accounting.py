@@ -8,10 +8,11 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
+from carom.systems.kernels.going_along import as_set_out
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
-from carom.systems.kernels.impulses import pressed, rolled, struck
+from carom.systems.kernels.impulses import rolled, struck
 from carom.systems.kernels.kernel import inlined, kernel, woven
-from carom.systems.kernels.lane_vectors import dot
+from carom.systems.kernels.lane_vectors import dot, keep, minus, three
 from carom.systems.kernels.lanes import address, gather, load, planes, spread, store
 from carom.systems.kernels.levers import frame_of
 from carom.systems.kernels.packing import VELOCITY
@@ -92,6 +93,26 @@ def note_arc(
         arc[i, STRAYED] += pull[i, k] * (way - (center[i, k] - kept[lane, k])) / inverse_mass[i]
 
 
+@kernel("earlier")
+def count_from(groups, points, row, asks, lanes, earlier):
+    """Write what impulses of a substep are counted from as it begins: from none.
+
+    Those of the substep before are applied as they were then (`as_set_out`): by how much that is more along the
+    tangents stands beside them.
+    """
+    lanes, earlier = address(lanes), address(earlier)
+    for g in range(groups):
+        if asks[g] == IDLE or asks[g] == BALLS:
+            continue
+        r, total = row[g], spread(0.0)
+        for p in range(points[g]):
+            total = total + load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.WARM)
+        (t, u, _), f = frame_of(r, lanes), three(lanes, r + of.RUB)
+        along, across = as_set_out(r, dot(t, f), dot(u, f), total, lanes)
+        x, y, z = minus(three(lanes, r + of.LAG), (along - dot(t, f), across - dot(u, f), spread(0.0)))
+        keep(earlier, r + of.LAG, x, y, z)
+
+
 @kernel("work")
 def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, earlier, momenta, work):
     """Write what impulses since ``earlier`` did to the bodies (J): two rows a group, along the normals and across.
@@ -120,7 +141,8 @@ def find_work(begin, end, index_a, index_b, points, row, asks, lanes, bodies, ea
         if asks[g] == BALLS:
             a, b = struck_balls(r, lanes, rest_a, rest_b, total, (zero, zero, zero))
         else:
-            a, b = pressed(r, lanes, rest_a, rest_b, total, by_t, by_u)
+            x, y, _ = gained_three(r + of.LAG, lanes, earlier)
+            a, b = struck(r, lanes, rest_a, rest_b, x, y, total, by_t, by_u, zero)
         store(work, 2 * g, given(p_a, a) + given(p_b, b))
         f = gained_three(r + of.RUB, lanes, earlier)
         if asks[g] == BALLS:

@@ -9,11 +9,11 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.bodies import surface_velocity
+from carom.systems.kernels.going_along import turns_by_itself
 from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.lane_vectors import cross, dot, minus, plus, spanned, three, times
 from carom.systems.kernels.lanes import choose, larger, some, spread
 from carom.systems.kernels.levers import frame_of
-from carom.systems.kernels.packing import INVERSE_MASS
 from carom.systems.kernels.spatial import cross as cross_of
 
 
@@ -41,8 +41,7 @@ def coming_up(a, b, ax, ay, az, bx, by, bz, nx, ny, nz, linear, angular, inverse
 def coming_up_in_lanes(r, lanes, a, b):
     """Return what `coming_up` does for the middles of eight manifolds, of bodies as they move."""
     none, w_a, w_b = spread(0.0), a[4:7], b[4:7]
-    turns_a = choose(a[INVERSE_MASS], none, dot(w_a, w_a))
-    turns_b = choose(b[INVERSE_MASS], none, dot(w_b, w_b))
+    turns_a, turns_b = turns_by_itself(a), turns_by_itself(b)
     if not (some(turns_a) or some(turns_b)):
         return none
     t, u, n = frame_of(r, lanes)

@@ -18,6 +18,7 @@ from carom.systems.kernels.groups import (
     DEPTH,
     FRICTION,
     GOES,
+    LAG,
     LAND,
     MANIFOLD_ROWS,
     MIDDLE_A,
@@ -46,6 +47,7 @@ from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, ti
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, spread, store
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE
 from carom.systems.kernels.resting_balls import are_even
+from carom.systems.kernels.spatial import plane_axes
 
 
 @shared("lanes")
@@ -88,6 +90,7 @@ def fill_groups(
         store(rows, r + PART, one)
         store(rows, r + BESIDE, zero)
         store(rows, r + SWUNG, zero)
+        keep(rows, r + LAG, zero, zero, zero)
         store(rows, r + ROLLING, rolls)
         store(rows, r + SPINNING, spins)
         x, y, z = pick_three(surface, at, sizes)
@@ -167,6 +170,23 @@ def place_points(g, r, points, first, size, offset_a, offset_b, depth, lanes):
         q, there = r + MANIFOLD_ROWS + POINT_ROWS * p, sizes - float(p)
         store(rows, q + AT, choose(there, load(rows, q + AT) - share * of_b[0], zero))
         store(rows, q + AT + 1, choose(there, load(rows, q + AT + 1) - share * of_b[1], zero))
+
+
+@woven
+def place_point(c, r, lane, normal, depth, offset_a, offset_b, lanes):
+    """Write the frame of a manifold of one contact, where that is in it, and how deep."""
+    x, y, z = normal[c, 0], normal[c, 1], normal[c, 2]
+    tx, ty, tz, ux, uy, uz = plane_axes(x, y, z)
+    for k, to, (ax, ay, az) in (
+        (0, TANGENT, (tx, ty, tz)), (1, TANGENT + 3, (ux, uy, uz)), (2, NORMAL, (x, y, z)),
+    ):  # fmt: skip
+        lanes[r + to, lane], lanes[r + to + 1, lane], lanes[r + to + 2, lane] = ax, ay, az
+        lanes[r + MIDDLE_A + k, lane] = ax * offset_a[c, 0] + ay * offset_a[c, 1] + az * offset_a[c, 2]
+        lanes[r + MIDDLE_B + k, lane] = ax * offset_b[c, 0] + ay * offset_b[c, 1] + az * offset_b[c, 2]
+    q = r + MANIFOLD_ROWS
+    lanes[q + AT, lane] = lanes[q + AT + 1, lane] = 0.0
+    lanes[r + LAG, lane] = lanes[r + LAG + 1, lane] = lanes[r + LAG + 2, lane] = 0.0
+    lanes[q + DEPTH, lane] = depth[c]
 
 
 @woven

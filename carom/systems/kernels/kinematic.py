@@ -1,47 +1,10 @@
-"""Kinematic bodies: what their turning does to what rests on them, and where they are at the end of a substep."""
+"""Kinematic bodies: where they are at the end of a substep."""
 
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
 from carom.systems.kernels.kernel import inlined
-from carom.systems.kernels.packing import ANGULAR, INVERSE_MASS, VELOCITY
 from carom.systems.kernels.spatial import spun, turn
-
-
-@inlined
-def follow_turning(c, a, b, time, bodies, normal, center, offset_a, offset_b):
-    """Let contact c on a turning kinematic body feel its surface ``time`` seconds on; tell whether there is such.
-
-    In the middle of the substep a body that keeps to the surface goes along the chord of its circle and so stays on it;
-    by the velocity at the start it would leave along the tangent. A ball whose arc bends comes to the surface's
-    velocity at the end of the substep, and needs that.
-    """
-    if turns(a, bodies):
-        ahead(c, b, a, time, bodies, normal, center, offset_b, offset_a)
-        return True
-    if turns(b, bodies):
-        ahead(c, a, b, time, bodies, normal, center, offset_a, offset_b)
-        return True
-    return False
-
-
-@inlined
-def turns(i, bodies):
-    """Tell whether body i is kinematic and turns."""
-    x, y, z = bodies[VELOCITY, i, ANGULAR], bodies[VELOCITY, i, ANGULAR + 1], bodies[VELOCITY, i, ANGULAR + 2]
-    return bodies[VELOCITY, i, INVERSE_MASS] == 0.0 and (x != 0.0 or y != 0.0 or z != 0.0)
-
-
-@inlined
-def ahead(c, i, o, time, bodies, normal, center, offset, offset_other):
-    """Move the offset of contact c from body o along the surface to where body i takes it in ``time`` seconds."""
-    along = 0.0
-    for k in range(3):
-        to = center[i, k] + offset[c, k] - center[o, k] + time * (bodies[VELOCITY, i, k] - bodies[VELOCITY, o, k])
-        along += normal[c, k] * (to - offset_other[c, k])
-    for k in range(3):
-        to = center[i, k] + offset[c, k] - center[o, k] + time * (bodies[VELOCITY, i, k] - bodies[VELOCITY, o, k])
-        offset_other[c, k] = to - along * normal[c, k]
 
 
 @inlined

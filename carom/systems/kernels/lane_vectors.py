@@ -67,3 +67,10 @@ def about(inertia, x, y, z):
         inertia[1] * x + inertia[3] * y + inertia[4] * z,
         inertia[2] * x + inertia[4] * y + inertia[5] * z,
     )
+
+
+@woven
+def swung(half, x):
+    """Return what a turn by twice ``half`` (rad) adds to a vector, to second order: it stays as long (Cayley)."""
+    across = cross(half, x)
+    return times(2.0 / (1.0 + dot(half, half)), plus(across, cross(half, across)))

@@ -6,6 +6,7 @@ from __future__ import annotations
 from carom.systems.constants import CALM, MANIFOLD_POINTS, MORE_SWEEPS, ROLL_SWEEPS, START_SWEEPS, STIRRED
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.crew import part_of, part_of_run, wait_for_all
+from carom.systems.kernels.going_along import as_set_out
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS, RUNS
 from carom.systems.kernels.impulses import pressed, rolled, struck
 from carom.systems.kernels.kernel import inlined, woven
@@ -61,6 +62,7 @@ def press_warm(g, r, points, asks, index_a, index_b, lanes, bodies):
         by_t, by_u = by_t + j * load(lanes, q + of.AT + 1), by_u - j * load(lanes, q + of.AT)
     f, (t, u, _) = three(lanes, r + of.RUB), frame_of(r, lanes)
     along, across = dot(t, f), dot(u, f)
+    along, across = as_set_out(r, along, across, total, lanes)
     by_n = load(lanes, r + of.SPUN) if asks >= TWISTING else spread(0.0)
     a, b = struck(r, lanes, a, b, along, across, total, by_t, by_u, by_n)
     if asks == ROLLING:

@@ -12,9 +12,9 @@ from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, store_flat
 from carom.systems.kernels.lane_vectors import dot, minus, three
 from carom.systems.kernels.lanes import WIDTH, address, choose, gather, gather_four, load, planes, some, spread, store
-from carom.systems.kernels.levers import sink_points
 from carom.systems.kernels.packing import WAY, write_ways
 from carom.systems.kernels.resting_balls import are_even
+from carom.systems.kernels.sinking import sink_points
 from carom.systems.kernels.spatial import turn
 
 
@@ -80,7 +80,7 @@ def finish_body(
 
 @shared("bodies", "lanes")
 def sink_contacts(
-    crew, groups, rows, start_center, center, turned, inverse_mass, index_a, index_b, points, row, bodies, lanes
+    crew, groups, rows, start_center, center, turned, inverse_mass, index_a, index_b, points, row, fresh, bodies, lanes
 ):  # fmt: skip
     """Write into the lanes of groups how deep contacts have come to be as bodies (rows) moved.
 
@@ -99,7 +99,7 @@ def sink_contacts(
             store(into, q + of.DEPTH, load(into, q + of.DEPTH) - dot(three(into, r + of.NORMAL), minus(b, a)))
             continue
         a, b = gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g)
-        sink_points(r, points[g], into, a, b)
+        sink_points(r, points[g], fresh[g], into, a, b)
 
 
 @shared("depth")

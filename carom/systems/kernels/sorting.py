@@ -13,10 +13,10 @@ from carom.systems.kernels.balls_on_still import are_on_still
 from carom.systems.kernels.bodies import is_on_joint
 from carom.systems.kernels.coming_up import coming_up_in_lanes
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
-from carom.systems.kernels.filling import find_tangents, place_points, places_of
+from carom.systems.kernels.filling import find_tangents, place_point, place_points, places_of
+from carom.systems.kernels.going_along import set_out
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.kinematic import follow_turning
 from carom.systems.kernels.lane_vectors import dot, minus, three
 from carom.systems.kernels.lanes import (
     WIDTH,
@@ -74,6 +74,7 @@ def sort_groups(
         if changed:
             looks[g] = g >= ends[0] or (some(load(rows, r + of.BALL)) and not are_balls(r, lanes))
         measured = g < ends[0] and are_balls(r, lanes)
+        on_still = False
         moved_on = measured
         if measured:
             measure_balls_in_lanes(g, r, are_even(r, lanes), of_a, of_b, rows, packed)
@@ -82,7 +83,7 @@ def sort_groups(
                 g, r, first, size, beside, center, rotation, kind, ball, other, sign, radius, extent,
                 other_position, other_rotation, normal, depth, point, offset_a, offset_b, lanes,
             )  # fmt: skip
-            moved_on = True
+            moved_on = on_still = True
         elif looks[g]:
             for lane in range(WIDTH):
                 c = first[g, lane]
@@ -95,24 +96,26 @@ def sort_groups(
                         c, center, rotation, kind, ball, other, sign, radius, extent, other_position, other_rotation,
                         normal, depth, point, offset_a, offset_b,
                     )  # fmt: skip
-                    for k in range(3):
-                        lanes[r + of.NORMAL + k, lane] = normal[c, k]
                     if kind[c] == BOX:
                         lanes[r + of.BESIDE, lane] = is_borne_beside(
                             c, beside, center, rotation, ball, other, sign, radius, extent,
                             other_position, other_rotation, normal, depth,
                         )  # fmt: skip
-                if g >= ends[0] and body_a[c] >= 0 and body_b[c] >= 0:
-                    time, a, b = h if bends and moves else 0.5 * h, body_a[c], body_b[c]
-                    for k in range(c, c + size[g, lane]):
-                        moves |= follow_turning(k, a, b, time, bodies, normal, center, offset_a, offset_b)
-                moved_on |= moves
+                    place_point(c, r, lane, normal, depth, offset_a, offset_b, lanes)
+                    moved_on = True
         if are_even(r, lanes):
             follow_normals(r, rows)
-        elif moved_on:
+        elif measured or on_still:
             find_tangents(r, rows)
-            if not measured:
+            if on_still:
                 place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
+        if measured:
+            parting, yields, turning = parting_of_balls(g, r, of_a, of_b, rows, packed)
+        else:
+            a, b = gather(packed[VELOCITY], of_a, g), gather(packed[VELOCITY], of_b, g)
+            moved_on |= set_out(g, r, points[g], h, bends, a, b, of_a, of_b, rows, packed)
+            parting, yields = parting_of(r, rows, a, b), a[INVERSE_MASS] + b[INVERSE_MASS]
+            turning = coming_up_in_lanes(r, rows, a, b)
         if moved_on:
             let_touch(r, rows)
         before = load(rows, r + of.RESTS)
@@ -122,7 +125,7 @@ def sort_groups(
             last = load(rows, r + of.TOGETHER) if not fresh[g] else spread(0.0)
             missed = choose(load(rows, r + of.BALL), spread(0.0), choose(last - RESTED, -last, spread(0.0)))
             store(rows, r + of.TOGETHER, choose(before, spread(RESTED), missed))
-        rests, lies = find_resting(g, r, points[g], measured, h, of_a, of_b, rows, packed)
+        rests, lies = find_resting(g, r, points[g], measured, h, parting, yields, turning, of_a, of_b, rows, packed)
         rests = rests * resting_stage
         store(rows, r + of.RESTS, rests)
         others = some(rests - before) or some(before - rests)
@@ -210,7 +213,15 @@ def forget(r, points, rests, even, lanes):
 
 
 @woven
-def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
+def parting_of_balls(g, r, index_a, index_b, lanes, bodies):
+    """Return how fast balls of a group part, as `parting_of` does, how they yield, and that none of them turns."""
+    v, w = gather_four(bodies[VELOCITY], index_a, g, 0), gather_four(bodies[VELOCITY], index_b, g, 0)
+    zero = spread(0.0)
+    return (dot(three(lanes, r + of.NORMAL), minus(w, v)), zero, zero), v[INVERSE_MASS] + w[INVERSE_MASS], zero
+
+
+@woven
+def find_resting(g, r, points, balls, h, parting, yields, turning, index_a, index_b, lanes, bodies):
     """Return 1 for each manifold that rests, else 0, and for each that lies: of which its bodies feel that they touch.
 
     One rests when one of its points touches or would by the end of the substep (of balls, and of what bounces, only
@@ -220,13 +231,6 @@ def find_resting(g, r, points, balls, h, index_a, index_b, lanes, bodies):
     second, and never be pushed out of those. But it does not lie.
     """
     n, zero = three(lanes, r + of.NORMAL), spread(0.0)
-    if balls:
-        v, w = gather_four(bodies[VELOCITY], index_a, g, 0), gather_four(bodies[VELOCITY], index_b, g, 0)
-        parting, yields, turning = (dot(n, minus(w, v)), zero, zero), v[INVERSE_MASS] + w[INVERSE_MASS], zero
-    else:
-        a, b = gather(bodies[VELOCITY], index_a, g), gather(bodies[VELOCITY], index_b, g)
-        parting, yields = parting_of(r, lanes, a, b), a[INVERSE_MASS] + b[INVERSE_MASS]
-        turning = coming_up_in_lanes(r, lanes, a, b)
     felt_a, felt_b = felt_of(bodies[MASS_AND_FELT], index_a, g), felt_of(bodies[MASS_AND_FELT], index_b, g)
     together, one = load(lanes, r + of.TOGETHER), spread(1.0)
     joined = together - 0.5 * JOINED

@@ -1,0 +1,122 @@
+"""Going along: contacts turn on within a step with whose face they are on.
+
+In a substep their frames are where that comes to be in its middle, so that how bodies part is right to second order:
+what goes round together does not creep. How far the face has turned on beyond its frame is its lag.
+"""
+
+from __future__ import annotations
+
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.constants import LAGS, TOUCH
+from carom.systems.kernels import groups as of
+from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
+from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, plus, swung, three, times
+from carom.systems.kernels.lanes import choose, gather_four, larger, load, some, spread
+from carom.systems.kernels.levers import frame_of
+from carom.systems.kernels.packing import CENTER, INVERSE_MASS
+
+TURNING_ROWS = (of.TANGENT, of.TANGENT + 3, of.NORMAL, of.RUB, of.ROLLED, of.SURFACE)  # vectors of a manifold
+
+
+@woven
+def turns_by_itself(body):
+    """Return more than 0 of bodies, given by their velocities, that are kinematic and turn."""
+    return choose(body[INVERSE_MASS], spread(0.0), dot(body[4:7], body[4:7]))
+
+
+@woven
+def turn_of_face(r, there, turn_a, turn_b, lanes):
+    """Return how the face turns ``there``, which is that of who has no corners (`goes_with_b`).
+
+    Of edges that cross it is half of each. What is round has none.
+    """
+    zero, goes = spread(0.0), load(lanes, r + of.GOES)
+    core_a, core_b = load(lanes, r + of.CORE_A), load(lanes, r + of.CORE_B)
+    by_a = choose(larger(core_a, -core_a), zero, choose(there, goes, zero))
+    by_b = choose(larger(core_b, -core_b), zero, choose(there, 1.0 - goes, zero))
+    return plus(times(by_a, turn_a), times(by_b, turn_b))
+
+
+@woven
+def set_out(g, r, points, h, bends, a, b, index_a, index_b, lanes, bodies):
+    """Turn frames of a group on to the middle of a substep of h seconds; tell whether one is turned.
+
+    So they are on what is kinematic and turns, and where they touch what else turns on by more than `LAGS`. Both
+    bodies have their points in one place then, which is where corners are.
+    """
+    zero, lag = spread(0.0), three(lanes, r + of.LAG)
+    on_a, on_b = turns_by_itself(a), turns_by_itself(b)
+    fast = larger(dot(a[4:7], a[4:7]), dot(b[4:7], b[4:7])) * (h * h) - LAGS * LAGS
+    deepest = zero + ABSENT
+    for p in range(points if some(fast) else 0):
+        deepest = larger(deepest, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.DEPTH))
+    fast = larger(larger(on_a, on_b), choose(deepest + TOUCH, fast, zero))
+    both_go = choose(larger(a[INVERSE_MASS], on_a), larger(b[INVERSE_MASS], on_b), zero)
+    ball = load(lanes, r + of.BALL)
+    fast = choose(both_go, choose(ball, choose(1.5 - ball, larger(on_a, on_b), zero), fast), zero)
+    if not some(larger(fast, dot(lag, lag))):
+        return False
+    half = turn_of_face(r, fast, times(0.5 * h, a[4:7]), times(0.5 * h, b[4:7]), lanes)
+    turn_frames(r, plus(half, lag), lanes)
+    arc = choose(ball, fast, zero) if bends else zero
+    x, y, z = where(choose(arc, zero, fast), half)  # what bends arcs comes in the middle, where frames are now
+    keep(lanes, r + of.LAG, -x, -y, -z)
+    from_a, from_b = gather_four(bodies[CENTER], index_a, g, 0), gather_four(bodies[CENTER], index_b, g, 0)
+    apart, way, frame = minus(from_b, from_a), times(0.5 * h, minus(b, a)), frame_of(r, lanes)
+    in_the_end = seen_from(frame, plus(apart, times(spread(2.0), way)))
+    apart, way, turn = seen_before(r, half, apart, lanes), seen_before(r, half, way, lanes), seen_from(frame, half)
+    along, across, _ = minus(way, cross(turn, apart))
+    squared = dot(half, half)
+    apart = times(1.0 - squared / 6.0, plus(apart, (along, across, zero)))  # chords are shorter than arcs
+    # Across the normal balls come to what the surface does at the end, as far as it turns about that.
+    part = choose(arc, turn[2] * turn[2] / larger(squared, spread(TINY)), zero)
+    along, across, _ = times(part, minus(in_the_end, apart))
+    apart = plus(apart, (along, across, zero))
+    middle_a, middle_b, goes = three(lanes, r + of.MIDDLE_A), three(lanes, r + of.MIDDLE_B), load(lanes, r + of.GOES)
+    off = where(fast, minus(apart, minus(middle_a, middle_b)))
+    x, y, z = plus(middle_a, times(choose(fast, goes, zero), off))
+    keep(lanes, r + of.MIDDLE_A, x, y, z)
+    x, y, z = minus(middle_b, times(choose(fast, 1.0 - goes, zero), off))
+    keep(lanes, r + of.MIDDLE_B, x, y, z)
+    return True
+
+
+@woven
+def turn_frames(r, turn, lanes):
+    """Turn the frames of a group, and what holds in the world that goes with them."""
+    half = times(0.5 + dot(turn, turn) / 24.0, turn)  # its tangent, for `swung` turns by twice the arc of that
+    for row in TURNING_ROWS:
+        x = three(lanes, r + row)
+        x = plus(x, swung(half, x))
+        keep(lanes, r + row, x[0], x[1], x[2])
+
+
+@woven
+def as_set_out(r, along, across, total, lanes):
+    """Return the impulse of a group along its tangents as it is at the start of the substep, in whose middle those are.
+
+    What takes velocities from the middle of the substep before to that of this one comes half way between: else it
+    would drag along what slides. What friction has along the normal then is left to that.
+    """
+    t, u, n = seen_from(frame_of(r, lanes), three(lanes, r + of.LAG))
+    return along + (u * total - n * across), across + (n * along - t * total)
+
+
+@woven
+def seen_from(frame, x):
+    """Return a vector in a frame."""
+    return dot(frame[0], x), dot(frame[1], x), dot(frame[2], x)
+
+
+@woven
+def seen_before(r, turn, x, lanes):
+    """Return a vector in frames of a group as they were before such a turn."""
+    return seen_from(frame_of(r, lanes), plus(x, swung(times(0.5, turn), x)))
+
+
+@woven
+def where(there, x):
+    """Return a vector, or nothing where ``there`` is not more than 0."""
+    zero = spread(0.0)
+    return choose(there, x[0], zero), choose(there, x[1], zero), choose(there, x[2], zero)

@@ -1,0 +1,133 @@
+"""Contacts go on within a step with the faces they are on: who slides goes as theory says, nobody creeps."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from carom.ecs import World
+from carom.ecs.relations.contact import Contact
+from carom.ecs.relations.impact import Impact
+from carom.ecs.spatial import quaternion
+from carom.systems.simulation import Simulation
+
+DT, G = 1.0 / 60.0, 9.81
+BOX: dict[str, Any] = {"box": {"size": (0.25, 0.25, 0.25)}}
+DRUM: dict[str, Any] = {"cylinder": {"radius": 0.125, "length": 0.25}}
+BALL: dict[str, Any] = {"sphere": {"radius": 0.125}}
+HALF, REACH = 0.125, 1.5 - 0.125  # m, of bodies, and of their centres from the axis of the wall
+ICE, ROUGH = {"friction": 0.0, "restitution": 0.0}, {"friction": 0.6, "restitution": 0.0}
+
+
+def beside_a_wall(spin: float, material: dict[str, float]) -> Simulation:
+    """Return a world without weight, in which a wall at x = 1.5 m turns about z (rad/s)."""
+    simulation = Simulation(dt=DT, gravity=(0.0, 0.0, 0.0), sleeping=False, checked=False)
+    body = {"type": "kinematic", "center_of_mass": (0.0, 0.0, 0.0)}
+    drum = simulation.add(body=body, motion={"angular": (0.0, 0.0, spin)})
+    wall = {"entity": drum, "position": (1.6, 0.0, 0.0)}
+    simulation.add(collider={"box": {"size": (0.2, 12.0, 3.0)}}, parent=wall, material=material)
+    return simulation
+
+
+def add_body(
+    simulation: Simulation,
+    collider: dict[str, Any],
+    spin: float,
+    place: tuple[float, float],
+    material: dict[str, float],
+) -> int:
+    """Add a body of 1 kg that goes along with what turns about z."""
+    x, y = place
+    return simulation.add(
+        collider=collider, body={"mass": 1.0}, material=material, transform={"position": (x, y, 0.0)},
+        motion={"linear": (-spin * y, spin * x, 0.0), "angular": (0.0, 0.0, spin)},
+    )  # fmt: skip
+
+
+def seen_from_the_wall(simulation: Simulation, body: int, spin: float) -> tuple[float, float]:
+    """Return where a body is as seen from what turns about z."""
+    x, y, _ = simulation[body].transform.position
+    angle = spin * simulation.frame * DT
+    return x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)
+
+
+def borne(world: World) -> float:
+    """Return by what all contacts bear (N)."""
+    contact = world[Contact]
+    return float(contact.impulse[: contact.count].sum()) / DT
+
+
+@pytest.mark.parametrize("collider", [BOX, DRUM, BALL], ids=["box", "drum", "ball"])
+@pytest.mark.parametrize("start", [0.2, -0.2])
+def test_what_slides_over_a_wall_that_turns_flies_off_by_cosh(collider: dict[str, Any], start: float) -> None:
+    """Without friction s = s0 cosh(w t), and it is borne by w^2 d + 2 w s' (Goldstein, section 4.10), in 0.35 s.
+
+    The wall is kept to 20 um and the way to 1e-3 of it. Impulses are of whole steps.
+    """
+    spin = 4.0
+    simulation = beside_a_wall(spin, ICE)
+    body = add_body(simulation, collider, spin, (REACH, start), ICE)
+    for _ in range(21):
+        simulation.step()
+        off, along = seen_from_the_wall(simulation, body, spin)
+        angle, middle = spin * simulation.frame * DT, spin * (simulation.frame - 0.5) * DT
+        assert off == pytest.approx(REACH, abs=2e-5)
+        assert along == pytest.approx(start * np.cosh(angle), rel=2e-3)
+        if simulation.frame > 2:
+            by_theory = spin * spin * (REACH + 2.0 * start * np.sinh(middle))
+            assert borne(simulation.world) == pytest.approx(by_theory, abs=0.01 * spin * spin * REACH)
+    ledger = simulation.keep_ledger()
+    simulation.step()
+    assert ledger.entries["friction"] == 0.0
+
+
+@pytest.mark.parametrize(("spin", "bound"), [(2.0, 3e-6), (4.0, 1.5e-5)])
+def test_nobody_in_a_stack_on_a_wall_that_turns_creeps(spin: float, bound: float) -> None:
+    """Four boxes, borne by each other, stay where they have come to lie after a second, for another."""
+    simulation = beside_a_wall(spin, ROUGH)
+    places = [(REACH - 0.25 * k, 0.0) for k in range(4)]
+    bodies = [add_body(simulation, BOX, spin, place, ROUGH) for place in places]
+    simulation.step(60)
+    before = [seen_from_the_wall(simulation, body, spin) for body in bodies]
+    simulation.step(60)
+    after = [seen_from_the_wall(simulation, body, spin) for body in bodies]
+    np.testing.assert_allclose(after, before, atol=bound)
+    np.testing.assert_allclose(after, places, atol=1.5e-4 * spin * spin)  # what they yield by
+
+
+@pytest.mark.parametrize("collider", [BOX, BALL], ids=["box", "ball"])
+@pytest.mark.parametrize("start", [0.5, -0.5])
+@pytest.mark.parametrize("spin", [0.5, -0.5])
+def test_what_slides_down_a_plank_that_tilts_goes_as_theory_says(
+    collider: dict[str, Any], start: float, spin: float
+) -> None:
+    """Without friction s'' = w^2 s - g sin(w t), to 0.1 mm in 0.6 s; the plank is kept to 2 um."""
+    simulation = Simulation(dt=DT, gravity=(0.0, -G, 0.0), sleeping=False, checked=False)
+    plank = {"box": {"size": (8.0, 0.2, 2.0)}}
+    simulation.add(collider=plank, body={"type": "kinematic"}, motion={"angular": (0.0, 0.0, spin)}, material=ICE)
+    body = add_body(simulation, collider, spin, (start, 0.1 + HALF), ICE)
+    simulation.step(36)
+    along, off = seen_from_the_wall(simulation, body, spin)
+    angle = spin * simulation.frame * DT
+    falls = 0.5 * G / spin**2  # s = A cosh(w t) + B sinh(w t) + g sin(w t) / (2 w^2), at rest on it at first
+    assert along == pytest.approx(start * np.cosh(angle) - falls * np.sinh(angle) + falls * np.sin(angle), abs=1e-4)
+    assert off == pytest.approx(0.1 + HALF, abs=2e-6)
+
+
+@pytest.mark.parametrize("collider", [DRUM, BALL], ids=["drum", "ball"])
+def test_a_wall_that_turns_away_is_not_struck(collider: dict[str, Any]) -> None:
+    """It is 1.5 m / cos(w t) away, which outruns 8 cm/s where 0.2 mm are between, but not 20 cm/s."""
+    for speed, strikes in ((0.08, 0), (0.2, 1)):
+        simulation = beside_a_wall(4.0, ICE)
+        turn = quaternion.from_axis_angle((1.0, 0.0, 0.0), 0.5 * np.pi)
+        simulation.add(
+            collider=collider, body={"mass": 1.0}, material=ICE, motion={"linear": (speed, 0.0, 0.0)},
+            transform={"position": (REACH - 2e-4, 0.0, 0.0), "rotation": turn},
+        )  # fmt: skip
+        struck = 0
+        for _ in range(10):
+            simulation.step()
+            struck += simulation.world.count(Impact)
+        assert struck == strikes
