@@ -131,3 +131,23 @@ def test_a_wall_that_turns_away_is_not_struck(collider: dict[str, Any]) -> None:
             simulation.step()
             struck += simulation.world.count(Impact)
         assert struck == strikes
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+def test_a_belt_on_a_turntable_runs_along_with_it(restitution: float) -> None:
+    """As seen from the turntable a box on it goes straight on at 0.5 m/s, to 0.2 mm in a second; so does its turn."""
+    spin, speed = 1.0, 0.5
+    simulation = Simulation(dt=DT, gravity=(0.0, 0.0, -G), sleeping=False, checked=False)
+    rough = {"friction": 0.5, "restitution": restitution}
+    simulation.add(
+        collider={"box": {"size": (8.0, 8.0, 0.5)}, "surface_velocity": (speed, 0.0, 0.0)}, material=rough,
+        body={"type": "kinematic"}, transform={"position": (0.0, 0.0, -0.25)}, motion={"angular": (0.0, 0.0, spin)},
+    )  # fmt: skip
+    body = simulation.add(
+        collider=BOX, body={"mass": 1.0}, material=rough, transform={"position": (-0.25, 0.1, HALF)},
+        motion={"linear": (speed - spin * 0.1, -spin * 0.25, 0.0), "angular": (0.0, 0.0, spin)},
+    )  # fmt: skip
+    simulation.step(60)
+    along, across = seen_from_the_wall(simulation, body, spin)
+    assert along == pytest.approx(-0.25 + speed, abs=2e-4)
+    assert across == pytest.approx(0.1, abs=2e-4)
