@@ -49,7 +49,7 @@ def group_contacts(world: World, *, places: bool, same: bool) -> None:
         refill_groups(
             crew_for(world, resting.count), resting.groups, resting.first, resting.size, resting.row, resting.points,
             resting.even, contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.share,
-            contact.surface, contact.resting, contact.row_a, contact.row_b, contact.body_a, contact.body_b,
+            contact.resting, contact.row_a, contact.row_b, contact.body_a, contact.body_b,
             contact.lean_a, contact.lean_b, collider.shape, collider.size, collider.bound_radius, resting.lanes,
         )  # fmt: skip
     else:

@@ -40,46 +40,58 @@ def turn_of_face(r, there, turn_a, turn_b, lanes):
 
 @woven
 def set_out(g, r, points, h, bends, a, b, index_a, index_b, lanes, bodies):
-    """Turn frames of a group on to the middle of a substep of h seconds; tell whether one is turned.
+    """Turn frames of a group on to the middle of a substep of h seconds; tell whether one is turned."""
+    zero, lag, fast = spread(0.0), three(lanes, r + of.LAG), those_that_turn(r, points, h, a, b, lanes)
+    if not some(larger(fast, dot(lag, lag))):
+        return False
+    half = turn_of_face(r, fast, times(0.5 * h, a[4:7]), times(0.5 * h, b[4:7]), lanes)
+    turn_frames(r, plus(half, lag), lanes)
+    arc = choose(load(lanes, r + of.BALL), fast, zero) if bends else zero
+    x, y, z = where(choose(arc, zero, fast), half)  # what bends arcs comes in the middle, where frames are now
+    keep(lanes, r + of.LAG, -x, -y, -z)
+    from_a, from_b = gather_four(bodies[CENTER], index_a, g, 0), gather_four(bodies[CENTER], index_b, g, 0)
+    meet_in_one_place(r, fast, arc, half, minus(from_b, from_a), times(0.5 * h, minus(b, a)), lanes)
+    return True
 
-    So they are on what is kinematic and turns, and where they touch what else turns on by more than `LAGS`. Both
-    bodies have their points in one place then, which is where corners are.
+
+@woven
+def those_that_turn(r, points, h, a, b, lanes):
+    """Return more than 0 of manifolds whose frames are to turn.
+
+    They are on what is kinematic and turns, or touch what else turns on by more than `LAGS` in h seconds; and both of
+    their bodies move. Two balls are measured in each substep.
     """
-    zero, lag = spread(0.0), three(lanes, r + of.LAG)
-    on_a, on_b = turns_by_itself(a), turns_by_itself(b)
-    fast = larger(dot(a[4:7], a[4:7]), dot(b[4:7], b[4:7])) * (h * h) - LAGS * LAGS
-    deepest = zero + ABSENT
+    zero, on_a, on_b = spread(0.0), turns_by_itself(a), turns_by_itself(b)
+    fast, deepest = larger(dot(a[4:7], a[4:7]), dot(b[4:7], b[4:7])) * (h * h) - LAGS * LAGS, spread(ABSENT)
     for p in range(points if some(fast) else 0):
         deepest = larger(deepest, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.DEPTH))
     fast = larger(larger(on_a, on_b), choose(deepest + TOUCH, fast, zero))
     both_go = choose(larger(a[INVERSE_MASS], on_a), larger(b[INVERSE_MASS], on_b), zero)
     ball = load(lanes, r + of.BALL)
-    fast = choose(both_go, choose(ball, choose(1.5 - ball, larger(on_a, on_b), zero), fast), zero)
-    if not some(larger(fast, dot(lag, lag))):
-        return False
-    half = turn_of_face(r, fast, times(0.5 * h, a[4:7]), times(0.5 * h, b[4:7]), lanes)
-    turn_frames(r, plus(half, lag), lanes)
-    arc = choose(ball, fast, zero) if bends else zero
-    x, y, z = where(choose(arc, zero, fast), half)  # what bends arcs comes in the middle, where frames are now
-    keep(lanes, r + of.LAG, -x, -y, -z)
-    from_a, from_b = gather_four(bodies[CENTER], index_a, g, 0), gather_four(bodies[CENTER], index_b, g, 0)
-    apart, way, frame = minus(from_b, from_a), times(0.5 * h, minus(b, a)), frame_of(r, lanes)
+    return choose(both_go, choose(ball, choose(1.5 - ball, larger(on_a, on_b), zero), fast), zero)
+
+
+@woven
+def meet_in_one_place(r, there, arc, half, apart, way, lanes):
+    """Put the middles of manifolds ``there`` where corners are, from both bodies, when frames have turned by ``half``.
+
+    Centres are ``apart`` at the start of the substep, and go such a ``way`` to its middle. Balls on an ``arc`` come to
+    what the surface does at its end, as far as that turns about the normal.
+    """
+    frame, zero, squared = frame_of(r, lanes), spread(0.0), dot(half, half)
     in_the_end = seen_from(frame, plus(apart, times(spread(2.0), way)))
     apart, way, turn = seen_before(r, half, apart, lanes), seen_before(r, half, way, lanes), seen_from(frame, half)
     along, across, _ = minus(way, cross(turn, apart))
-    squared = dot(half, half)
     apart = times(1.0 - squared / 6.0, plus(apart, (along, across, zero)))  # chords are shorter than arcs
-    # Across the normal balls come to what the surface does at the end, as far as it turns about that.
     part = choose(arc, turn[2] * turn[2] / larger(squared, spread(TINY)), zero)
     along, across, _ = times(part, minus(in_the_end, apart))
     apart = plus(apart, (along, across, zero))
     middle_a, middle_b, goes = three(lanes, r + of.MIDDLE_A), three(lanes, r + of.MIDDLE_B), load(lanes, r + of.GOES)
-    off = where(fast, minus(apart, minus(middle_a, middle_b)))
-    x, y, z = plus(middle_a, times(choose(fast, goes, zero), off))
+    off = where(there, minus(apart, minus(middle_a, middle_b)))
+    x, y, z = plus(middle_a, times(choose(there, goes, zero), off))
     keep(lanes, r + of.MIDDLE_A, x, y, z)
-    x, y, z = minus(middle_b, times(choose(fast, 1.0 - goes, zero), off))
+    x, y, z = minus(middle_b, times(choose(there, 1.0 - goes, zero), off))
     keep(lanes, r + of.MIDDLE_B, x, y, z)
-    return True
 
 
 @woven

@@ -16,7 +16,7 @@ from carom.systems.kernels.lanes import address, choose, load, spread, store
 
 @shared("lanes")
 def refill_groups(
-    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b, surface, resting,
+    crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b, resting,
     row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes,
 ):  # fmt: skip
     """Write into the lanes of groups what `fill_groups` would, where they are as that has filled them.
@@ -39,8 +39,6 @@ def refill_groups(
         keep_where(rows, r + of.RUB, load(rows, r + of.FRICTION), sum_over_points(points[g], sizes, pushed))
         if even[g]:
             continue
-        x, y, z = pick_three(surface, at, sizes)  # which turns with its body
-        keep(rows, r + of.SURFACE, x, y, z)
         turned = times(load(rows, r + of.SPUN), three(rows, r + of.NORMAL))
         rolled = sum_over_points(points[g], sizes, times(share, plus(turned, three(rows, r + of.ROLLED))))
         n = pick_three(normal, at, sizes)
