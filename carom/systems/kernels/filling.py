@@ -43,7 +43,7 @@ from carom.systems.kernels.groups import (
 )
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import LANES, lane_of, numbers_at, pick, pick_one, pick_three
-from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times
+from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times, where
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, spread, store
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE
 from carom.systems.kernels.resting_balls import are_even
@@ -115,8 +115,8 @@ def fill_groups(
 @woven
 def keep_where(lanes, r, there, x):
     """Write the impulses that friction or rolling had, where there is such: nothing would take others out again."""
-    zero = spread(0.0)
-    keep(lanes, r, choose(there, x[0], zero), choose(there, x[1], zero), choose(there, x[2], zero))
+    x, y, z = where(there, x)
+    keep(lanes, r, x, y, z)
 
 
 @woven

@@ -11,9 +11,9 @@ from carom.systems.constants import LAGS, TOUCH
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, plus, swung, three, times
+from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, plus, swung, three, times, where
 from carom.systems.kernels.lanes import choose, gather_four, larger, load, some, spread
-from carom.systems.kernels.levers import frame_of
+from carom.systems.kernels.levers import frame_of, seen_from
 from carom.systems.kernels.packing import CENTER, INVERSE_MASS
 
 TURNING_ROWS = (of.TANGENT, of.TANGENT + 3, of.NORMAL, of.RUB, of.ROLLED, of.SURFACE)  # vectors of a manifold
@@ -79,7 +79,7 @@ def meet_in_one_place(r, there, arc, half, apart, way, lanes):
     what the surface does at its end, as far as that turns about the normal.
     """
     frame, zero, squared = frame_of(r, lanes), spread(0.0), dot(half, half)
-    in_the_end = seen_from(frame, plus(apart, times(spread(2.0), way)))
+    in_the_end = seen_from(frame, plus(apart, times(2.0, way)))
     apart, way, turn = seen_before(r, half, apart, lanes), seen_before(r, half, way, lanes), seen_from(frame, half)
     along, across, _ = minus(way, cross(turn, apart))
     apart = times(1.0 - squared / 6.0, plus(apart, (along, across, zero)))  # chords are shorter than arcs
@@ -116,19 +116,6 @@ def as_set_out(r, along, across, total, lanes):
 
 
 @woven
-def seen_from(frame, x):
-    """Return a vector in a frame."""
-    return dot(frame[0], x), dot(frame[1], x), dot(frame[2], x)
-
-
-@woven
 def seen_before(r, turn, x, lanes):
     """Return a vector in frames of a group as they were before such a turn."""
     return seen_from(frame_of(r, lanes), plus(x, swung(times(0.5, turn), x)))
-
-
-@woven
-def where(there, x):
-    """Return a vector, or nothing where ``there`` is not more than 0."""
-    zero = spread(0.0)
-    return choose(there, x[0], zero), choose(there, x[1], zero), choose(there, x[2], zero)

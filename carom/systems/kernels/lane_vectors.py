@@ -4,7 +4,7 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lanes import load, store
+from carom.systems.kernels.lanes import choose, load, spread, store
 
 TINY = 1e-300  # keeps lanes that have nothing to divide free of NaN
 
@@ -67,6 +67,13 @@ def about(inertia, x, y, z):
         inertia[1] * x + inertia[3] * y + inertia[4] * z,
         inertia[2] * x + inertia[4] * y + inertia[5] * z,
     )
+
+
+@woven
+def where(there, x):
+    """Return a vector, or nothing where ``there`` is not more than 0."""
+    zero = spread(0.0)
+    return choose(there, x[0], zero), choose(there, x[1], zero), choose(there, x[2], zero)
 
 
 @woven

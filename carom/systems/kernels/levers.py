@@ -20,6 +20,12 @@ def frame_of(r, lanes):
 
 
 @woven
+def seen_from(frame, x):
+    """Return a vector in a frame."""
+    return dot(frame[0], x), dot(frame[1], x), dot(frame[2], x)
+
+
+@woven
 def parting_of(r, lanes, a, b):
     """Return how fast bodies part at the middle, and how fast b turns against a about the tangents.
 

@@ -10,7 +10,7 @@ from carom.systems.kernels.filling import find_tangents, goes_with_b, keep_where
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import LANES, lane_of, numbers_at, pick_one, pick_three
-from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times
+from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times, where
 from carom.systems.kernels.lanes import address, choose, load, spread, store
 
 
@@ -66,6 +66,5 @@ def sum_over_points(points, sizes, x):
     zero = spread(0.0)
     total = (zero, zero, zero)
     for p in range(points):
-        there = sizes - float(p)
-        total = plus(total, (choose(there, x[0], zero), choose(there, x[1], zero), choose(there, x[2], zero)))
+        total = plus(total, where(sizes - float(p), x))
     return total

@@ -10,7 +10,7 @@ from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, swung, three, times
 from carom.systems.kernels.lanes import choose, larger, load, root, some, spread, store
-from carom.systems.kernels.levers import frame_of, parting_at, parting_of
+from carom.systems.kernels.levers import frame_of, parting_at, parting_of, seen_from
 
 
 @woven
@@ -41,10 +41,10 @@ def sink_points(r, points, fresh, lanes, a, b):
     turn_a, turn_b = minus(turn_a, face), minus(turn_b, face)
     turned = larger(dot(turn_a, turn_a), dot(turn_b, turn_b))
     store(lanes, r + of.SWUNG, load(lanes, r + of.SWUNG) + root(choose(far, turned, zero)))
-    t, u, n = frame_of(r, lanes)
+    frame = frame_of(r, lanes)
     part, core_a, core_b = choose(far, spread(0.5), zero), load(lanes, r + of.CORE_A), load(lanes, r + of.CORE_B)
-    half_a = times(choose(core_a + 0.5, part, zero), (dot(t, turn_a), dot(u, turn_a), dot(n, turn_a)))
-    half_b = times(choose(core_b + 0.5, part, zero), (dot(t, turn_b), dot(u, turn_b), dot(n, turn_b)))
+    half_a = times(choose(core_a + 0.5, part, zero), seen_from(frame, turn_a))
+    half_b = times(choose(core_b + 0.5, part, zero), seen_from(frame, turn_b))
     s_a, q_a, z_a = three(lanes, r + of.MIDDLE_A)
     s_b, q_b, z_b = three(lanes, r + of.MIDDLE_B)
     by_a, by_b = swung(half_a, (s_a, q_a, z_a - core_a)), swung(half_b, (s_b, q_b, z_b + core_b))
