@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Collider, Force, Motion, RigidBody, Transform, World, system
-from carom.ecs.access import GUARDED
+from carom.ecs import Collider, ColliderPose, Force, Motion, RigidBody, Transform, World, system
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Inside
@@ -44,7 +43,7 @@ def nobody_looks_on(world: World) -> bool:
     Joints and sensors ask for more than `take_substeps` does.
     """
     standing, linkage = world[Standing], world[Linkage]
-    if GUARDED.get() or not standing.stay or standing.heard or world[Awake].strangers or world[Resting].hearers:
+    if not standing.stay or standing.heard or world[Awake].strangers or world[Resting].hearers:
         return False
     joined = linkage.groups or linkage.holds or len(world[Ties].now(world).rows)
     return not (joined or len(world[Sensing].pairs) or world[Inside].count)
@@ -52,7 +51,7 @@ def nobody_looks_on(world: World) -> bool:
 
 @system(
     reads=(
-        RigidBody, Collider, Force, Settings, Awake, BroadPhase, Fast, Inside, Ledger, Linkage, Sensing,
+        RigidBody, Collider, ColliderPose, Force, Settings, Awake, BroadPhase, Fast, Inside, Ledger, Linkage, Sensing,
         Standing, Threads, Ties,
     ),
     writes=(Transform, Motion, Flight, Contact, Impact, Answered, Progress, Resting, Stream, Timings),

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from onlookers import looked_on
 
 from carom.ecs.spatial import quaternion
 from carom.systems.continuous import Fast
@@ -30,13 +31,15 @@ def sheet() -> dict[str, Any]:
 
 
 def shot(
-    phase: int, collider: dict[str, Any], wall: dict[str, Any], spin: tuple[float, float, float], *, late: bool = False
-) -> Simulation:
+    phase: int, collider: dict[str, Any], wall: dict[str, Any], spin: tuple[float, float, float], *,
+    late: bool = False, seen: bool = False,
+) -> Simulation:  # fmt: skip
     """Return a world after six steps in which a bullet of 10 g flies at a wall of 2 cm at 300 m/s.
 
-    Where it is ``late`` the wall comes into the world after the bullet.
+    Where it is ``late`` the wall comes into the world after the bullet. Where it is ``seen`` each
+    system is run by itself.
     """
-    simulation = Simulation(gravity=(0.0, 0.0, 0.0))
+    simulation = looked_on(Simulation(gravity=(0.0, 0.0, 0.0)), seen)
     if not late:
         simulation.add(name="wall", material=SMOOTH, **wall)
     place = {"position": (-3.0 - phase / 20.0 * 5.0, 0.03, 0.02)}
@@ -122,7 +125,7 @@ def test_balls_that_only_turn_and_points_need_nobody_to_look() -> None:
 def test_who_is_given_up_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     """With no looks at all tumbling cubes pass through a mesh; of each the count says that it may have."""
     monkeypatch.setattr("carom.systems.response.MOST_LOOKS", 0)
-    shots = [shot(phase, CUBE, {"collider": sheet()}, (3.0, 40.0, 25.0)) for phase in PHASES]
+    shots = [shot(phase, CUBE, {"collider": sheet()}, (3.0, 40.0, 25.0), seen=True) for phase in PHASES]
     through = [simulation for simulation in shots if simulation["bullet"].transform.position[0] > 0.0]
     assert through
     assert all(simulation.world[Answered].looks_cut for simulation in through)

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from onlookers import looked_on
 
 from carom.ecs import Collider, Transform, restore_snapshot, state_hash, take_snapshot
 from carom.systems.constants import MOST_LOOKS, TRUST
@@ -84,7 +85,7 @@ def test_a_crowd_goes_the_same_way_whether_somebody_looks_on_or_not() -> None:
     """What is left of the trust in contacts is the same where substeps are taken at once."""
     alone, seen = thrown(CUBE, 3), thrown(CUBE, 3)
     alone.checked = seen.checked = False
-    seen.hearers.append(lambda system: None)
+    looked_on(seen)
     for _ in range(20):
         alone.step()
         seen.step()

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from onlookers import looked_on
 
 from carom.ecs import Entity, Motion, RigidBody, Transform, state_hash
 from carom.systems.constants import BEARING_SWEEPS
@@ -192,7 +193,7 @@ def test_joints_of_others_are_swept_no_more_for_who_is_heavy() -> None:
     np.testing.assert_array_equal(*found)
 
 
-@pytest.mark.parametrize("other", ["heard", "two threads", "checked"])
+@pytest.mark.parametrize("other", ["heard", "two threads", "seen"])
 @pytest.mark.parametrize("tables", [0, 4])
 def test_heavy_bodies_stand_alike_whoever_listens_and_however_many_solve(
     other: str, tables: int, monkeypatch: pytest.MonkeyPatch
@@ -203,7 +204,8 @@ def test_heavy_bodies_stand_alike_whoever_listens_and_however_many_solve(
     sweeps, worlds = [0], []
     for alone in (True, False):
         threads = 2 if other == "two threads" and not alone else 1
-        simulation = column(1000.0, 3, 0.2, columns=20, checked=other == "checked" and not alone, threads=threads)
+        simulation = column(1000.0, 3, 0.2, columns=20, checked=False, threads=threads)
+        looked_on(simulation, other == "seen" and not alone)
         for k in range(tables):
             joined_table(simulation, 1000.0, 20.0, 2.0, z=5.0 + 5.0 * k)
         if other == "heard" and not alone:

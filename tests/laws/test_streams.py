@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from onlookers import looked_on
 
 from carom.ecs import ColliderPose, Motion, RigidBody, Transform
 from carom.ecs.column import Floats
@@ -42,12 +43,12 @@ def crowd(front: float, back: float) -> Simulation:
     return simulation
 
 
-@pytest.mark.parametrize("checked", [False, True])
+@pytest.mark.parametrize("seen", [False, True])
 @pytest.mark.parametrize("stands", STANDS)
-def test_each_of_a_crowd_bounces_when_it_comes(stands: str, checked: bool) -> None:
+def test_each_of_a_crowd_bounces_when_it_comes(stands: str, seen: bool) -> None:
     """As one alone does, in the middle of a step and one before the other."""
     simulation = crowd(1.0, 5.0)
-    simulation.checked = checked
+    looked_on(simulation, seen)
     simulation.add(material=HARD, **STANDS[stands])
     rows = np.arange(SIDE * SIDE)
     begun = simulation.world[Transform].position[rows].copy()
@@ -60,13 +61,13 @@ def test_each_of_a_crowd_bounces_when_it_comes(stands: str, checked: bool) -> No
     assert (simulation.world[Transform].position[rows, 1:] == begun[:, 1:]).all()
 
 
-@pytest.mark.parametrize("checked", [False, True])
+@pytest.mark.parametrize("seen", [False, True])
 @pytest.mark.parametrize("number", [2, SIDE * SIDE])
-def test_those_who_are_struck_meet_all_that_they_come_to(number: int, checked: bool) -> None:
+def test_those_who_are_struck_meet_all_that_they_come_to(number: int, seen: bool) -> None:
     """Each of some bounces between two posts, several times in a step, while the others go on or do so too."""
     gap = 0.5
     simulation = crowd(0.01, gap)
-    simulation.checked = checked
+    looked_on(simulation, seen)
     rows = np.arange(SIDE * SIDE)
     begun = simulation.world[Transform].position[rows].copy()
     for row in rows[:number]:
@@ -84,10 +85,10 @@ def test_those_who_are_struck_meet_all_that_they_come_to(number: int, checked: b
     assert simulation.world[Transform].position[others, 0] == pytest.approx(begun[others, 0] + flown, abs=1e-9)
 
 
-def rows_of_balls(lanes: int, others: int, checked: bool) -> Floats:
+def rows_of_balls(lanes: int, others: int, seen: bool) -> Floats:
     """Return where balls are (m) that fly one behind the other at a post each, four in a lane, after three steps."""
     simulation, random = Simulation(gravity=(0.0, 0.0, 0.0)), np.random.default_rng(7)
-    simulation.checked = checked
+    looked_on(simulation, seen)
     ball = {"collider": {"sphere": {"radius": RADIUS}}, "body": {"mass": 1.0}, "material": HARD}
     gaps = random.uniform(0.25, 0.6, (7, 4))
     for lane in range(lanes):
@@ -107,19 +108,19 @@ def rows_of_balls(lanes: int, others: int, checked: bool) -> Floats:
     return simulation.world[Transform].position[: 4 * lanes].copy()
 
 
-@pytest.mark.parametrize("checked", [False, True])
+@pytest.mark.parametrize("seen", [False, True])
 @pytest.mark.parametrize("lanes", [1, 7])
-def test_those_who_are_struck_meet_those_who_come_behind(lanes: int, checked: bool) -> None:
+def test_those_who_are_struck_meet_those_who_come_behind(lanes: int, seen: bool) -> None:
     """In the middle of a step, as where there is no stream from which they reached no farther than the others."""
-    alone = rows_of_balls(lanes, 0, checked)
-    assert rows_of_balls(lanes, 400, checked) == pytest.approx(alone, abs=1e-9)
+    alone = rows_of_balls(lanes, 0, seen)
+    assert rows_of_balls(lanes, 400, seen) == pytest.approx(alone, abs=1e-9)
     assert alone[:, 0].max() < -RADIUS + 1e-9
 
 
-def dropped(rows: range, checked: bool) -> Floats:
+def dropped(rows: range, seen: bool) -> Floats:
     """Return where balls are (m) that fall onto a half space and bounce, after three seconds."""
     simulation, random = Simulation(dt=1.0 / 60.0), np.random.default_rng(5)
-    simulation.checked = checked
+    looked_on(simulation, seen)
     simulation.add(collider={"plane": {}}, material=HARD)
     heights = random.uniform(40.0, 44.0, SIDE * SIDE)
     for k in rows:
@@ -131,11 +132,11 @@ def dropped(rows: range, checked: bool) -> Floats:
     return simulation.world[Transform].position[1 : 1 + len(rows)].copy()
 
 
-@pytest.mark.parametrize("checked", [False, True])
-def test_a_crowd_falls_as_each_alone(checked: bool) -> None:
+@pytest.mark.parametrize("seen", [False, True])
+def test_a_crowd_falls_as_each_alone(seen: bool) -> None:
     """Though it comes to be a stream, and faster in every step."""
     few = range(0, SIDE * SIDE, 16)
-    assert dropped(range(SIDE * SIDE), checked)[few] == pytest.approx(dropped(few, checked), abs=1e-9)
+    assert dropped(range(SIDE * SIDE), seen)[few] == pytest.approx(dropped(few, seen), abs=1e-9)
 
 
 def test_a_crowd_wakes_who_sleeps_where_it_comes() -> None:
@@ -161,12 +162,12 @@ def test_a_crowd_wakes_who_sleeps_where_it_comes() -> None:
     assert world[Transform].position[balls[balls != world.row(wall)], 0] == pytest.approx(bounced, abs=1e-6)
 
 
-@pytest.mark.parametrize("checked", [False, True])
+@pytest.mark.parametrize("seen", [False, True])
 @pytest.mark.parametrize("along", [(0.0, 0.0, 0.0), (200.0, 0.0, 0.0), (0.0, 60.0, 40.0)])
-def test_a_pile_in_a_train_costs_what_it_does_at_rest(along: tuple[float, float, float], checked: bool) -> None:
+def test_a_pile_in_a_train_costs_what_it_does_at_rest(along: tuple[float, float, float], seen: bool) -> None:
     """At 200 m/s it had 26 times as many contacts, and was detected in each substep."""
     simulation = Simulation(sleeping=False)
-    simulation.checked = checked
+    looked_on(simulation, seen)
     rides: dict[str, Any] = {"body": {"type": "kinematic"}, "motion": {"linear": along}}
     simulation.add(collider={"box": {"size": (5.0, 1.0, 5.0)}}, transform={"position": (0.0, -0.5, 0.0)}, **rides)
     for k in range(100):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
+from onlookers import looked_on
 from sleepers import BALL, BOX, asleep, stacks
 
 from carom.ecs import ExternalForce, Motion, Timings, World, restore_snapshot, state_hash, system, take_snapshot
@@ -105,7 +106,7 @@ def test_what_stays_is_summed_once() -> None:
         lambda simulation: simulation.add(spring={"a": simulation.world.find("ball"), "stiffness": 10.0}),
         lambda simulation: setattr(simulation, "schedule", simulation.schedule.insert(look_on, after="kick")),
         lambda simulation: push(simulation, "torque"),
-        lambda simulation: simulation.hearers.append(lambda system: None),
+        looked_on,
     ],
     ids=["law", "spring", "own system", "torque", "heard"],
 )

@@ -128,7 +128,7 @@ class Kernel:
         self._outputs = [names.index(name) for name in outputs]
         self._names = names
         self._settled = False
-        self._views: list[tuple[Any, Any]] = [(self, self)] * len(names)  # of read-only arrays, as last given
+        self._views: list[tuple[Any, Any]] = [(self, self)] * len(names)  # of arrays, as last given
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the compiled function, compiling it on the first call."""
@@ -149,21 +149,23 @@ class Kernel:
             known, view = self._views[position]
             if known is argument:
                 passed[position] = view
-            elif isinstance(argument, np.ndarray) and not argument.flags.writeable:
-                if position in self._outputs:
-                    raise AccessError(
-                        f"kernel '{self.name}' writes '{self._names[position]}', which is read-only here; "
-                        f"declare the component in writes= (or adds=) of the calling @system"
-                    )
+            elif isinstance(argument, np.ndarray):
                 passed[position] = self._open(position, argument)
         return passed
 
     def _open(self, position: int, array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-        """Return a writable view of a read-only array; a copy, where it is no piece of one that may be written."""
-        if not (isinstance(array.base, np.ndarray) and array.base.flags.writeable and array.flags.c_contiguous):
-            return array.copy()
-        view = array.view()
-        view.flags.writeable = True
+        """Return a writable view of an array; a copy, where it is no piece of one that may be written."""
+        view = array
+        if not array.flags.writeable:
+            if position in self._outputs:
+                raise AccessError(
+                    f"kernel '{self.name}' writes '{self._names[position]}', which is read-only here; "
+                    f"declare the component in writes= (or adds=) of the calling @system"
+                )
+            if not (isinstance(array.base, np.ndarray) and array.base.flags.writeable and array.flags.c_contiguous):
+                return array.copy()
+            view = array.view()
+            view.flags.writeable = True
         self._views[position] = array, view
         return view
 

@@ -66,8 +66,8 @@ def take_substeps(
     """Go on from where substep ``number``, from 1 on, has its forces, until the step or the flight of a substep ends.
 
     Or before a substep in which somebody may leave what detection foresaw. Return (the last substep begun, why its
-    flight ended, when, events, how many manifolds rest in it, cut, impacts logged, pair of each, log); it is over where
-    that is `DONE`.
+    flight ended, when, events, how many manifolds rested in it, cut, impacts logged, pair of each, log); it is over
+    where that is `DONE`.
 
     Forces are those of the first substep, and there are no joints and no sensors. Manifolds are swept so often
     (``relaxes``) after each drift. What is done for each of `SYSTEMS` is what that does; ``spent`` is how long it took
@@ -78,7 +78,7 @@ def take_substeps(
     for_groups = crew if count >= fewest else alone
     for_closing = crew if max(count, len(watched)) >= fewest else alone
     bends, leaving = 0.5 if scheme == VERLET else 0.0, np.empty(1, np.int64)
-    apart, rests = np.zeros(len(crew) // ROOM, np.bool_), np.zeros(len(crew) // ROOM, np.int64)
+    apart, rests, rest = np.zeros(len(crew) // ROOM, np.bool_), np.zeros(len(crew) // ROOM, np.int64), 0
     soon, cut, begins, flown = np.empty((len(crew) // ROOM, 2)), 0, number, True
     times, stirs = np.empty(len(fast)), np.empty((2, len(crew) // ROOM), np.bool_)
     joined = np.empty(0, np.int64)  # nobody is
@@ -90,7 +90,7 @@ def take_substeps(
             leaves = leave(watched, h, stream, center, detected_center, reach, linear, felt, leaving)
             now = note(LOOK_AHEAD, now, spent)
             if leaves:
-                return k - 1, DONE, h, 0, 0, cut, logged, log_pair, log
+                return k - 1, DONE, h, 0, rest, cut, logged, log_pair, log
             share(describe(predict, for_rows, (
                 rows, 0.0, center_of_mass, freedom, held, last_acceleration,
                 last_angular_acceleration, position, rotation, linear, angular, center, start_center, start_position,
@@ -203,7 +203,7 @@ def take_substeps(
                 crushed, joined, stirred, stirs,
             )))  # fmt: skip
             now = note(RELAX, now, spent)
-    return substeps, DONE, h, 0, 0, cut, logged, log_pair, log
+    return substeps, DONE, h, 0, rest, cut, logged, log_pair, log
 
 
 @woven
