@@ -12,6 +12,8 @@ from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.impact import Impact
 from carom.ecs.spatial import quaternion
 from carom.systems.detection.answered import Answered
+from carom.systems.shapes.convex import Convex
+from carom.systems.shapes.geometry import hull_of
 from carom.systems.simulation import Simulation
 
 DT, G = 1.0 / 60.0, 9.81
@@ -20,15 +22,23 @@ DRUM: dict[str, Any] = {"cylinder": {"radius": 0.125, "length": 0.25}}
 BALL: dict[str, Any] = {"sphere": {"radius": 0.125}}
 HALF, REACH = 0.125, 1.5 - 0.125  # m, of bodies, and of their centres from the axis of the wall
 ICE, ROUGH = {"friction": 0.0, "restitution": 0.0}, {"friction": 0.6, "restitution": 0.0}
+CORNERS = np.array([(x, y, z) for x in (-0.1, 0.1) for y in (-6.0, 6.0) for z in (-1.5, 1.5)])
+ALONG_X = {"rotation": (0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5))}
+WALLS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
+    "box": ({"box": {"size": (0.2, 12.0, 3.0)}}, {}),
+    "hull": ({"shape": Convex(hull_of(CORNERS))}, {}),
+    "end": ({"cylinder": {"radius": 6.0, "length": 0.2}}, ALONG_X),  # of a cylinder
+}
 
 
-def beside_a_wall(spin: float, material: dict[str, float]) -> Simulation:
-    """Return a world without weight, in which a wall at x = 1.5 m turns about z (rad/s)."""
+def beside_a_wall(spin: float, material: dict[str, float], of: str = "box") -> Simulation:
+    """Return a world without weight, in which a wall (a face ``of`` one) at x = 1.5 m turns about z (rad/s)."""
     simulation = Simulation(dt=DT, gravity=(0.0, 0.0, 0.0), sleeping=False, checked=False)
     body = {"type": "kinematic", "center_of_mass": (0.0, 0.0, 0.0)}
     drum = simulation.add(body=body, motion={"angular": (0.0, 0.0, spin)})
-    wall = {"entity": drum, "position": (1.6, 0.0, 0.0)}
-    simulation.add(collider={"box": {"size": (0.2, 12.0, 3.0)}}, parent=wall, material=material)
+    collider, turned = WALLS[of]
+    wall = {"entity": drum, "position": (1.6, 0.0, 0.0), **turned}
+    simulation.add(collider=collider, parent=wall, material=material)
     return simulation
 
 
@@ -73,19 +83,23 @@ def borne(world: World) -> float:
 
 @pytest.mark.parametrize("collider", [BOX, DRUM, BALL], ids=["box", "drum", "ball"])
 @pytest.mark.parametrize("start", [0.2, -0.2])
-def test_what_slides_over_a_wall_that_turns_flies_off_by_cosh(collider: dict[str, Any], start: float) -> None:
+@pytest.mark.parametrize("wall", WALLS)
+def test_what_slides_over_a_wall_that_turns_flies_off_by_cosh(
+    wall: str, collider: dict[str, Any], start: float
+) -> None:
     """Without friction s = s0 cosh(w t), and it is borne by w^2 d + 2 w s' (Goldstein, section 4.10), in 0.35 s.
 
-    The wall is kept to 20 um and the way to 2e-3 of it. Impulses are of whole steps.
+    The wall is kept to 20 um (a hull's, with whose corners the points of a box go, to 22) and the way to 2e-3 of it.
+    Impulses are of whole steps.
     """
     spin = 4.0
-    simulation = beside_a_wall(spin, ICE)
+    simulation = beside_a_wall(spin, ICE, wall)
     body = add_body(simulation, collider, spin, (REACH, start), ICE)
     for _ in range(21):
         simulation.step()
         off, along = seen_from_the_wall(simulation, body, spin)
         angle, middle = spin * simulation.frame * DT, spin * (simulation.frame - 0.5) * DT
-        assert off == pytest.approx(REACH, abs=2e-5)
+        assert off == pytest.approx(REACH, abs=2.2e-5 if wall == "hull" else 2e-5)
         assert along == pytest.approx(start * np.cosh(angle), rel=2e-3)
         if simulation.frame > 2:
             by_theory = spin * spin * (REACH + 2.0 * start * np.sinh(middle))
@@ -98,12 +112,14 @@ def test_what_slides_over_a_wall_that_turns_flies_off_by_cosh(collider: dict[str
 @pytest.mark.parametrize(
     ("spin", "busy", "bound"), [(2.0, False, 3e-6), (4.0, False, 1.5e-5), (2.0, True, 3e-6), (4.0, True, 6e-5)]
 )
-def test_nobody_in_a_stack_on_a_wall_that_turns_creeps(spin: float, busy: bool, bound: float) -> None:
+@pytest.mark.parametrize("wall", WALLS)
+def test_nobody_in_a_stack_on_a_wall_that_turns_creeps(wall: str, spin: float, busy: bool, bound: float) -> None:
     """Four boxes, borne by each other, stay where they have come to lie after a second, for another.
 
-    So they do, but for how deep they lie (0.1 mm), where all are detected anew within steps as somebody is busy.
+    So they do, but for how deep they lie (0.1 mm; as FCL tells it of an end, 0.2), where all are detected anew within
+    steps as somebody is busy.
     """
-    simulation = beside_a_wall(spin, ROUGH)
+    simulation = beside_a_wall(spin, ROUGH, wall)
     if busy:
         add_busy_capsule(simulation)
     places = [(REACH - 0.25 * k, 0.0) for k in range(4)]
@@ -112,7 +128,8 @@ def test_nobody_in_a_stack_on_a_wall_that_turns_creeps(spin: float, busy: bool, 
     before = [seen_from_the_wall(simulation, body, spin) for body in bodies]
     simulation.step(60)
     after = [seen_from_the_wall(simulation, body, spin) for body in bodies]
-    np.testing.assert_allclose(np.subtract(after, before)[:, 0], 0.0, atol=1e-4 if busy else bound)
+    deep = 2e-4 if wall == "end" else 1e-4
+    np.testing.assert_allclose(np.subtract(after, before)[:, 0], 0.0, atol=deep if busy else bound)
     np.testing.assert_allclose(np.subtract(after, before)[:, 1], 0.0, atol=bound)
     np.testing.assert_allclose(after, places, atol=1.5e-4 * spin * spin)  # what they yield by
     assert (simulation.world[Answered].detections > 2 * simulation.frame) == busy

@@ -28,6 +28,11 @@ STALE_TURN = 1e-3
 # what goes round together creeps. Smaller: it takes time, for what hardly does.
 LAGS = 1e-3
 
+# Sine of the angle by which a normal may lean against that of a cylinder's end or a hull's face and still be of it, and
+# part of the radius within which one touches an end and not its rim. Larger: points of rims and edges glide as over
+# faces. Smaller: faces that turn leave behind who leans a little, or lies near the rim.
+FACING, WITHIN = 1e-3, 0.999
+
 # Points of a manifold; a pair with more on one plane has several.
 MANIFOLD_POINTS = 4
 

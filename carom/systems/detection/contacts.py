@@ -151,14 +151,15 @@ def complete(world: World, found: Found, old_count: int, left: float, *, known: 
     Tell whether any has another place in the table, and whether any of it changed.
     """
     contact, collider, pose, material = world[Contact], world[Collider], world[ColliderPose], world[Material]
-    crew = crew_for(world, contact.count)
+    crew, hulls = crew_for(world, contact.count), world[PackedHulls].holding(world)
     changed = np.zeros(threads_of(crew), np.bool_)
     match = found.old if isinstance(found, Kept) else renew(world, crew, found, old_count, changed)
     moved = any(changed.tolist())
     complete_contacts(
         crew, contact.count, match, found.old, known, world[Resting].belts, 0.5 * left, changed,
         contact.normal, contact.depth, contact.point, contact.row_a, contact.row_b, pose.body_row,
-        collider.shape, collider.size, collider.geometry, collider.bound_half, collider.bound_radius,
+        collider.shape, collider.size, collider.geometry, hulls.polyhedron, hulls.face_start, hulls.normals,
+        collider.bound_half, collider.bound_radius,
         pose.position, pose.rotation, world[Flight].detected_center, world[Transform].rotation,
         world[Flight].reach, world[Motion].asleep, world[Stream].passes, world[Motion].angular,
         world[RigidBody].inverse_mass, material.friction, material.restitution, material.rolling_friction,

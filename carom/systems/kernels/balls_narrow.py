@@ -12,8 +12,9 @@ from carom.systems.kernels.contacts import exact_pair
 from carom.systems.kernels.crew import part_of, shared, wait_for_all
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, is_ball, kind_and_extent
-from carom.systems.kernels.offsets import find_offsets, find_shares
+from carom.systems.kernels.offsets import find_offsets
 from carom.systems.kernels.recycling import first_of_pair, is_pair
+from carom.systems.kernels.shares import find_shares
 from carom.systems.kernels.validity import SOUND, fault_of
 from carom.systems.kernels.writing import write_point
 

@@ -7,6 +7,7 @@ from carom.systems.kernels.cores import CONE_SHAPE, CYLINDER_SHAPE, ELLIPSOID_SH
 from carom.systems.kernels.frames import turned as out_of_frame
 from carom.systems.kernels.frames import turned_back
 from carom.systems.kernels.kernel import inlined, woven
+from carom.systems.kernels.shares import shows_face
 from carom.systems.kernels.spatial import cross
 
 
@@ -26,12 +27,12 @@ def place_points(
             x, y, z = offset[c, 0], offset[c, 1], offset[c, 2]
             if i < 0:
                 pass
-            elif stands(c, other, outward, share):
+            elif other < 0 and shows_face(c, outward, share):  # a corner of what stands
                 x, y, z = aside(
                     c, normal, x, y, z, point[c, 0] - start_center[i, 0] - x, point[c, 1] - start_center[i, 1] - y,
                     point[c, 2] - start_center[i, 2] - z,
                 )  # fmt: skip
-            elif not is_smooth(row, shape):
+            elif not is_smooth(row, shape) or shows_face(c, outward, share):
                 rx, ry, rz = round_of(c, row, outward, normal, bound_radius)
                 x, y, z = turned_back(detected_rotation, i, x - rx, y - ry, z - rz)
                 x, y, z = out_of_frame(rotation, i, x, y, z)
@@ -39,12 +40,6 @@ def place_points(
                 x, y, z = x - tx + rx, y - ty + ry, z - tz + rz
             at[c, 0], at[c, 1], at[c, 2] = x, y, z
         deep[c] = depth[c]
-
-
-@woven
-def stands(c, other, outward, share):
-    """Tell whether the point of contact c is a corner of the ``other``, which has no body; the side is ``outward``."""
-    return other < 0 and share[c] == (1.0 if outward > 0.0 else 0.0)
 
 
 @woven
@@ -112,12 +107,12 @@ def carried(c, i, other, row, outward, shape, bound_radius, normal, at, start_ce
     x, y, z = at[c, 0], at[c, 1], at[c, 2]
     if i < 0:
         return x, y, z
-    if stands(c, other, outward, share):
+    if other < 0 and shows_face(c, outward, share):  # a corner of what stands
         x, y, z = aside(
             c, normal, x, y, z, start_center[i, 0] - center[i, 0], start_center[i, 1] - center[i, 1],
             start_center[i, 2] - center[i, 2],
         )  # fmt: skip
-    elif not is_smooth(row, shape):
+    elif not is_smooth(row, shape) or shows_face(c, outward, share):
         rx, ry, rz = round_of(c, row, outward, normal, bound_radius)
         tx, ty, tz = cross(turned[i, 0], turned[i, 1], turned[i, 2], x - rx, y - ry, z - rz)
         x, y, z = x + tx, y + ty, z + tz

@@ -12,10 +12,10 @@ from carom.systems.kernels.cores import CONE_SHAPE, CONVEX_SHAPE, CYLINDER_SHAPE
 from carom.systems.kernels.crew import runs_of, shared
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.narrow import POINT_SHAPE, SPHERE_SHAPE, kind_and_extent, reach_of_pair
-from carom.systems.kernels.offsets import find_offsets, find_shares
-from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
+from carom.systems.kernels.offsets import find_offsets
 from carom.systems.kernels.recycling import seat_pair, turned
 from carom.systems.kernels.rolling import roll_on
+from carom.systems.kernels.shares import find_faces, find_shares, is_land, is_round
 
 AVERAGE, SQRT, MIN, MULTIPLY = Combine.AVERAGE.value, Combine.SQRT.value, Combine.MIN.value, Combine.MULTIPLY.value
 
@@ -44,9 +44,10 @@ def combined(x, y, rule_x, rule_y, default):
 )  # fmt: skip
 def complete_contacts(
     crew, count, match, recycled_from, known, belts, middle, changed, normal, depth, point, row_a, row_b,
-    body_row, shape, size, geometry, bound_half, bound_radius, pose_position, pose_rotation, center, rotation,
-    reach, asleep, passes, angular, inverse_mass, material_friction, material_restitution, material_rolling,
-    material_spinning, friction_rule, restitution_rule, surface_velocity,
+    body_row, shape, size, geometry, polyhedron, face_start, normals, bound_half, bound_radius,
+    pose_position, pose_rotation, center, rotation, reach, asleep, passes, angular, inverse_mass,
+    material_friction, material_restitution, material_rolling, material_spinning, friction_rule, restitution_rule,
+    surface_velocity,
     friction, restitution, rolling, spinning, surface, body_a, body_b, offset_a, offset_b, share,
     kind, ball, other, sign, radius, extent, other_position, other_rotation,
     seat_a, seat_b, lean_a, lean_b, seat_depth, seat_reach, form,
@@ -118,11 +119,15 @@ def complete_contacts(
         if not recycled:
             find_offsets(first, end, a, b, normal, depth, point, body_row, pose_position, center, offset_a, offset_b)
             find_shares(first, end, a, b, normal, shape, pose_rotation, share)
+            if is_round(a, shape) or is_round(b, shape):
+                find_faces(
+                    first, end, a, b, normal, point, shape, size, geometry, pose_position, pose_rotation,
+                    polyhedron, face_start, normals, share,
+                )  # fmt: skip
             for i, o, body, outward, flat, offset, offset_other in (
                 (a, b, on_a, 1.0, 0.0, offset_a, offset_b), (b, a, on_b, -1.0, 1.0, offset_b, offset_a),
             ):  # fmt: skip
-                land = shape[o] == MESH_SHAPE or shape[o] == FIELD_SHAPE
-                if body >= 0 and (land or share[first] == flat) and is_smooth(i, shape):
+                if body >= 0 and (is_land(o, shape) or share[first] == flat) and is_smooth(i, shape):
                     roll_on(
                         first, end, i, body, outward, middle, shape, size, pose_position, pose_rotation, center,
                         angular, normal, offset, offset_other,

@@ -47,6 +47,7 @@ from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, ti
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, spread, store
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE
 from carom.systems.kernels.resting_balls import are_even
+from carom.systems.kernels.shares import shows_face
 from carom.systems.kernels.spatial import plane_axes
 
 
@@ -106,7 +107,8 @@ def fill_groups(
             store(rows, r + BALL, as_ball)
             find_tangents(r, rows)
             write_cores(
-                g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes
+                g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, share_of_b, shape, size_of_shape,
+                bound_radius, lanes,
             )  # fmt: skip
             store(rows, r + GOES, goes_with_b(pick_one(share_of_b, at, sizes), load(rows, r + LAND)))
             place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
@@ -190,18 +192,27 @@ def place_point(c, r, lane, normal, depth, offset_a, offset_b, lanes):
 
 
 @woven
-def write_cores(g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size, bound_radius, lanes):
-    """Write how far points of manifolds are outside the cores of both bodies, -1 of what else is smooth; and `LAND`."""
+def write_cores(
+    g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, share_of_b, shape, size, bound_radius, lanes
+):  # fmt: skip
+    """Write how far points of manifolds are outside the cores of both bodies, -1 of what else is smooth; and `LAND`.
+
+    The end of a cylinder over which points glide is as flat as the face of a box.
+    """
     for lane in range(WIDTH):
         c, land = first[g, lane], 0.0
-        for to, row, body, lean, adds in ((CORE_A, row_a, body_a, lean_a, 0.5), (CORE_B, row_b, body_b, lean_b, -0.5)):
+        for to, row, body, lean, outward in (
+            (CORE_A, row_a, body_a, lean_a, 1.0), (CORE_B, row_b, body_b, lean_b, -1.0),
+        ):  # fmt: skip
             core = 0.0
             if c >= 0:
                 core = -1.0 if is_smooth(row[c], shape) else bound_radius[row[c]]
-                if shape[row[c]] == CYLINDER_SHAPE and lean[c, 1] * lean[c, 1] <= ON_SIDE * ON_SIDE:
+                if core < 0.0 and shows_face(c, outward, share_of_b):
+                    core = 0.0
+                elif shape[row[c]] == CYLINDER_SHAPE and lean[c, 1] * lean[c, 1] <= ON_SIDE * ON_SIDE:
                     core = size[row[c], 0]
                 if body[c] < 0 and shape[row[c]] != BOX_SHAPE and shape[row[c]] != PLANE_SHAPE:
-                    land = adds
+                    land = 0.5 * outward
             lanes[r + to, lane] = core
         lanes[r + LAND, lane] = land
 

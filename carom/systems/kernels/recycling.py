@@ -18,7 +18,8 @@ from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_columns import ALL, load_flat, load_three, store_flat
 from carom.systems.kernels.lanes import WIDTH, address, larger, spread, which
 from carom.systems.kernels.narrow import is_ball
-from carom.systems.kernels.offsets import find_offsets, is_alike, is_flat_where_seated, share_of_b
+from carom.systems.kernels.offsets import find_offsets, is_alike
+from carom.systems.kernels.shares import is_flat_where_seated, share_of_b
 from carom.systems.kernels.spatial import turn
 from carom.systems.kernels.unrolling import roll_back, rolls
 
@@ -111,7 +112,9 @@ def recycle_contacts(
                 point[c, axis] = placed[k + WIDTH * (4 + axis)]
             if not known:
                 row_a[c], row_b[c] = x, y
-            if c == first or not alike:
+            if x_rolls or y_rolls:
+                pass  # whether it glides over a face stays as it was found (`find_faces`)
+            elif c == first or not alike:
                 flat_x, flat_y = is_flat_where_seated(x, c, lean_a, shape), is_flat_where_seated(y, c, lean_b, shape)
                 flat_y &= placed[k + WIDTH * 7] <= LEANING * LEANING  # normals go with x, from which y may have turned
                 share[c] = share_of_b(flat_x, flat_y)

@@ -53,7 +53,8 @@ def refill_groups(
         keep(rows, r + of.LAG, zero, zero, zero)
         if not are_balls(r, lanes):
             write_cores(
-                g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes
+                g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, share_of_b, shape, size_of_shape,
+                bound_radius, lanes,
             )  # fmt: skip
             store(rows, r + of.GOES, goes_with_b(pick_one(share_of_b, at, sizes), load(rows, r + of.LAND)))
             find_tangents(r, rows)

@@ -51,7 +51,8 @@ def sink_points(r, points, fresh, lanes, a, b):
     goes = load(lanes, r + of.GOES)
     round_a = choose(0.25 - goes, larger(core_a, zero), zero)
     round_b = choose(goes - 0.75, larger(core_b, zero), zero)
-    on_a, on_b = rolled_over(round_a, round_b, half_a, half_b)
+    set_out = dot(lag, lag)  # where bodies meet in the middle of the substep, and will in that of the next
+    on_a, on_b = rolled_over(choose(set_out, zero, round_a), choose(set_out, zero, round_b), half_a, half_b)
     keep(lanes, r + of.MIDDLE_A, s_a + by_a[0] + on_a[0], q_a + by_a[1] + on_a[1], z_a + by_a[2])
     keep(lanes, r + of.MIDDLE_B, s_b + by_b[0] + on_b[0], q_b + by_b[1] + on_b[1], z_b + by_b[2])
     about = (zero, zero, half_a[2] + goes * (half_b[2] - half_a[2]))
