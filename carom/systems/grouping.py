@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from carom.ecs import Collider, RigidBody, World
+from carom.ecs import Collider, ColliderPose, RigidBody, World
 from carom.ecs.relations.contact import Contact
 from carom.systems.kernels.ball_seams import link_boxes
 from carom.systems.kernels.filling import fill_groups
@@ -50,7 +50,7 @@ def group_contacts(world: World, *, places: bool, same: bool) -> None:
             crew_for(world, resting.count), resting.groups, resting.first, resting.size, resting.row, resting.points,
             resting.even, contact.normal, contact.depth, contact.offset_a, contact.offset_b, contact.share,
             contact.resting, contact.row_a, contact.row_b, contact.body_a, contact.body_b,
-            contact.lean_a, contact.lean_b, collider.shape, collider.size, collider.bound_radius, resting.lanes,
+            world[ColliderPose].rotation, collider.shape, collider.size, collider.bound_radius, resting.lanes,
         )  # fmt: skip
     else:
         _group_anew(world)
@@ -83,6 +83,6 @@ def _group_anew(world: World) -> None:
         contact.kind, contact.sign, contact.radius, contact.extent,
         contact.friction, contact.restitution, contact.rolling, contact.spinning, contact.surface, contact.resting,
         contact.warm_normal, contact.warm_friction, contact.warm_rolling,
-        contact.row_a, contact.row_b, contact.body_a, contact.body_b, contact.lean_a, contact.lean_b,
+        contact.row_a, contact.row_b, contact.body_a, contact.body_b, world[ColliderPose].rotation,
         world[Collider].shape, world[Collider].size, world[Collider].bound_radius, resting.lanes,
     )  # fmt: skip

@@ -28,6 +28,11 @@ STALE_TURN = 1e-3
 # what goes round together creeps. Smaller: it takes time, for what hardly does.
 LAGS = 1e-3
 
+# Radians by which the normal between two that are round turns in a substep before it goes on within the step, and part
+# of how far their cores are apart up to which a gap between them may be. Larger: who rolls off what is round is jolted
+# as it begins to; normals turn too far. Smaller: what trembles is turned for nothing; who leaves comes down again.
+GOES_ROUND, ROUND_GAP = 1e-4, 0.1
+
 # Sine of the angle by which a normal may lean against that of a cylinder's end or a hull's face and still be of it, and
 # part of the radius within which one touches an end and not its rim. Larger: points of rims and edges glide as over
 # faces. Smaller: faces that turn leave behind who leans a little, or lies near the rim.

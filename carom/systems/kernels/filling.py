@@ -8,6 +8,7 @@ from carom.systems.kernels.balls_in_lanes import are_all_balls, place_balls
 from carom.systems.kernels.blow_points import is_smooth
 from carom.systems.kernels.cores import CYLINDER_SHAPE
 from carom.systems.kernels.crew import part_of, shared
+from carom.systems.kernels.frames import turned
 from carom.systems.kernels.groups import (
     ABSENT,
     AT,
@@ -15,6 +16,7 @@ from carom.systems.kernels.groups import (
     BESIDE,
     CORE_A,
     CORE_B,
+    CURVE,
     DEPTH,
     FRICTION,
     GOES,
@@ -46,7 +48,9 @@ from carom.systems.kernels.lane_columns import LANES, lane_of, numbers_at, pick,
 from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, three, times, where
 from carom.systems.kernels.lanes import WIDTH, address, choose, larger, load, spread, store
 from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE
+from carom.systems.kernels.polyhedra import CAPSULE_SHAPE
 from carom.systems.kernels.resting_balls import are_even
+from carom.systems.kernels.rounds_in_lanes import write_curve
 from carom.systems.kernels.shares import shows_face
 from carom.systems.kernels.spatial import plane_axes
 
@@ -56,7 +60,7 @@ def fill_groups(
     crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b,
     kind, sign, radius, extent, friction, restitution, rolling, spinning, surface, resting,
     warm_normal, warm_friction, warm_rolling,
-    row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes,
+    row_a, row_b, body_a, body_b, rotation, shape, size_of_shape, bound_radius, lanes,
 ):  # fmt: skip
     """Write what contacts hold into the lanes of their groups.
 
@@ -107,7 +111,7 @@ def fill_groups(
             store(rows, r + BALL, as_ball)
             find_tangents(r, rows)
             write_cores(
-                g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, share_of_b, shape, size_of_shape,
+                g, r, first, row_a, row_b, body_a, body_b, rotation, normal, share_of_b, shape, size_of_shape,
                 bound_radius, lanes,
             )  # fmt: skip
             store(rows, r + GOES, goes_with_b(pick_one(share_of_b, at, sizes), load(rows, r + LAND)))
@@ -193,28 +197,43 @@ def place_point(c, r, lane, normal, depth, offset_a, offset_b, lanes):
 
 @woven
 def write_cores(
-    g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, share_of_b, shape, size, bound_radius, lanes
+    g, r, first, row_a, row_b, body_a, body_b, rotation, normal, share_of_b, shape, size, bound_radius, lanes
 ):  # fmt: skip
     """Write how far points of manifolds are outside the cores of both bodies, -1 of what else is smooth; and `LAND`.
 
-    The end of a cylinder over which points glide is as flat as the face of a box.
+    The end of a cylinder over which points glide is as flat as the face of a box. And write how the normal turns with
+    the cores of what is round on either side (`write_curve`).
     """
     for lane in range(WIDTH):
         c, land = first[g, lane], 0.0
-        for to, row, body, lean, outward in (
-            (CORE_A, row_a, body_a, lean_a, 1.0), (CORE_B, row_b, body_b, lean_b, -1.0),
-        ):  # fmt: skip
-            core = 0.0
-            if c >= 0:
-                core = -1.0 if is_smooth(row[c], shape) else bound_radius[row[c]]
-                if core < 0.0 and shows_face(c, outward, share_of_b):
-                    core = 0.0
-                elif shape[row[c]] == CYLINDER_SHAPE and lean[c, 1] * lean[c, 1] <= ON_SIDE * ON_SIDE:
-                    core = size[row[c], 0]
+        axes, cores = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), (0.0, 0.0)
+        if c >= 0:
+            core_a, axis_a = core_of(c, row_a[c], 1.0, rotation, normal, share_of_b, shape, size, bound_radius)
+            core_b, axis_b = core_of(c, row_b[c], -1.0, rotation, normal, share_of_b, shape, size, bound_radius)
+            axes, cores = (axis_a, axis_b), (core_a, core_b)
+            for row, body, adds in ((row_a, body_a, 0.5), (row_b, body_b, -0.5)):
                 if body[c] < 0 and shape[row[c]] != BOX_SHAPE and shape[row[c]] != PLANE_SHAPE:
-                    land = 0.5 * outward
-            lanes[r + to, lane] = core
-        lanes[r + LAND, lane] = land
+                    land = adds
+        lanes[r + CORE_A, lane], lanes[r + CORE_B, lane], lanes[r + LAND, lane] = cores[0], cores[1], land
+        lanes[r + CURVE, lane] = lanes[r + CURVE + 1, lane] = lanes[r + CURVE + 2, lane] = 0.0
+        if cores[0] > 0.0 and cores[1] > 0.0:
+            write_curve(r, lane, cores[0] + cores[1], axes[0], axes[1], lanes)
+
+
+@woven
+def core_of(c, i, outward, rotation, normal, share_of_b, shape, size, bound_radius):
+    """Return how far contact c is outside the core of collider i, and the axis that this has; of an end of it 0."""
+    if not is_smooth(i, shape) and shape[i] != CAPSULE_SHAPE:
+        return bound_radius[i], (0.0, 0.0, 0.0)
+    if is_smooth(i, shape) and shows_face(c, outward, share_of_b):
+        return 0.0, (0.0, 0.0, 0.0)
+    x, y, z = turned(rotation, i, 0.0, 1.0, 0.0)
+    along = x * normal[c, 0] + y * normal[c, 1] + z * normal[c, 2]
+    lies = along * along <= ON_SIDE * ON_SIDE
+    core = bound_radius[i] if shape[i] == CAPSULE_SHAPE else -1.0
+    if shape[i] == CYLINDER_SHAPE and lies:
+        core = size[i, 0]
+    return core, ((x, y, z) if lies else (0.0, 0.0, 0.0))
 
 
 @woven

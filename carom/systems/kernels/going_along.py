@@ -1,7 +1,7 @@
-"""Going along: contacts turn on within a step with whose face they are on.
+"""Going along: contacts turn on within a step with whose face they are on, or as what is round goes round the other.
 
 In a substep their frames are where that comes to be in its middle, so that how bodies part is right to second order:
-what goes round together does not creep. How far the face has turned on beyond its frame is its lag.
+what goes round together does not creep. How far the face has turned on beyond the frame is its lag.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, pl
 from carom.systems.kernels.lanes import choose, gather_four, larger, load, some, spread
 from carom.systems.kernels.levers import frame_of, seen_from
 from carom.systems.kernels.packing import CENTER, INVERSE_MASS
+from carom.systems.kernels.rounds_in_lanes import those_that_go_round, turn_between
 
 TURNING_ROWS = (of.TANGENT, of.TANGENT + 3, of.NORMAL, of.RUB, of.ROLLED, of.SURFACE)  # vectors of a manifold
 
@@ -40,14 +41,22 @@ def turn_of_face(r, there, turn_a, turn_b, lanes):
 
 @woven
 def set_out(g, r, points, h, bends, a, b, index_a, index_b, lanes, bodies):
-    """Turn frames of a group on to the middle of a substep of h seconds; tell whether one is turned."""
+    """Turn frames of a group on to the middle of a substep of h seconds; tell whether one is turned.
+
+    Those on faces that turn (`those_that_turn`), and between two that are round (`those_that_go_round`).
+    """
     zero, lag, fast = spread(0.0), three(lanes, r + of.LAG), those_that_turn(r, points, h, a, b, lanes)
-    if not some(larger(fast, dot(lag, lag))):
+    between = turn_between(r, a, b, lanes)
+    rounds = those_that_go_round(r, points, h, between, lanes)
+    if not some(larger(larger(fast, rounds), dot(lag, lag))):
         return False
+    curved = load(lanes, r + of.CURVE) + load(lanes, r + of.CURVE + 2)
+    fast = choose(choose(load(lanes, r + of.BALL), zero, curved), zero, fast)  # of those cores say where they meet
     half = turn_of_face(r, fast, times(0.5 * h, a[4:7]), times(0.5 * h, b[4:7]), lanes)
+    half = plus(half, where(rounds, times(0.5 * h, between)))
     turn_frames(r, plus(half, lag), lanes)
     arc = choose(load(lanes, r + of.BALL), fast, zero) if bends else zero
-    x, y, z = where(choose(arc, zero, fast), half)  # what bends arcs comes in the middle, where frames are now
+    x, y, z = where(choose(arc, zero, larger(fast, rounds)), half)  # what bends arcs comes in the middle of the substep
     keep(lanes, r + of.LAG, -x, -y, -z)
     from_a, from_b = gather_four(bodies[CENTER], index_a, g, 0), gather_four(bodies[CENTER], index_b, g, 0)
     meet_in_one_place(r, fast, arc, half, minus(from_b, from_a), times(0.5 * h, minus(b, a)), lanes)

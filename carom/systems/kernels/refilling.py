@@ -17,7 +17,7 @@ from carom.systems.kernels.lanes import address, choose, load, spread, store
 @shared("lanes")
 def refill_groups(
     crew, groups, first, size, row, points, even, normal, depth, offset_a, offset_b, share_of_b, resting,
-    row_a, row_b, body_a, body_b, lean_a, lean_b, shape, size_of_shape, bound_radius, lanes,
+    row_a, row_b, body_a, body_b, rotation, shape, size_of_shape, bound_radius, lanes,
 ):  # fmt: skip
     """Write into the lanes of groups what `fill_groups` would, where they are as that has filled them.
 
@@ -52,12 +52,12 @@ def refill_groups(
         store(rows, r + of.SWUNG, zero)
         keep(rows, r + of.LAG, zero, zero, zero)
         if not are_balls(r, lanes):
+            find_tangents(r, rows)
             write_cores(
-                g, r, first, row_a, row_b, body_a, body_b, lean_a, lean_b, share_of_b, shape, size_of_shape,
+                g, r, first, row_a, row_b, body_a, body_b, rotation, normal, share_of_b, shape, size_of_shape,
                 bound_radius, lanes,
             )  # fmt: skip
             store(rows, r + of.GOES, goes_with_b(pick_one(share_of_b, at, sizes), load(rows, r + of.LAND)))
-            find_tangents(r, rows)
             place_points(g, r, points[g], first, size, offset_a, offset_b, depth, lanes)
 
 

@@ -8,9 +8,10 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.going_along import turn_of_face
 from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
-from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, swung, three, times
+from carom.systems.kernels.lane_vectors import dot, keep, minus, plus, swung, three, times, where
 from carom.systems.kernels.lanes import choose, larger, load, root, some, spread, store
 from carom.systems.kernels.levers import frame_of, parting_at, parting_of, seen_from
+from carom.systems.kernels.rounds_in_lanes import turn_between
 
 
 @woven
@@ -18,24 +19,25 @@ def sink_points(r, points, fresh, lanes, a, b):
     """Write how deep the points of a group have come to be as its bodies went on their ways, and where they are by now.
 
     A point goes with both bodies, to first order of their turn, with what is round to second order; then it goes on in
-    its frame, which stays, or goes on with the face (`set_out`): what turns as that does stays in it. The middle goes
-    with either body, as it does where nothing slips, and with what is round over the face of the other (`rolled_over`);
-    points turn about it with whose corners they are: of neither, or of both, half as much (`goes_with_b`). Those of
-    what is round go with its axis, which leans as they are deep. What else is smooth turns beneath its points;
-    `roll_on` says where those go.
+    its frame, which stays, or goes on with the face or round the other (`set_out`): what turns as that does stays in
+    it. The middle goes with either body, as it does where nothing slips, and with what is round over the face of the
+    other (`rolled_over`); points turn about it with whose corners they are: of neither, or of both, half as much
+    (`goes_with_b`). Those of what is round go with its axis, which leans as they are deep. What else is smooth turns
+    beneath its points; `roll_on` says where those go.
     """
     zero, turn_a, turn_b = spread(0.0), a[4:7], b[4:7]
     parting = parting_of(r, lanes, a, b)
     turned = larger(dot(turn_a, turn_a), dot(turn_b, turn_b))
-    far = choose(load(lanes, r + of.BALL), zero, turned - TURNED * TURNED)
+    lag = three(lanes, r + of.LAG)
+    far = choose(load(lanes, r + of.BALL), zero, larger(turned - TURNED * TURNED, dot(lag, lag)))
     if not some(far):
         for p in range(points):
             q = r + MANIFOLD_ROWS + POINT_ROWS * p
             store(lanes, q + of.DEPTH, load(lanes, q + of.DEPTH) - parting_at(q, lanes, parting))
         return
-    lag = three(lanes, r + of.LAG)
     goes_along = choose(far, spread(1.0) if fresh else dot(lag, lag), zero)
     face = turn_of_face(r, goes_along, turn_a, turn_b, lanes)
+    face = plus(face, where(goes_along, turn_between(r, a, b, lanes)))
     x, y, z = plus(lag, face)
     keep(lanes, r + of.LAG, x, y, z)
     turn_a, turn_b = minus(turn_a, face), minus(turn_b, face)
