@@ -19,7 +19,7 @@ BALL, BOX = {"sphere": {"radius": 0.3}}, {"box": {"size": (0.6, 0.6, 0.6)}}
 LYING, UPSIDE_DOWN = (np.sqrt(0.5), 0.0, 0.0, np.sqrt(0.5)), (1.0, 0.0, 0.0, 0.0)
 CAPSULE, DRUM = {"capsule": {"radius": 0.3, "length": 0.4}}, {"cylinder": {"radius": 0.3, "length": 0.6}}
 EGG = {"ellipsoid": {"radii": (0.3, 0.3, 0.5)}}
-LAND = {"height_field": {"heights": np.ones((9, 9)).tolist(), "spacing": 0.5}}
+FLAT, PEAK = np.ones((9, 9)), np.pad(np.ones((1, 1)), 4)
 ABOVE, BELOW, NEITHER = 1.0, 0.0, 0.5  # with whom points go
 
 
@@ -81,10 +81,12 @@ def test_points_go_with_who_lies_on_a_face(
     assert found == {share}
 
 
+@pytest.mark.parametrize("heights", [FLAT, PEAK], ids=["flat", "peak"])
 @pytest.mark.parametrize("collider", [PUCK, CONE], ids=["cylinder", "cone"])
-def test_nobody_looks_for_ends_on_land(collider: dict[str, Any]) -> None:
-    """Of land points go with who is no land anyway: what stands on its end there does so as before."""
-    land = {"collider": LAND, "body": None, "transform": at(-2.0, -1.0)}
+def test_nobody_looks_for_ends_on_land(collider: dict[str, Any], heights: np.ndarray) -> None:
+    """Of land points go with who is no land anyway (`goes_with_b`), on the top of a peak within the rim, too."""
+    field = {"height_field": {"heights": heights.tolist(), "spacing": 0.5}}
+    land = {"collider": field, "body": None, "transform": at(0.0, -1.0)}
     assert shares_of(land, {"collider": collider, "transform": at(0.0, 1.0)}, first=False) == {NEITHER}
 
 
