@@ -31,7 +31,7 @@ def plank_on_rollers(spin: float, dt: float) -> tuple[Simulation, int]:
 @pytest.mark.parametrize("spin", [5.0, 15.0, 40.0])
 @pytest.mark.parametrize("parts", [1, 4])
 def test_a_plank_on_two_rollers_goes_to_and_fro(spin: float, parts: int) -> None:
-    """By x'' = -2 mu g x / (L - mu d) for a plank of thickness d, however fast they turn.
+    """By x'' = -2 mu g x / (L - mu d) for a plank of thickness d, at whichever of these speeds they turn.
 
     Each rubs by mu times what it bears; as they do so at the lower side, they shift the load. In 4 s, in one and a
     half periods, it is 2.5 mm off, and a quarter of that in steps of a quarter: that points are where they are in the
