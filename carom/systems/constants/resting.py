@@ -33,9 +33,10 @@ LAGS = 1e-3
 # as it begins to; normals turn too far. Smaller: what trembles is turned for nothing; who leaves comes down again.
 GOES_ROUND, ROUND_GAP = 1e-4, 0.1
 
-# Part of the radius within which one touches the end of a cylinder and not its rim. Larger: what stands on its rim is
-# taken for a face of its own. Smaller: ends that turn leave behind who lies near their rim.
-WITHIN = 0.999
+# Sine of the angle by which a normal may lean against that of a cylinder's end or a hull's face and still be of it, and
+# part of the radius within which one touches an end and not its rim. Larger: points of rims and edges glide as over
+# faces. Smaller: faces that turn leave behind who leans a little, or lies near the rim.
+FACING, WITHIN = 1e-3, 0.999
 
 # Points of a manifold; a pair with more on one plane has several.
 MANIFOLD_POINTS = 4

@@ -9,10 +9,11 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import LAGS, TOUCH
 from carom.systems.kernels import groups as of
+from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import TINY, cross, dot, keep, minus, plus, swung, three, times, where
 from carom.systems.kernels.lanes import choose, gather_four, larger, load, some, spread
-from carom.systems.kernels.levers import frame_of, seen_from, where_near
+from carom.systems.kernels.levers import frame_of, seen_from
 from carom.systems.kernels.packing import CENTER, INVERSE_MASS
 from carom.systems.kernels.rounds_in_lanes import those_that_go_round, turn_between
 
@@ -70,8 +71,10 @@ def those_that_turn(r, points, h, a, b, lanes):
     their bodies move. Two balls are measured in each substep.
     """
     zero, on_a, on_b = spread(0.0), turns_by_itself(a), turns_by_itself(b)
-    fast = larger(dot(a[4:7], a[4:7]), dot(b[4:7], b[4:7])) * (h * h) - LAGS * LAGS
-    fast = larger(larger(on_a, on_b), where_near(fast, r, points, TOUCH, lanes))
+    fast, deepest = larger(dot(a[4:7], a[4:7]), dot(b[4:7], b[4:7])) * (h * h) - LAGS * LAGS, spread(ABSENT)
+    for p in range(points if some(fast) else 0):
+        deepest = larger(deepest, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.DEPTH))
+    fast = larger(larger(on_a, on_b), choose(deepest + TOUCH, fast, zero))
     both_go = choose(larger(a[INVERSE_MASS], on_a), larger(b[INVERSE_MASS], on_b), zero)
     ball = load(lanes, r + of.BALL)
     return choose(both_go, choose(ball, choose(1.5 - ball, larger(on_a, on_b), zero), fast), zero)

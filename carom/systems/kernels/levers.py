@@ -8,10 +8,9 @@ from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.kernels import groups as of
-from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import dot, three
-from carom.systems.kernels.lanes import choose, larger, load, some, spread
+from carom.systems.kernels.lanes import load
 
 
 @woven
@@ -44,15 +43,6 @@ def parting_of(r, lanes, a, b):
 def parting_at(q, lanes, parting):
     """Return how fast bodies part at a point, by what `parting_of` returns."""
     return parting[0] + (load(lanes, q + of.AT + 1) * parting[1] - load(lanes, q + of.AT) * parting[2])
-
-
-@woven
-def where_near(there, r, points, reach, lanes):
-    """Return ``there`` of manifolds one of whose points is nearer than such a gap; nothing of others."""
-    zero, deepest = spread(0.0), spread(ABSENT)
-    for p in range(points if some(there) else 0):
-        deepest = larger(deepest, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.DEPTH))
-    return choose(deepest + reach, there, zero)
 
 
 @woven

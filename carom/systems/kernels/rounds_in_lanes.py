@@ -9,10 +9,11 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from carom.systems.constants import GOES_ROUND, ON_SIDE, ROUND_GAP
 from carom.systems.kernels import groups as of
+from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import woven
 from carom.systems.kernels.lane_vectors import cross, dot, minus, plus, spanned, three
-from carom.systems.kernels.lanes import choose, load, some, spread
-from carom.systems.kernels.levers import frame_of, seen_from, where_near
+from carom.systems.kernels.lanes import choose, larger, load, some, spread
+from carom.systems.kernels.levers import frame_of, seen_from
 
 
 @woven
@@ -29,7 +30,7 @@ def write_curve(r, lane, reach, one, other, lanes):
     if at * at + au * au == 0.0:
         at, au = bt, bu
     lanes[r + of.CURVE, lane] = stiff * (1.0 - at * at)
-    lanes[r + of.CURVE + 1, lane] = -stiff * at * au
+    lanes[r + of.CURVE + 1, lane] = stiff * (0.0 - at * au)
     lanes[r + of.CURVE + 2, lane] = stiff * (1.0 - au * au)
 
 
@@ -59,6 +60,9 @@ def turn_between(r, a, b, lanes):
 @woven
 def those_that_go_round(r, points, h, turn, lanes):
     """Return more than 0 of manifolds that are near and whose normals turn by more than `GOES_ROUND` in h seconds."""
+    zero, deepest = spread(0.0), spread(ABSENT)
     fast = dot(turn, turn) * (h * h) - GOES_ROUND * GOES_ROUND
-    gap = ROUND_GAP * (load(lanes, r + of.CORE_A) + load(lanes, r + of.CORE_B))
-    return choose(load(lanes, r + of.BALL), spread(0.0), where_near(fast, r, points, gap, lanes))
+    for p in range(points if some(fast) else 0):
+        deepest = larger(deepest, load(lanes, r + MANIFOLD_ROWS + POINT_ROWS * p + of.DEPTH))
+    near = ROUND_GAP * (load(lanes, r + of.CORE_A) + load(lanes, r + of.CORE_B))
+    return choose(load(lanes, r + of.BALL), zero, choose(deepest + near, fast, zero))

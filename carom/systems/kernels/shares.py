@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import LEANING, WITHIN
+from carom.systems.constants import FACING, LEANING, WITHIN
 from carom.systems.kernels.cores import CONE_SHAPE, CONVEX_SHAPE, CYLINDER_SHAPE
 from carom.systems.kernels.frames import turned_back
 from carom.systems.kernels.kernel import inlined, woven
-from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE
+from carom.systems.kernels.narrow import BOX_SHAPE, PLANE_SHAPE, is_ball
 from carom.systems.kernels.offsets import is_alike
 from carom.systems.kernels.ray_colliders import FIELD_SHAPE, MESH_SHAPE
 
@@ -40,20 +40,22 @@ def is_flat(i, c, normal, shape, pose_rotation):
     if shape[i] != BOX_SHAPE:
         return shape[i] == PLANE_SHAPE
     x, y, z = turned_back(pose_rotation, i, normal[c, 0], normal[c, 1], normal[c, 2])
-    return is_along_axis(x, y, z)
+    return is_along_axis(x, y, z, LEANING)
 
 
 @woven
 def is_flat_where_seated(i, c, lean, shape):
     """Tell whether collider i turns a face to contact c, whose normal ``lean`` has in its frame."""
-    return shape[i] == PLANE_SHAPE or (shape[i] == BOX_SHAPE and is_along_axis(lean[c, 0], lean[c, 1], lean[c, 2]))
+    return shape[i] == PLANE_SHAPE or (
+        shape[i] == BOX_SHAPE and is_along_axis(lean[c, 0], lean[c, 1], lean[c, 2], LEANING)
+    )
 
 
 @woven
-def is_along_axis(x, y, z):
-    """Tell whether a unit vector is along one of the axes."""
+def is_along_axis(x, y, z, leaning):
+    """Tell whether a unit vector is along one of the axes, but for such a sine."""
     x, y, z = x * x, y * y, z * z
-    return x + y + z - max(x, y, z) <= LEANING * LEANING
+    return x + y + z - max(x, y, z) <= leaning * leaning
 
 
 @woven
@@ -74,10 +76,10 @@ def shows_face(c, outward, share):
 def find_faces(
     first, end, a, b, normal, point, shape, size, geometry, position, rotation, polyhedron, face_start, normals, share
 ):  # fmt: skip
-    """Write of contacts of what is round that they glide over a face, where they do and `find_shares` does not say it.
+    """Write of contacts of what is round that they glide over a face, where they do: to `FACING`, as they are found.
 
-    Over an end of a cylinder or the base of a cone glides whoever touches it within its rim, over a face of a hull what
-    is round and does not show one.
+    Over an end of a cylinder or the base of a cone glides whoever touches it within its rim, over a face of a box or a
+    hull what is round and does not show one.
     """
     for c in range(first, end):
         if c > first and is_alike(c, c - 1, normal):
@@ -89,8 +91,8 @@ def find_faces(
         of_a = is_on_end(a, b, c, last, 1.0, normal, point, shape, size, position, rotation)
         of_b = is_on_end(b, a, c, last, -1.0, normal, point, shape, size, position, rotation)
         if not (of_a or of_b):
-            of_a = is_on_hull(a, b, c, 1.0, normal, shape, geometry, rotation, polyhedron, face_start, normals)
-            of_b = is_on_hull(b, a, c, -1.0, normal, shape, geometry, rotation, polyhedron, face_start, normals)
+            of_a = is_on_face(a, b, c, 1.0, normal, shape, geometry, rotation, polyhedron, face_start, normals)
+            of_b = is_on_face(b, a, c, -1.0, normal, shape, geometry, rotation, polyhedron, face_start, normals)
         if of_a != of_b:
             share[c] = 1.0 if of_a else 0.0
 
@@ -101,7 +103,7 @@ def is_on_end(i, o, c, last, outward, normal, point, shape, size, position, rota
     if not (shape[i] == CYLINDER_SHAPE or shape[i] == CONE_SHAPE) or is_land(o, shape):
         return False
     x, y, z = turned_back(rotation, i, outward * normal[c, 0], outward * normal[c, 1], outward * normal[c, 2])
-    if x * x + z * z > LEANING * LEANING or (shape[i] == CONE_SHAPE and y > 0.0):
+    if x * x + z * z > FACING * FACING or (shape[i] == CONE_SHAPE and y > 0.0):
         return False
     farthest = 0.0
     for k in range(c, last):
@@ -114,14 +116,16 @@ def is_on_end(i, o, c, last, outward, normal, point, shape, size, position, rota
 
 
 @inlined
-def is_on_hull(i, o, c, outward, normal, shape, geometry, rotation, polyhedron, face_start, normals):
-    """Tell whether contact c of what is round, o, lies on a face of collider i, a hull."""
-    if shape[i] != CONVEX_SHAPE or not is_round(o, shape):
+def is_on_face(i, o, c, outward, normal, shape, geometry, rotation, polyhedron, face_start, normals):
+    """Tell whether contact c of what is round, o, lies on a face of collider i, a box or a hull."""
+    if not is_round(o, shape) or not (shape[i] == BOX_SHAPE or shape[i] == CONVEX_SHAPE):
         return False
     x, y, z = turned_back(rotation, i, outward * normal[c, 0], outward * normal[c, 1], outward * normal[c, 2])
+    if shape[i] == BOX_SHAPE:
+        return not is_ball(o, shape) and is_along_axis(x, y, z, FACING)  # what a ball touches is exact
     one = polyhedron[geometry[i]]
     for f in range(face_start[one], face_start[one + 1]):
-        if x * normals[f, 0] + y * normals[f, 1] + z * normals[f, 2] > 1.0 - 0.5 * LEANING * LEANING:
+        if x * normals[f, 0] + y * normals[f, 1] + z * normals[f, 2] > 1.0 - 0.5 * FACING * FACING:
             return True
     return False
 
