@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+import numpy.typing as npt
 
 from carom.ecs import Collider, ColliderPose, Motion, RigidBody, Transform, World
 from carom.ecs.column import Booleans, Floats, Integers
@@ -21,29 +24,26 @@ from carom.systems.kernels.fast_pairs import (
     place_fast,
     take_quick,
 )
-from carom.systems.kernels.left_out import when_near, write_left_out
+from carom.systems.kernels.left_out import write_left_out
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.swinging import NUMBERS
-from carom.systems.kernels.telling import ask_told
-from carom.systems.kernels.told import renew_told, write_told
-from carom.systems.kernels.trust import ask_straying, find_agreeing, find_trusts, spend_trust
+from carom.systems.kernels.told import write_told
+from carom.systems.kernels.trust import find_agreeing, find_trusts
 from carom.systems.looked import NO_PAIRS, NONE_LEFT_OUT, NONE_TOLD, NOWHERE, FastPairs, Land, LeftOut, Looked, Told
 from carom.systems.progress import Progress
-from carom.systems.resting import Resting
-from carom.systems.settings import Settings
 
 
 class Fast(Resource):
     """All pairs that are fast, and the land they fly over.
 
     ``trusts`` (rows, 10) say of each body how far (m) its contacts are trusted, infinity for most, and what bounds how
-    fast it comes to somebody (`find_trusts`).
+    fast it comes to somebody (`find_trusts`); ``struck`` (rows,), who was since the last look.
     """
 
     def __init__(self) -> None:
         self.all, self.land, self.left_out, self.told = NO_PAIRS, NOWHERE, NONE_LEFT_OUT, NONE_TOLD
-        self._times: Floats = np.empty(0)  # when each pair is to be looked at, by the last look
         self.trusts: Floats = np.zeros((0, 10))
+        self.struck: Booleans = np.zeros(0, np.bool_)
         self._limited = False  # whether some of them are finite
 
     @property
@@ -60,6 +60,7 @@ class Fast(Resource):
         size = len(motion.asleep)
         if self._limited or len(self.trusts) != size:
             self.trusts, self._limited = np.tile([np.inf, *np.zeros(9)], (size, 1)), False
+            self.struck = np.zeros(size, np.bool_)
         self.all, self.left_out = NO_PAIRS, NONE_LEFT_OUT
         if not (len(fast) or len(free)):  # most often
             return
@@ -68,13 +69,18 @@ class Fast(Resource):
             fast, numbers = np.concatenate([fast, free]), np.concatenate([numbers, free_numbers])
             order = np.lexsort(fast.T[::-1])
             fast, numbers = fast[order], numbers[order]
-        self.all = FastPairs.of(fast, Looked.room(numbers), motion.linear)
+        self.all = FastPairs.of(fast, Looked.room(numbers), motion.linear, motion.angular)
         given, reaches = fast.copy(), numbers.copy()
         self.land, self._limited = look_at(world, fast, center, self.all.looked), True
         find_trusts(self.all.looked.bodies, numbers, motion.linear, motion.angular, self.trusts)
-        times, agrees = self._foresee(world, center, span, found=True), np.empty(len(fast), np.bool_)
+        flight, of, agrees = world[Flight], self.all, np.empty(len(fast), np.bool_)
+        foresee_meetings(
+            span, False, True, center, world[Transform].rotation, motion.linear, motion.angular, accelerations(world),
+            flight.detected_center, flight.detected_rotation, flight.reach,
+            *of.looked, *self.land, of.asked, of.near, of.left, of.times,
+        )  # fmt: skip
         find_agreeing(
-            given, reaches, times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
+            given, reaches, self.all.times, span, found.row_a, found.row_b, found.normal, found.depth, found.point,
             pose.body_row, world[Flight].reach, center, motion.linear, motion.angular, agrees,
         )  # fmt: skip
         self.all.asked[:], self.all.left[agrees] = ~agrees, 0.0
@@ -110,82 +116,18 @@ class Fast(Resource):
             world[Transform].rotation, *self.told,
         )  # fmt: skip
 
-    def tells(self, world: World, span: float) -> bool:
-        """Tell whether all who are to be looked at now meet where contacts in the table tell, and write how these are.
-
-        Then nobody needs to be detected anew: they are trusted again, within ``span`` seconds, and may strike again.
-        """
-        of, contact, motion, tells = self.all, world[Contact], world[Motion], np.empty(len(self.all.pairs), np.bool_)
-        center, rotation = world[Flight].center, world[Transform].rotation
-        of_contacts = contact.body_a, contact.body_b, contact.normal
-        if not ask_told(
-            span, center, rotation, motion.linear, motion.angular, accelerations(world), *of.looked, *self.land,
-            of.asked, self._times, *of_contacts, *self.told, of.left, tells,
-        ):  # fmt: skip
-            return False
-        collider, resting = world[Collider], world[Resting]
-        resting.sink(world)
-        renew_told(
-            resting.count, resting.start, resting.group_of, resting.lane_of, resting.row, resting.stale,
-            contact.row_a, contact.row_b, collider.shape, collider.bound_radius, *of_contacts, *self.told, tells,
-            center, rotation, motion.linear, motion.angular, contact.depth, contact.offset_a, contact.offset_b,
-            contact.resting, resting.lanes,
-        )  # fmt: skip
-        return True
-
     def let_go(self, contact: Contact) -> None:
         """Let contacts strike again of pairs of which one is new, or that are looked after: they may turn onto one."""
         let_go(self.pairs, contact.count, contact.row_a, contact.row_b, contact.resting)
 
-    def next_look(self, world: World, span: float, *, found: bool) -> float:
-        """Return in how many seconds somebody is to be detected anew as all move now; infinity beyond ``span``.
-
-        Contacts have just been ``found``, or what was is trusted for as long as it lasts.
-        """
-        if found and len(self.all.pairs):  # planes of contacts stay where they go at another speed
-            settings = world[Settings]
-            gone = world[Progress].substep * (settings.dt / settings.substeps)
-            self._ask_straying(world, gone, world[Motion].linear)
-        if not self.all.asked.any():
-            return np.inf
-        center, motion = world[Flight].center, world[Motion]
-        first = float(self._foresee(world, center, span, found=found, first_only=True).min())
-        near = when_near(span, *self.left_out, center, world[Transform].rotation, motion.linear, motion.angular)
-        time = min(first, near)
-        return time if time < span else np.inf
-
-    def look_on(self, world: World, elapsed: float, rest: float) -> float:
-        """Return what `next_look` does after a flight of ``elapsed`` seconds, with ``rest`` left of the substep.
-
-        It is 0 where somebody is to be detected now.
-        """
-        of, motion = self.all, world[Motion]
-        if len(of.pairs):
-            spend_trust(
-                elapsed, of.looked.bodies, of.looked.numbers, world[Transform].rotation, motion.linear, motion.angular,
-                of.linear, of.left,
-            )  # fmt: skip
-            self._ask_straying(world, rest, of.linear)
-        return self.next_look(world, rest, found=False)
-
-    def _ask_straying(self, world: World, time: float, before: Floats) -> None:
-        """Look after those who go another way within a time (s) than was foreseen, as velocities were ``before``."""
-        of, motion = self.all, world[Motion]
-        ask_straying(
-            time, of.looked.bodies, of.looked.numbers, world[Transform].rotation, motion.linear, motion.angular,
-            before, of.asked,
+    @property
+    def columns(self) -> tuple[npt.NDArray[Any], ...]:
+        """What `fly_on` takes of those who are fast."""
+        of = self.all
+        return (
+            *of.looked, *self.land, of.asked, of.near, of.left, of.times, of.linear, of.angular, *self.told,
+            *self.left_out, self.trusts, self.struck,
         )  # fmt: skip
-
-    def _foresee(self, world: World, center: Floats, span: float, *, found: bool, first_only: bool = False) -> Floats:
-        """Return when (n,) each pair is to be looked at again."""
-        motion, flight, of = world[Motion], world[Flight], self.all
-        times = self._times = np.empty(len(of.pairs))
-        foresee_meetings(
-            span, first_only, found, center, world[Transform].rotation, motion.linear, motion.angular,
-            accelerations(world), flight.detected_center, flight.detected_rotation, flight.reach,
-            *of.looked, *self.land, of.asked, of.near, of.left, times,
-        )  # fmt: skip
-        return times
 
 
 def accelerations(world: World) -> Floats:

@@ -11,6 +11,7 @@ from carom.ecs.relations.enter import Inside
 from carom.ecs.relations.impact import Impact
 from carom.ecs.timings import Timings
 from carom.systems.awake import Awake
+from carom.systems.constants import MOST_LOOKS
 from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.broad import BroadPhase
@@ -22,8 +23,8 @@ from carom.systems.kernels.impacts import DONE
 from carom.systems.kernels.substeps import take_substeps
 from carom.systems.ledger import Ledger
 from carom.systems.linkage import Linkage
-from carom.systems.progress import Progress
-from carom.systems.response import log_impacts, room_for_log
+from carom.systems.progress import Progress, Stop
+from carom.systems.response import contacts_flown_by, log_impacts, note_flight, room_for_log
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.stream import Stream
@@ -61,13 +62,12 @@ def go_on(world: World, dt: float) -> None:
     """Do all that follows in this substep and the rest at once where nobody looks on; no bit depends on it."""
     progress, resting, settings, contact = world[Progress], world[Resting], world[Settings], world[Contact]
     transform, motion, flight = world[Transform], world[Motion], world[Flight]
-    collider = world[Collider]
     body, force, ledger = world[RigidBody], world[Force], world[Ledger]
     rows, watched = world[Awake].now(world), world[BroadPhase].watched(world)
     crew = crew_for(world, max(len(rows), len(watched), resting.count))
     begun, spent = (world.frame - 1) * settings.dt, np.zeros(len(DONE_AT_ONCE), np.int64)
-    number, reason, at, events, rests, cut, count, pair, log = take_substeps(
-        crew, ALONE, FEWEST, progress.substep, settings.substeps, dt, begun,
+    number, ends, rests, cut, looked, given_up, count, pair, log = take_substeps(
+        crew, ALONE, FEWEST, MOST_LOOKS, progress.substep, settings.substeps, dt, begun,
         SCHEMES[settings.integrator], float(settings.response == "full"), *yielding(dt),
         relax_sweeps(settings.substeps),
         rows, watched, resting.rows(world), contact.count, resting.count, resting.groups, resting.levels,
@@ -84,20 +84,15 @@ def go_on(world: World, dt: float) -> None:
         flight.angular_decay, flight.flow, flight.touching, flight.held, flight.start_position, flight.start_rotation,
         flight.start_linear, flight.start_angular, flight.start_center, flight.turned, world[Stream].motion,
         flight.detected_center, flight.detected_rotation, flight.reach,
-        contact.body_a, contact.body_b, contact.normal, contact.depth, contact.point, contact.offset_a,
-        contact.offset_b, contact.share, contact.row_a, contact.row_b, collider.shape, collider.bound_radius,
-        contact.kind, contact.ball, contact.other, contact.sign, contact.radius,
-        contact.extent, contact.other_position, contact.other_rotation, contact.surface, contact.friction,
-        contact.restitution, contact.resting, contact.impulse, contact.friction_impulse, contact.strikes,
-        contact.plastic, *world[Fast].all.looked, *world[Fast].land, world[Fast].all.asked,
-        world[Fast].all.near, world[Fast].all.left, *world[Fast].left_out, world[Fast].trusts,
+        *contacts_flown_by(world), *world[Fast].columns,
         ledger.pull, ledger.arc, *room_for_log(), spent,
     )  # fmt: skip
-    log_impacts(world, cut, count, pair, log)
+    note_flight(world, cut, looked, given_up)
+    log_impacts(world, count, pair, log)
     resting.forget_poses()
     progress.come_to(number, dt, world)
     progress.gone_on, progress.resting = True, rests
-    progress.stopped = None if reason == DONE else (at, reason, events)
+    progress.stopped = None if ends[0] == DONE else Stop(*ends)
     world[Timings].share_out("go_on", DONE_AT_ONCE, spent.tolist())
 
 

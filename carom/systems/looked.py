@@ -81,8 +81,9 @@ class FastPairs(NamedTuple):
 
     Those are ``asked`` whose contacts, followed straight on, do not say when they meet. ``left`` is how far (m) their
     bodies may still move before what is known of their contacts is no longer trusted, 0 where nothing is known. Who has
-    been ``near`` since contacts were found is trusted anew in each substep.
-    ``linear`` are all velocities when they were found.
+    been ``near`` since contacts were found is trusted anew in each substep. In so many seconds (``times``) from the
+    last look on they are to be looked at again, 0 where that is not known.
+    ``linear`` and ``angular`` are all velocities when they were found.
     """
 
     pairs: Integers
@@ -90,17 +91,19 @@ class FastPairs(NamedTuple):
     asked: Booleans
     near: Booleans
     left: Floats
+    times: Floats
     linear: Floats
+    angular: Floats
 
     @classmethod
-    def of(cls, pairs: Integers, looked: Looked, linear: Floats) -> FastPairs:
+    def of(cls, pairs: Integers, looked: Looked, linear: Floats, angular: Floats) -> FastPairs:
         """Return pairs of whom nothing is known yet, as bodies move."""
         n = len(pairs)
         ones = np.ones(n, np.bool_)
-        return cls(pairs, looked, ones, ones.copy(), np.zeros(n), np.array(linear))
+        return cls(pairs, looked, ones, ones.copy(), np.zeros(n), np.zeros(n), linear.copy(), angular.copy())
 
 
 NOWHERE = Land(np.empty(0, np.float32), np.empty(0, np.int32), np.empty(0), np.zeros((TRIANGLE_CORNERS, 3)))
 NONE_LEFT_OUT = LeftOut.room(0)
 NONE_TOLD = Told.room(0, 0)
-NO_PAIRS = FastPairs.of(np.empty((0, 2), np.int64), Looked.room(np.empty((0, NUMBERS))), np.empty((0, 3)))
+NO_PAIRS = FastPairs.of(np.empty((0, 2), np.int64), Looked.room(np.empty((0, NUMBERS))), *np.empty((2, 0, 3)))

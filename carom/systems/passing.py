@@ -72,7 +72,7 @@ def without_seeming(
         return found, free
     motion = world[Motion]
     looked, reaches = Looked.room(numbers.copy()), numbers.copy()
-    times = np.empty(len(free))
+    times = np.zeros(len(free))
     land = look_at(world, free.copy(), center, looked)  # of meshes the sides change places
     foresee_meetings(
         span, False, False, center, world[Transform].rotation, motion.linear, motion.angular, accelerations(world),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from carom.ecs import World, system
 from carom.ecs.component import Resource
 from carom.ecs.relations.enter import Enter, Exit
@@ -14,12 +16,28 @@ from carom.systems.settings import Settings
 EVENTS = (Impact, Hit, Enter, Exit, ContactBegin, ContactEnd, JointBreak)
 
 
+class Stop(NamedTuple):
+    """Why and when (s) the flight of a substep has stopped, as `fly_on` tells it.
+
+    That was after so many impacts and looks; the next look is ``soon`` (s), and by so much ``more`` looks are counted
+    if detection holds. It ``goes_on`` where anything has been since the last look.
+    """
+
+    reason: int
+    at: float
+    events: int
+    looks: float
+    soon: float
+    more: float
+    goes_on: bool
+
+
 class Progress(Resource):
     """Simulated time at the start of the substep, what the step has left after it (s), and its resting manifolds.
 
     Where it is ``crowded``, so many may meet within the step that detection foresees a substep only. There were so many
     ``detections`` in the step. Once it has ``gone_on`` nothing is left to do in the substep, but where its flight has
-    ``stopped``: when, why, after how many impacts.
+    ``stopped``.
     """
 
     clock: float = 0.0
@@ -29,7 +47,7 @@ class Progress(Resource):
     crowded: bool = False
     gone_on: bool = False
     detections: int = 0
-    stopped: tuple[float, int, int] | None = None
+    stopped: Stop | None = None
 
     def come_to(self, substep: int, dt: float, world: World) -> None:
         """Set the clock to the start of a substep, from 1 on, of the current step."""

@@ -11,7 +11,6 @@ import numpy as np
 from carom.ecs import Collider, Motion
 from carom.ecs.components.flight import Flight
 from carom.systems.constants import SLEEP_TIME
-from carom.systems.continuous import Fast
 from carom.systems.detection.apart import Apart
 from carom.systems.detection.leaving import detection_holds
 from carom.systems.detection.narrow import Found
@@ -70,7 +69,6 @@ class Rehearsal:
                 apart.many = True
                 apart.note(simulation.world, apart.without(simulation.world, pair, np.ones(1))[0], np.ones(1), 1)
                 group_contacts(simulation.world, places=True, same=True)
-                simulation.world[Fast].tells(simulation.world, 1.0)
             for column, value in (("linear", 0.0), ("angular", 0.0), ("still", SLEEP_TIME)):
                 with simulation.world.edit(Motion) as motion:
                     getattr(motion, column)[:] = value

@@ -10,7 +10,6 @@ from onlookers import looked_on
 
 from carom.ecs import Collider, Transform, restore_snapshot, state_hash, take_snapshot
 from carom.systems.constants import MOST_LOOKS, TRUST
-from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.simulation import Simulation
 
@@ -54,7 +53,8 @@ def test_a_crowd_does_not_pass_a_thin_wall(side: int, comes: bool, collider: dic
 def test_there_is_an_end_to_looks(monkeypatch: pytest.MonkeyPatch) -> None:
     """In each substep, however many are struck in it; who comes to be faster than was known is detected anyway."""
     most, for_reach = 5, 2
-    monkeypatch.setattr("carom.systems.response.MOST_LOOKS", most)
+    for way in ("response", "going_on"):
+        monkeypatch.setattr(f"carom.systems.{way}.MOST_LOOKS", most)
     simulation = thrown(PILL, 5)
     answered = simulation.world[Answered]
     for _ in range(10):
@@ -64,21 +64,15 @@ def test_there_is_an_end_to_looks(monkeypatch: pytest.MonkeyPatch) -> None:
     assert answered.looks_cut > 0
 
 
-def test_there_is_an_end_to_looks_at_which_nobody_is_detected(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_there_is_an_end_to_looks_at_which_nobody_is_detected() -> None:
     """A pull that may take a body anywhere lets nobody trust what is found for longer than it has just come."""
     simulation = Simulation(gravity=(0.0, -9.81, 0.0), dt=1.0 / 240.0)
     simulation.add(collider=CUBE, body={"mass": 1.0, "gravity_scale": -1e30}, transform={"position": (-0.65, 0.3, 0.0)})
     simulation.add(collider={"box": {"size": (2.4, 0.1, 0.3)}}, transform={"position": (0.0, 2.05, 0.0)})
-    looks, look_on = [], Fast.look_on
-
-    def counted(*arguments: Any) -> float:
-        looks.append(1)
-        assert len(looks) <= simulation.settings.substeps * MOST_LOOKS
-        return look_on(*arguments)
-
-    monkeypatch.setattr(Fast, "look_on", counted)
     simulation.step()
-    assert looks and simulation.world[Answered].looks_cut > 0
+    answered, settings = simulation.world[Answered], simulation.settings
+    assert 0 < answered.looks <= settings.substeps * MOST_LOOKS
+    assert answered.looks_cut > 0
 
 
 def test_a_crowd_goes_the_same_way_whether_somebody_looks_on_or_not() -> None:
@@ -93,15 +87,8 @@ def test_a_crowd_goes_the_same_way_whether_somebody_looks_on_or_not() -> None:
 
 
 @pytest.mark.parametrize("collider", [CUBE, PILL], ids=["box", "capsule"])
-def test_all_are_looked_at_as_often_where_they_ride_along(
-    collider: dict[str, Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_all_are_looked_at_as_often_where_they_ride_along(collider: dict[str, Any]) -> None:
     """In a train that moves much faster than they do in it: only how they move against each other counts."""
-    looks, look_on = [0], Fast.look_on
-
-    def counted(*arguments: Any) -> float:
-        looks[-1] += 1
-        return look_on(*arguments)
 
     def counts(along: float) -> list[tuple[int, int]]:
         simulation = Simulation(gravity=(0.0, 0.0, 0.0), dt=DT)
@@ -111,12 +98,10 @@ def test_all_are_looked_at_as_often_where_they_ride_along(
         simulation.add(collider=collider, body={}, transform={"position": (-1.6, 0.0, 0.0)}, motion=motion)
         numbers = []
         for _ in range(5):
-            looks.append(0)
             simulation.step()
-            numbers.append((simulation.world[Answered].detections, looks[-1]))
+            numbers.append((simulation.world[Answered].detections, simulation.world[Answered].looks))
         return numbers
 
-    monkeypatch.setattr(Fast, "look_on", counted)
     at_rest = counts(0.0)
     assert max(number for _, number in at_rest) > 1
     assert counts(300.0) == at_rest

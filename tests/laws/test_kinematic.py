@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from carom.ecs.column import Floats
 from carom.ecs.relations.contact import Contact
 from carom.ecs.relations.enter import Enter
+from carom.ecs.spatial import quaternion
 from carom.systems.simulation import Simulation
 
 G = 9.81
@@ -184,6 +186,26 @@ def test_nothing_moves_a_kinematic_body() -> None:
         ways.append([value.tobytes() for value in (pose.position, pose.rotation, motion.linear, motion.angular)])
         assert motion.angular.tolist() == [1.0, 2.0, 3.0]
     assert ways[0] == ways[1]
+
+
+@pytest.mark.parametrize("tilt", [0.002, 0.005, -0.004])
+def test_who_lands_on_a_kinematic_floor_does_as_on_one_that_stands(tilt: float) -> None:
+    """The other end of a plank strikes within the same substep; its bounces multiply rounding by up to 1e7."""
+    material = {"restitution": 0.5, "friction": 0.3}
+
+    def land(**floor: Any) -> Floats:
+        simulation = Simulation(sleeping=False)
+        box = {"box": {"size": (6.0, 1.0, 6.0)}}
+        simulation.add(collider=box, transform={"position": (0.0, -0.5, 0.0)}, material=material, **floor)
+        plank = simulation.add(
+            collider={"box": {"size": (2.0, 0.2, 0.4)}}, body={"mass": 1.0}, material=material,
+            transform={"position": (0.0, 0.35, 0.0), "rotation": quaternion.from_axis_angle((0.0, 0.0, 1.0), tilt)},
+            motion={"linear": (0.0, -6.0, 0.0)},
+        )  # fmt: skip
+        simulation.step(20)
+        return np.concatenate([simulation[plank].transform.position, simulation[plank].motion.angular])
+
+    np.testing.assert_allclose(land(body={"type": "kinematic"}), land(), atol=1e-6)
 
 
 def test_kinematic_bodies_pass_through_each_other_and_what_stands() -> None:

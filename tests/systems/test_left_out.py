@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 import pytest
 
@@ -9,11 +10,18 @@ from carom.ecs.column import Floats
 from carom.ecs.spatial import quaternion
 from carom.systems.constants import MEET
 from carom.systems.kernels.fast_pairs import NEVER
+from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.left_out import when_near, write_left_out
 from carom.systems.looked import LeftOut
 
 TRUST, GAP, WAY = 0.04, 0.1, 0.1 - 0.5 * MEET * 0.04  # m; to well within what is near
 STANDS, UP, STILL = np.array([0.0, 0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0]), np.zeros(3)
+
+
+@kernel()
+def when(span, bodies, normals, gaps, nears, places, center, rotation, linear, angular):
+    """Return when the first is near."""
+    return when_near(span, bodies, normals, gaps, nears, places, center, rotation, linear, angular)
 
 
 def left_out(rotation: Floats = STANDS) -> LeftOut:
@@ -33,7 +41,7 @@ def near(
     angular: Floats = STILL, found: Floats = STANDS,
 ) -> float:  # fmt: skip
     """Return when the contact is near."""
-    return float(when_near(span, *left_out(found), center[None], rotation[None], linear[None], angular[None]))
+    return float(when(span, *left_out(found), center[None], rotation[None], linear[None], angular[None]))
 
 
 def test_who_comes_straight_on_is_near_when_the_gap_is_closed_but_for_a_little() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import spending
 
 from carom.ecs import Motion
 from carom.ecs.column import Floats
@@ -12,7 +13,6 @@ from carom.ecs.spatial import quaternion
 from carom.systems.continuous import fast_of, look_at
 from carom.systems.detection.bounds import reach_within
 from carom.systems.kernels.swinging import LEVER, REACH
-from carom.systems.kernels.trust import spend_trust
 from carom.systems.looked import Looked
 from carom.systems.shapes.box import Box
 from carom.systems.shapes.capsule import Capsule
@@ -96,7 +96,7 @@ def extents(shape: Shape, place: Floats, rotation: Floats, directions: Floats) -
 def swing_of(found: Floats, turned: Floats, angular: Floats) -> float:
     """Return how fast (m/s) what has these numbers moves by turning, by what trust in its contacts it spends."""
     left, still = np.array([1e6]), np.zeros((1, 3))
-    spend_trust(1.0, np.array([[0, -1]]), found[None], turned[None], still, angular[None], still, left)
+    spending.spend(1.0, found[None], left, still, angular[None], still, turns=turned[None])
     return float(1e6 - left[0])
 
 

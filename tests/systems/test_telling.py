@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+# mypy: disable-error-code="no-untyped-def,no-untyped-call"
 from typing import Any
 
 import numpy as np
 import pytest
 
-from carom.ecs import Collider, Motion, Transform
+from carom.ecs import Collider, Motion, Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
 from carom.ecs.relations.contact import Contact
@@ -18,6 +19,12 @@ from carom.systems.continuous import Fast
 from carom.systems.detection.answered import Answered
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.contacts import detect
+from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.meeting import foresee_meetings
+from carom.systems.kernels.telling import ask_told
+from carom.systems.kernels.told import renew_told
+from carom.systems.looked import Told
+from carom.systems.resting import Resting
 from carom.systems.simulation import Simulation
 
 H, GAP = 1.0 / 240.0, 1e-3  # s, m
@@ -59,18 +66,59 @@ def found(
     return simulation
 
 
+@kernel(
+    "room", "places", "left", "tells", "depth", "offset_a", "offset_b", "resting", "stale", "lanes", makes_arrays=True
+)
+def ask_and_renew(
+    span, center, turns, linear, angular, felt, bodies, numbers, cores, roots, local_position, local_rotation,
+    bounds, nodes, triangles, room, asked, times, body_a, body_b, normal, spans, around, places, left, tells,
+    count, start, group_of, lane_of, row, stale, row_a, row_b, shape, bound_radius, depth, offset_a, offset_b, resting,
+    lanes,
+):  # fmt: skip
+    """Tell whether contacts tell where pairs meet, and write how they do."""
+    told = ask_told(
+        span, center, turns, linear, angular, felt, bodies, numbers, cores, roots, local_position, local_rotation,
+        bounds, nodes, triangles, room, asked, times, body_a, body_b, normal, spans, around, places, left, tells,
+    )  # fmt: skip
+    if told:
+        renew_told(
+            count, start, group_of, lane_of, row, stale, row_a, row_b, shape, bound_radius, body_a, body_b, normal,
+            spans, around, places, tells, center, turns, linear, angular, depth, offset_a, offset_b, resting, lanes,
+        )  # fmt: skip
+    return told
+
+
 def tells(simulation: Simulation, way: Floats, turn: Floats, *, span: float = 1e-6) -> bool:
     """Tell whether the contacts tell where the body meets once it has come so far and turned so, and ``span`` on."""
     world, row = simulation.world, simulation.world.row(int(simulation.world.find("it")))
     with world.faces(None):
         transform, flight, fast = world[Transform], world[Flight], world[Fast]
+        motion, contact, resting, collider = world[Motion], world[Contact], world[Resting], world[Collider]
         transform.rotation[row] = quaternion.multiply(turn, transform.rotation[row])
         flight.center[row] = flight.start_center[row] = flight.detected_center[row] + way
-        fast.all.asked[:], fast.all.near[:], fast.all.left[:] = True, True, 0.0
-        assert fast.next_look(world, span, found=False) == 0.0
-        answer = fast.tells(world, span)
-        assert (fast.next_look(world, span, found=False) > 0.0) == answer  # it is trusted again
+        of = fast.all
+        of.asked[:], of.near[:], of.left[:], of.times[:] = True, True, 0.0, 0.0
+        moves = flight.center, transform.rotation, motion.linear, motion.angular, flight.felt
+
+        def soon() -> float:
+            where = flight.detected_center, flight.detected_rotation, flight.reach
+            return float(foresee_meetings(span, False, False, *moves, *where, *fast.columns[:14]))
+
+        assert soon() == 0.0
+        answer: bool = ask_and_renew(
+            span, *moves, *of.looked, *fast.land, of.asked, of.times, contact.body_a, contact.body_b, contact.normal,
+            *fast.told, of.left, np.empty(len(of.pairs), np.bool_), resting.count, resting.start, resting.group_of,
+            resting.lane_of, resting.row, resting.stale, contact.row_a, contact.row_b, collider.shape,
+            collider.bound_radius, contact.depth, contact.offset_a, contact.offset_b, contact.resting, resting.lanes,
+        )  # fmt: skip
+        assert (soon() > 0.0) == answer  # it is trusted again
     return answer
+
+
+def tell_nothing(fast: Fast, world: World) -> None:
+    """Note of no contact where it is, so that whoever is to be looked at is detected."""
+    fast.told = Told.room(len(fast.all.pairs), world[Contact].count)
+    fast.told.spans[:] = 0
 
 
 def deepest(simulation: Simulation) -> float:
@@ -166,7 +214,7 @@ def test_what_tumbles_onto_the_ground_is_seldom_detected_anew_and_strikes_as_eve
         return simulation, first
 
     told = [fall(seed) for seed in range(6)]
-    monkeypatch.setattr(Fast, "tells", lambda *arguments: False)
+    monkeypatch.setattr(Fast, "note", tell_nothing)
     anew = [fall(seed) for seed in range(6)]
     for (_, first), (_, as_ever) in zip(told, anew, strict=True):
         np.testing.assert_allclose(first, as_ever, rtol=1e-6, atol=1e-9)
@@ -192,5 +240,5 @@ def test_a_crowd_that_falls_on_land_is_detected_a_few_times_in_a_step(monkeypatc
         return int(world[Answered].detections)
 
     told = fallen()
-    monkeypatch.setattr(Fast, "tells", lambda *arguments: False)
+    monkeypatch.setattr(Fast, "note", tell_nothing)
     assert told < 0.25 * fallen()

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import spending
 
-from carom.ecs import Transform
+from carom.ecs import Motion, Transform, World
 from carom.ecs.column import Floats
 from carom.ecs.components.flight import Flight
-from carom.systems.constants import GLIDING, MEET
+from carom.systems.constants import GLIDING, MEET, TOLD
 from carom.systems.constants import TRUST as TRUST_PART
 from carom.systems.continuous import Fast
 from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.contacts import detect
 from carom.systems.kernels import swinging
-from carom.systems.kernels.trust import ask_straying, spend_trust
+from carom.systems.kernels.fast_pairs import NEVER
+from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.simulation import Simulation
 
 TRUST, REACH = 0.04, 0.5
 STILL, ALONG, ACROSS = np.zeros((1, 3)), np.array([[4.0, 0.0, 0.0]]), np.array([[0.0, 0.0, 4.0]])
-UPRIGHT = np.tile((0.0, 0.0, 0.0, 1.0), (2, 1))
 
 
 def spend(
@@ -27,9 +28,8 @@ def spend(
     left: float = TRUST,
 ) -> tuple[bool, float]:  # fmt: skip
     """Return whether a pair is looked after, and what is left, 2 ms after a look and 10 ms before the next."""
-    asks, lefts, pair, numbers = np.array([asked]), np.array([left]), np.array([[0, -1]]), of_pair(spin=spin)
-    spend_trust(0.002, pair, numbers, UPRIGHT, linear, angular, before, lefts)
-    ask_straying(0.01, pair, numbers, UPRIGHT, linear, angular, before, asks)
+    asks, lefts = np.array([asked]), np.array([left])
+    spending.spend(0.002, of_pair(spin=spin), lefts, linear, angular, before, asked=asks)
     return bool(asks[0]), float(lefts[0])
 
 
@@ -66,13 +66,51 @@ def test_turning_counts_at_the_reach() -> None:
 def test_only_what_moves_against_each_other_counts() -> None:
     """Two that fly side by side spend nothing; where one was stopped on the way, all of its speed."""
     numbers, both, lefts = of_pair(other=REACH), np.tile(ALONG, (2, 1)), np.array([TRUST])
-    pair, still, stopped = np.array([[0, 1]]), np.zeros((2, 3)), np.vstack([ALONG, STILL])
-    spend_trust(0.002, pair, numbers, UPRIGHT, both, still, both, lefts)
+    still, stopped = np.zeros((2, 3)), np.vstack([ALONG, STILL])
+    spending.spend(0.002, numbers, lefts, both, still, both, bodies=(0, 1))
     assert lefts == TRUST
     for now, before in ((both, stopped), (stopped, both)):
         lefts[:] = TRUST
-        spend_trust(0.002, pair, numbers, UPRIGHT, now, still, before, lefts)
+        spending.spend(0.002, numbers, lefts, now, still, before, bodies=(0, 1))
         assert lefts == pytest.approx(TRUST - GLIDING * 0.002 * 4.0, rel=1e-12)
+
+
+def test_who_goes_round_with_what_turns_spends_as_it_sees_that() -> None:
+    """Three metres from its centre, with it: contacts are off by no more than what their points turn aside by."""
+    spin, reach, span = 4.0, 3.5, 0.01
+    round_about = np.array([[0.0, 0.0, spin], [0.0, 0.0, spin]])
+    along = np.array([[3.0 * spin, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    aside = 0.5 * spin * spin * (REACH + reach) * span
+    for extra in (np.zeros(3), np.array([0.0, 2.0, 0.0])):
+        lefts, linear = np.array([TRUST]), along + np.outer((1.0, 0.0), extra)
+        spending.spend(0.001, of_pair(other=reach), lefts, linear, round_about, linear, bodies=(0, 1), span=span)
+        way, speed = np.linalg.norm(extra), np.linalg.norm(linear[0])
+        seen = GLIDING * (way + spin * speed * span) + (aside + spin * way * span) / TOLD
+        assert lefts == pytest.approx(TRUST - 0.001 * seen, rel=1e-12)
+        assert seen < 0.5 * (GLIDING * speed + spin * (REACH + reach))
+
+
+def test_where_one_was_struck_both_ways_count() -> None:
+    """Who went round with it until then may have left it at once, or just now."""
+    spin, still = np.array([[0.0, 0.0, 4.0], [0.0, 0.0, 4.0]]), np.zeros((2, 3))
+    along = np.array([[12.0, 0.0, 0.0], [0.0, 0.0, 0.0]])
+    most = 4.0 * (REACH + 3.5) + GLIDING * 12.0  # as the world sees it
+    for now, before, struck in ((along, along, False), (along, still, True), (still, along, True)):
+        lefts = np.array([TRUST])
+        spending.spend(0.001, of_pair(other=3.5), lefts, now, spin, before, bodies=(0, 1))
+        assert (lefts == pytest.approx(TRUST - 0.001 * most)) == struck
+        assert lefts >= TRUST - 0.001 * most - 1e-15
+
+
+def test_the_time_to_the_next_look_is_known_until_one_is_struck() -> None:
+    """Or trust is spent, from which it was found."""
+    for struck, left, elapsed, known in (
+        (False, 0.0, 0.002, 0.003), (False, 1.0, 0.002, 0.003), (True, 0.0, 0.002, 0.0), (False, 0.001, 0.002, 0.0),
+        (False, 0.0, 0.005, 0.0),
+    ):  # fmt: skip
+        times, lefts, hit = np.array([0.005]), np.array([left]), np.array([struck, False])
+        spending.spend(elapsed, of_pair(), lefts, ALONG, STILL, ALONG, struck=hit, times=times)
+        assert times == pytest.approx(known)
 
 
 def test_no_more_is_spent_than_there_is() -> None:
@@ -117,9 +155,22 @@ def test_who_was_not_near_when_contacts_were_found_is_not_trusted_once_he_is(nea
         detect(world, simulation.settings.dt, 1.0 / 240.0)
         fast = world[Fast]
         assert fast.all.looked.numbers[:, swinging.TRUSTED] == half * TRUST_PART
-        fast.all.asked[:], fast.all.near[:], fast.all.left[:] = True, near, 0.0
-        time = fast.next_look(world, 1.0 / 240.0, found=True)
+        fast.all.asked[:], fast.all.near[:], fast.all.left[:], fast.all.times[:] = True, near, 0.0, 0.0
+        time = foresee(world, found=True)
     wanted = (0.6 - 0.5 * MEET) * half * TRUST_PART / speed
-    assert time == (np.inf if near else pytest.approx(wanted, rel=1e-9))
+    assert time == (NEVER if near else pytest.approx(wanted, rel=1e-9))
     assert fast.all.near == near
     assert fast.all.left == (half * TRUST_PART if near else 0.0)
+    fast.all.left[:], fast.all.times[:] = 0.0, 0.0012  # who has a time keeps it
+    assert foresee(world, found=False) == 0.0012
+
+
+def foresee(world: World, *, found: bool) -> float:
+    """Return when (s) the first of the fast pairs of a world is to be looked at, within a substep."""
+    flight, motion, fast = world[Flight], world[Motion], world[Fast]
+    with world.faces(None):
+        time: float = foresee_meetings(
+            1.0 / 240.0, False, found, flight.center, world[Transform].rotation, motion.linear, motion.angular,
+            flight.felt, flight.detected_center, flight.detected_rotation, flight.reach, *fast.columns[:14],
+        )  # fmt: skip
+    return time

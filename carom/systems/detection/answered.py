@@ -12,9 +12,10 @@ from carom.ecs.component import Resource
 
 @dataclass
 class Answered(Resource):
-    """Counts since the start: pairs by FCL, by array kernels and recycled, impossible points, detections, what was cut.
+    """Counts since the start: pairs by FCL, by array kernels and recycled, impossible points, detections, looks, cuts.
 
-    Cut are impacts beyond the limit of a step, and looks after somebody fast beyond that of a substep.
+    Looks are those after somebody fast on the way. Cut are looks beyond the limit of a substep, and impacts beyond that
+    of a step.
     """
 
     fcl: int = 0
@@ -22,6 +23,7 @@ class Answered(Resource):
     recycled: int = 0
     refused: int = 0
     detections: int = 0
+    looks: int = 0
     impacts_cut: int = 0
     looks_cut: int = 0
 

@@ -8,8 +8,8 @@ import numpy as np
 from carom.ecs.spatial.trigonometry import EIGHTH_SQUARED, QUARTER_TURN, QUARTER_TURN_REST
 from carom.systems.kernels.accounting import KEPT, keep_arc, note_arc
 from carom.systems.kernels.bodies import advance_body
-from carom.systems.kernels.crew import eights_of, shared
-from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.crew import eights_of
+from carom.systems.kernels.kernel import making, woven
 from carom.systems.kernels.lane_columns import (
     are_all,
     give_four,
@@ -26,7 +26,7 @@ from carom.systems.kernels.lanes import WIDTH, choose, larger, root, some, sprea
 from carom.systems.kernels.spatial import even_series, product, quarter, series, turn, turned_by
 
 
-@shared("center", "rotation", "turned", "linear", "angular", "time", "arc", makes_arrays=True)
+@making
 def advance_bodies(
     crew, rows, now, bend, center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
     inverse_mass, inertia, principal_axes, freedom, pull, arc,

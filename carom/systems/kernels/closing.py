@@ -7,9 +7,9 @@ from carom.systems.constants import ROOT_GAP
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls import BALL, BOX
 from carom.systems.kernels.balls_in_lanes import are_balls
-from carom.systems.kernels.crew import part_of, shared, wait_for_all
+from carom.systems.kernels.crew import part_of, wait_for_all
 from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
-from carom.systems.kernels.kernel import woven
+from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.lane_vectors import dot, three
 from carom.systems.kernels.lanes import address, choose, gather, larger, load, planes, some, spread, store
 from carom.systems.kernels.levers import parting_at, parting_of
@@ -21,7 +21,7 @@ from carom.systems.kernels.reach import are_apart, stay_apart, time_within_all
 CANNOT, MAY, HELD_BALL, HELD = range(4)
 
 
-@shared("lanes", "bodies", "closing", "soon")
+@inlined
 def find_closing(
     crew, count, groups, solids, h, rows, watched, stream, center, detected_center, reach, linear, angular,
     acceleration, index_a, index_b, points, row, group_of, lane_of, start, kind, ball, other, other_position,

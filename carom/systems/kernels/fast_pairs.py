@@ -39,16 +39,16 @@ def between(i, o, linear, other_linear):
 
 
 @woven
-def motion_of(i, o, center, linear, angular):
+def motion_of(i, o, center, linear, angular, other_linear, other_angular):
     """Return how fast the centre of body i moves (m/s) and how it turns (rad/s), as seen from o or the world."""
     x, y, z = linear[i, 0], linear[i, 1], linear[i, 2]
     wx, wy, wz = angular[i, 0], angular[i, 1], angular[i, 2]
     if o >= 0:
-        ux, uy, uz = angular[o, 0], angular[o, 1], angular[o, 2]
+        ux, uy, uz = other_angular[o, 0], other_angular[o, 1], other_angular[o, 2]
         cx, cy, cz = cross(
             ux, uy, uz, center[i, 0] - center[o, 0], center[i, 1] - center[o, 1], center[i, 2] - center[o, 2]
         )
-        x, y, z = x - linear[o, 0] - cx, y - linear[o, 1] - cy, z - linear[o, 2] - cz
+        x, y, z = x - other_linear[o, 0] - cx, y - other_linear[o, 1] - cy, z - other_linear[o, 2] - cz
         wx, wy, wz = wx - ux, wy - uy, wz - uz
     return sqrt(x * x + y * y + z * z), wx, wy, wz
 
@@ -156,7 +156,8 @@ def find_fast(
             extent = extent_of(c, bound_half, bound_radius)
             if (free_a if side == 0 else free_b) and extent < smallest:
                 smallest, smaller = extent, side
-        way, wx, wy, wz = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)
+        small, other = (i, o) if smaller == 0 else (o, i)
+        way, wx, wy, wz = motion_of(small, other, center, linear, angular, linear, angular)
         c = a if smaller == 0 else b
         reach = reach_of(c, body_row[c], local_position, bound_center, bound_half, position, center)
         lever = lever_of(c, body_row[c], reach, wx, wy, wz, shape, size, position, rotation, center)

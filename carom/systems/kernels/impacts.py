@@ -21,7 +21,7 @@ from carom.systems.kernels.bodies import advance_body, is_on_joint
 from carom.systems.kernels.bouncing import patience_of, pushed
 from carom.systems.kernels.closing import HELD, HELD_BALL, MAY
 from carom.systems.kernels.heaviness import is_heavy, least_gap, sink_allowed
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import making, woven
 from carom.systems.kernels.reach import time_within_reach
 from carom.systems.kernels.strikes import foresee, strike
 from carom.systems.kernels.tournament import enter_time, pairs_of_bodies
@@ -33,11 +33,7 @@ FEW_IMPACTS = 64  # a flight has room for at first
 TIME, SPEED, IMPULSE, WORK, POINT, NORMAL, FRICTION, WIDTH = 0, 1, 2, 3, 4, 7, 10, 13
 
 
-@kernel(
-    "center", "rotation", "turned", "linear", "angular", "time", "acceleration", "resting",
-    "impulse", "friction_impulse", "strikes", "plastic", "stale", "arc", "log", "log_pair",
-    makes_arrays=True, within=True,
-)  # fmt: skip
+@making
 def fly(
     start, h, bend, clock,
     center, start_center, rotation, turned, linear, angular, time, acceleration, angular_acceleration,
@@ -46,7 +42,7 @@ def fly(
     count, beginning, group_of, stale, body_a, body_b, normal, depth, point, offset_a, offset_b, share,
     row_a, row_b, shape, bound_radius, kind, ball, other, extent, radius, other_position, other_rotation, sign,
     surface, friction, restitution, resting, impulse, friction_impulse, strikes, plastic, closing, within,
-    on_joint, until, trusts, events, pull, arc, log_count, log_pair, log,
+    on_joint, until, trusts, struck, events, pull, arc, log_count, log_pair, log,
 ):  # fmt: skip
     """Fly all bodies from ``start`` to ``h`` (s) into the substep and log their impacts after those ``log_count``.
 
@@ -60,9 +56,9 @@ def fly(
     would renew the patience with endless rows of impacts. ``cut`` counts impacts beyond the cap, which are let pass.
     Nobody flies on beyond ``until``; nor, after an impact of a body that comes farther in the substep than what is
     known of its contacts is trusted, beyond when it may have come so near to others that they are to be looked at:
-    ``trusts`` say when (`place_fast`). Groups become ``stale`` in which pairs are struck, or no longer rest. Blows that
-    go to and fro between bodies that stay together are at one time, and logged as one impact of each pair. An ``arc``
-    of more than no rows is accounted for (`note_arc`).
+    ``trusts`` say when (`find_trusts`), and who goes another way since is ``struck``. Groups become ``stale`` in which
+    pairs are struck, or no longer rest. Blows that go to and fro between bodies that stay together are at one time, and
+    logged as one impact of each pair. An ``arc`` of more than no rows is accounted for (`note_arc`).
     """
     pairs, number = np.empty(count, np.int64), np.empty(count, np.int64)
     taken, near = 0, 0
@@ -254,13 +250,15 @@ def fly(
                 log[log_count, POINT + k] = at_k
             log_count += 1
 
-        # Both bodies are on new arcs: foresee all their pairs anew, and see whether detection still covers them.
+        # Who can be pushed is on a new arc: foresee all its pairs anew, and see whether detection still covers it.
+        first_pushed = i if i >= 0 and inverse_mass[i] > 0.0 else o
         for body in (i, o):
-            if body < 0:
+            if body < 0 or inverse_mass[body] == 0.0:
                 continue
+            struck[body] = True
             for slot in range(begin[body], begin[body + 1]):
                 comes = kind[p] < 0 or not together  # points that did not touch yet are still to come
-                if of_body[slot] != m or (comes and (body == i or i < 0)):
+                if of_body[slot] != m or (comes and body == first_pushed):
                     seek[seek_count] = of_body[slot]
                     seek_count += 1
             within = time_within_reach(

@@ -6,7 +6,7 @@ from __future__ import annotations
 from carom.systems.constants import MEET
 from carom.systems.kernels.fast_pairs import NEVER, first_of_pairs
 from carom.systems.kernels.frames import put_on
-from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.spatial import cross, turn
 from carom.systems.kernels.swinging import TRUSTED
 
@@ -34,7 +34,7 @@ def write_left_out(
         n += 1
 
 
-@kernel(within=True)
+@inlined
 def when_near(span, bodies, normals, gaps, nears, places, center, rotation, linear, angular):
     """Return when (s) the first of the contacts left out is near, as all move now; NEVER if not in ``span``.
 

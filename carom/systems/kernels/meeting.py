@@ -24,6 +24,7 @@ from carom.systems.kernels.mesh_tree import FEW, put_triangle, triangles_around
 from carom.systems.kernels.nearing import MOST_STEPS, near
 from carom.systems.kernels.parting_cores import normal_or_centers, part_from_half_space
 from carom.systems.kernels.polytope import MOST_CORNERS, MOST_FACES
+from carom.systems.kernels.seen import closing_seen, speeds_seen
 from carom.systems.kernels.spatial import cross
 from carom.systems.kernels.swinging import REACH, TRUSTED, swing_now
 
@@ -38,17 +39,24 @@ def across(i, nx, ny, nz, angular):
 
 
 @inlined
-def most_of(p, i, o, limit, numbers, turns, linear, angular, felt):
+def most_of(p, i, o, limit, numbers, center, turns, linear, angular, felt):
     """Return by how much forces may hasten pair p within ``limit`` (s), and how fast any two points may close then.
 
     Before the latter how fast turning moves either; and at last how fast trust in contacts goes, which stay on their
-    faces while bodies glide.
+    faces while bodies glide. Those are no more than what either sees of the other.
     """
     pull = (length_of(i, felt) + length_of(o, felt)) * limit
     swing_i = swing_now(p, 0, i, turns, angular, numbers)
     swing_o = swing_now(p, 1, o, turns, angular, numbers)
     gliding = between(i, o, linear, linear) + pull
-    return pull, swing_i, swing_o, gliding + swing_i + swing_o, GLIDING * gliding + swing_i + swing_o
+    most, spent = gliding + swing_i + swing_o, GLIDING * gliding + swing_i + swing_o
+    if i >= 0 and o >= 0:
+        for side, one, other in ((0, i, o), (1, o, i)):
+            seen, of_trust = speeds_seen(
+                p, one, other, side, limit, pull, numbers, center, linear, angular, linear, angular
+            )
+            most, spent = min(most, seen), min(spent, of_trust)
+    return pull, swing_i, swing_o, most, spent
 
 
 @inlined
@@ -70,7 +78,7 @@ def meet(
     counts wholly where a face ``ends``. And now, where points arrive that were too far to be found.
     """
     trust, around, time = numbers[p, TRUSTED], core[AROUND] + core[CORE + AROUND], 0.0
-    pull, swing_i, swing_o, most, spent = most_of(p, i, o, limit, numbers, turns, linear, angular, felt)
+    pull, swing_i, swing_o, most, spent = most_of(p, i, o, limit, numbers, center, turns, linear, angular, felt)
     nx, ny, nz = 0.0, 1.0, 0.0
     for _ in range(MOST_LOOKS):
         put_both(i, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
@@ -111,6 +119,13 @@ def meet(
         closing += min(across(o, wx, wy, wz, angular) * numbers[p, REACH + 1], swing_o)
         for k, n in enumerate((wx, wy, wz)):
             closing += n * ((linear[i, k] if i >= 0 else 0.0) - (linear[o, k] if o >= 0 else 0.0))
+        if i >= 0 and o >= 0:
+            for side, one, other, sense in ((0, i, o, 1.0), (1, o, i, -1.0)):
+                as_seen = closing_seen(
+                    p, one, other, side, limit, pull, sense * wx, sense * wy, sense * wz, numbers, center, linear,
+                    angular,
+                )  # fmt: skip
+                closing = min(closing, as_seen)
         if closing <= 0.0 or gap > closing * (limit - time):
             return NEVER, 0.0
         time += (gap - 0.5 * MEET * trust) / closing
@@ -125,29 +140,33 @@ def foresee_meetings(
 ):  # fmt: skip
     """Write when (s) each pair of ``bodies`` that is ``asked`` is to be detected anew as they move now.
 
-    NEVER if not in ``span``. Where contacts have been ``found``, who has been ``near`` ever since is trusted for a way
-    that is written into ``left`` (m), but of meshes, of which some triangles may be near and others not. Else it is for
-    what is left of that. Points arrive that were farther apart than contacts were sought, as bodies ``reach``, where
-    they were ``detected``. Where only the first counts, later ones are not told. Local poses (n, 2, ...) are of both
-    shapes about the centres of their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and
-    three more for a triangle of a mesh, which is the first of a pair that has one of ``roots``.
+    NEVER if not in ``span``, 0 of who is not asked; who has a time above 0 keeps it. Return the first (s). Where
+    contacts have been ``found``, who has been ``near`` ever since is trusted for a way that is written into ``left``
+    (m), but of meshes, of which some triangles may be near and others not. Else it is for what is left of that. Points
+    arrive that were farther apart than contacts were sought, as bodies ``reach``, where they were ``detected``. Where
+    only the first counts, later ones are not told. Local poses (n, 2, ...) are of both shapes about the centres of
+    their bodies, of what stands in the world. ``room`` are the vertices of all hulls, and three more for a triangle of
+    a mesh, which is the first of a pair that has one of ``roots``.
     """
     place = np.empty(PLACE)
     corner, name, weight, seen = np.empty(12), np.empty(8, np.int64), np.empty(4), np.empty(3 * MOST_STEPS)
     corners, face = np.empty(6 * MOST_CORNERS), np.empty(3 * MOST_FACES, np.int64)
     plane, rim = np.empty(4 * MOST_FACES), np.empty(2 * 3 * MOST_FACES, np.int64)
     position, rotation, touched = np.empty((2, 3)), np.empty((2, 4)), np.empty(FEW, np.uint32)
-    sooner = span
+    first, sooner = NEVER, span
     for p in range(len(bodies)):
         if not asked[p]:
-            times[p] = NEVER
+            times[p] = 0.0
             continue
         i, o, core = bodies[p, 0], bodies[p, 1], cores[p]
         limit, soonest, known, trusted = sooner if first_only else span, NEVER, found and near[p], 0.0
         if not known and left[p] > 0.0:
             soonest = 0.0
             if left[p] > MEET * numbers[p, TRUSTED]:
-                soonest = time_of_way(left[p], most_of(p, i, o, limit, numbers, turns, linear, angular, felt)[4], limit)
+                spent = most_of(p, i, o, limit, numbers, center, turns, linear, angular, felt)[4]
+                soonest = time_of_way(left[p], spent, limit)
+        elif times[p] > 0.0:
+            soonest = times[p]
         elif roots[p] < 0:
             soonest, trusted = meet(
                 p, i, o, limit, known, False, numbers, core, room, center, turns, linear, angular, felt,
@@ -173,4 +192,5 @@ def foresee_meetings(
                 soonest, trusted = min(soonest, time), max(trusted, way)
         near[p] = near[p] and (trusted > 0.0 or not found)
         times[p] = soonest
-        sooner = min(sooner, soonest)
+        first, sooner = min(first, soonest), min(sooner, soonest)
+    return first

@@ -8,7 +8,7 @@ import numpy as np
 from carom.systems.constants import ROLLED_ASIDE, SOON_SPENT, TOLD, TOLD_ALIKE
 from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, write_place
 from carom.systems.kernels.frames import placed, put_both, put_on, turned
-from carom.systems.kernels.kernel import kernel
+from carom.systems.kernels.kernel import making
 from carom.systems.kernels.meeting import most_of
 from carom.systems.kernels.mesh_tree import FEW, put_triangle, triangles_around
 from carom.systems.kernels.nearing import MOST_STEPS
@@ -19,7 +19,7 @@ from carom.systems.kernels.swinging import REACH, TRUSTED
 from carom.systems.kernels.told import gap_told
 
 
-@kernel("room", "places", "left", "tells", makes_arrays=True)
+@making
 def ask_told(
     span, center, turns, linear, angular, felt, bodies, numbers, cores, roots, local_position, local_rotation,
     bounds, nodes, triangles, room, asked, times, body_a, body_b, normal, spans, around, places, left, tells,
@@ -39,7 +39,7 @@ def ask_told(
         if not asked[p] or not (due or left[p] <= SOON_SPENT * trust):
             continue
         i, o, core, true = bodies[p, 0], bodies[p, 1], cores[p], spans[p, 0] < spans[p, 1]
-        _, _, _, most, spent = most_of(p, i, o, span, numbers, turns, linear, angular, felt)
+        _, _, _, most, spent = most_of(p, i, o, span, numbers, center, turns, linear, angular, felt)
         spent = spent if roots[p] < 0 else most
         for time in (0.0, trust / spent if trust < spent * span else span):
             if not true:

@@ -62,7 +62,7 @@ def gap_told(c, time, body_a, body_b, normal, around, places, center, rotation, 
     return normal[c, 0] * (bx - ax) + normal[c, 1] * (by - ay) + normal[c, 2] * (bz - az) - around[c]
 
 
-@kernel("depth", "offset_a", "offset_b", "resting", "stale", "lanes")
+@inlined
 def renew_told(
     count, start, group_of, lane_of, row, stale, row_a, row_b, shape, bound_radius, body_a, body_b, normal,
     spans, around, places, tells, center, rotation, linear, angular, depth, offset_a, offset_b, resting, lanes,

@@ -9,7 +9,8 @@ from carom.systems.constants import APART_MARGIN, GLIDING, MEET
 from carom.systems.kernels.arriving import sought_to
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.fast_pairs import NEVER, between, motion_of
-from carom.systems.kernels.kernel import kernel, woven
+from carom.systems.kernels.kernel import inlined, kernel, woven
+from carom.systems.kernels.seen import speeds_seen
 from carom.systems.kernels.spatial import cross
 from carom.systems.kernels.swinging import (
     LEVER,
@@ -96,7 +97,8 @@ def find_agreeing(
                 straight = min(straight, max(0.0, -depth[c] / closing))
             c += 1
         smaller = int(numbers[p, SMALLER])
-        way, _, _, _ = motion_of(i if smaller == 0 else o, o if smaller == 0 else i, center, linear, angular)
+        small, other = (i, o) if smaller == 0 else (o, i)
+        way, _, _, _ = motion_of(small, other, center, linear, angular, linear, angular)
         most = way + numbers[p, SWING]
         if near_now:
             agrees[p] = numbers[p, SWING] * span <= numbers[p, TRUSTED]
@@ -105,7 +107,7 @@ def find_agreeing(
             agrees[p] &= straight == NEVER or most * span <= sought_to(p, i, o, numbers, reach)
 
 
-@kernel("asked", within=True)
+@inlined
 def ask_straying(time, bodies, numbers, turns, linear, angular, before, asked):
     """Let who agreed when pairs were found, as velocities were ``before``, be ``asked`` once it goes another way.
 
@@ -125,12 +127,16 @@ def ask_straying(time, bodies, numbers, turns, linear, angular, before, asked):
         asked[p] = asked[p] or strays * time > MEET * numbers[p, TRUSTED]
 
 
-@kernel("left")
-def spend_trust(elapsed, bodies, numbers, turns, linear, angular, before, left):
+@inlined
+def spend_trust(
+    elapsed, span, bodies, numbers, center, turns, linear, angular, before, angular_before, struck, left, times
+):  # fmt: skip
     """Take from what is ``left`` of the way (m) for which contacts of pairs are trusted what bodies went since a look.
 
-    That was ``elapsed`` seconds ago, and how far they glide counts little (GLIDING); velocities ``before`` are those
-    when pairs were found.
+    That was ``elapsed`` seconds ago, in a substep of ``span`` seconds, and how far they glide counts little (GLIDING);
+    velocities ``before`` are those when pairs were found. No more counts than what either sees of the other
+    (`speeds_seen`), as both moved before or do now. Their ``times`` to be looked at come nearer, and are 0, unknown,
+    where a body was ``struck`` or trust is spent.
     """
     for p in range(len(bodies)):
         i, o = bodies[p, 0], bodies[p, 1]
@@ -144,5 +150,21 @@ def spend_trust(elapsed, bodies, numbers, turns, linear, angular, before, left):
                 swing_now(p, side, bodies[p, side], turns, angular, numbers),
                 swing_of(p, side, numbers[p, spin], numbers[p, spin + 1], numbers[p, spin + 2], numbers),
             )
-        rest = left[p] - came * elapsed
-        left[p] = rest if rest > APART_MARGIN * numbers[p, TRUSTED] else 0.0  # most often all of it, but for rounding
+        if i >= 0 and o >= 0:
+            for side, one, other in ((0, i, o), (1, o, i)):
+                seen = 0.0
+                for one_linear, one_angular in ((linear, angular), (before, angular_before)):
+                    for other_linear, other_angular in ((linear, angular), (before, angular_before)):
+                        _, of_trust = speeds_seen(
+                            p, one, other, side, span, 0.0, numbers, center, one_linear, one_angular,
+                            other_linear, other_angular,
+                        )  # fmt: skip
+                        seen = max(seen, of_trust)
+                came = min(came, seen)
+        rest, unknown = left[p] - came * elapsed, (i >= 0 and struck[i]) or (o >= 0 and struck[o])
+        if rest <= APART_MARGIN * numbers[p, TRUSTED]:  # most often all of it, but for rounding
+            unknown |= left[p] > 0.0
+            rest = 0.0
+        left[p] = rest
+        until = times[p] - elapsed
+        times[p] = 0.0 if unknown or until <= APART_MARGIN * times[p] else until

@@ -69,7 +69,7 @@ def compile_measuring() -> None:
     from carom.systems.kernels.fast_pairs import let_go
     from carom.systems.kernels.grid import lead_astray
     from carom.systems.kernels.lanes import WIDTH, aligned
-    from carom.systems.kernels.left_out import when_near, write_left_out
+    from carom.systems.kernels.left_out import write_left_out
     from carom.systems.kernels.manifolds import part_masses
     from carom.systems.kernels.merging import merge_contacts
     from carom.systems.kernels.swinging import NUMBERS
@@ -116,12 +116,11 @@ def compile_measuring() -> None:
     let_go(pairs, count, found.row_a, found.row_b, far)
     far[0] = True
     found.without(far, 1)
-    left_out, center, motion, rotation = LeftOut.room(1), world[Flight].center, world[Motion], world[Transform].rotation
+    left_out, center, rotation = LeftOut.room(1), world[Flight].center, world[Transform].rotation
     write_left_out(
         pairs, np.ones((len(pairs), NUMBERS)), far, found.row_a, found.row_b, found.normal, found.depth, found.point,
         world[ColliderPose].body_row, center, rotation, *left_out,
     )  # fmt: skip
-    when_near(1.0, *left_out, center, rotation, motion.linear, motion.angular)
     none, place = np.zeros(1, np.int64), np.zeros((1, 3))  # manifolds that bodies have side by side
     part_masses(0, none, none, none, none, none, place, place[0, :1], none, none, none, aligned(1, WIDTH))
     reduce_points([(np.zeros(3), np.ones(3), 0.0)])  # of shapes that only FCL measures
@@ -184,7 +183,6 @@ def compile_frame() -> None:
 def compile_rest() -> None:
     """Let a ball fall asleep and wake, and another, which is not balanced, fly at one that stands; reach out."""
     from carom.ecs.components.joint import FREE, LOCKED, Joint
-    from carom.systems.continuous import Fast
     from carom.systems.kernels.crew import make_crew, serve
     from carom.systems.kernels.observing import compile_observing
     from carom.systems.kinematics import Kinematics
@@ -204,8 +202,6 @@ def compile_rest() -> None:
     unbalanced = {"mass": 1.0, "center_of_mass": (0.1, 0.0, 0.0)}
     simulation.add(collider=ball, body=unbalanced, transform=place, motion=flies)
     simulation.step()
-    with simulation.world.faces(None):
-        simulation.world[Fast].tells(simulation.world, 1.0)
     simulation.wake(sleeper)
     simulation.step()
     why_awake(simulation, sleeper)
