@@ -9,6 +9,7 @@ import pytest
 from onlookers import looked_on
 
 from carom.ecs import Timings, World, state_hash, system
+from carom.ecs.components.flight import Flight
 from carom.ecs.relations.impact import Impact
 from carom.systems import going_on
 from carom.systems.continuous import Fast
@@ -102,6 +103,47 @@ def test_the_same_comes_out_where_somebody_fast_is_looked_after(monkeypatch: pyt
         assert state_hash(alone.world) == state_hash(seen.world)
     assert looked_after > 60
     assert alone.world[Timings]["go_on"].calls > 60, "no flight was stopped to look"
+
+
+def scattered(integrator: str, **settings: object) -> Simulation:
+    """Return bodies of all kinds that fall and tumble, too far apart to meet, more than are taken together."""
+    simulation, random = Simulation(checked=False, integrator=integrator, **settings), np.random.default_rng(4)
+    solid, none = {"box": {"size": (0.6, 0.4, 0.2)}}, (0.0, 0.0, 0.0)
+    kinds: list[dict[str, object]] = [
+        {"mass": 1.0}, {"mass": 2.0, "center_of_mass": (0.1, 0.0, 0.05)}, {"locked": ["y"], "gravity_scale": 0.0},
+        {"type": "kinematic"}, {"mass": 1.0, "gravity_scale": -0.5}, {"mass": 1.0, "inertia": (0.1, 0.2, 0.25)},
+    ]  # fmt: skip
+    for k, place in enumerate(np.ndindex(8, 8, 9)):
+        simulation.add(
+            collider=solid, body=kinds[k // 8 % len(kinds)] if k % 3 else kinds[0],
+            transform={"position": 5.0 * np.array(place)},
+            motion={"linear": random.normal(size=3) * (1, 0, 1), "angular": random.normal(size=3) if k % 7 else none},
+        )  # fmt: skip
+    return simulation
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("integrator", ["euler", "semi_implicit", "verlet"])
+def test_the_same_comes_out_where_nobody_meets_anybody(integrator: str, threads: int) -> None:
+    """All substeps of some bodies are taken before those of others; and none is left to be taken by itself."""
+    alone, seen = scattered(integrator, threads=threads), looked_on(scattered(integrator, threads=threads))
+    for _ in range(30):
+        alone.step(), seen.step()
+        assert state_hash(alone.world) == state_hash(seen.world)
+        for column in ("start_center", "start_linear", "turned", "time", "acceleration"):
+            assert np.array_equal(getattr(alone.world[Flight], column), getattr(seen.world[Flight], column)), column
+    assert alone.world[Timings]["kick"].calls == 1, "before it was known what pulls at them"
+
+
+def test_where_one_is_slowed_down_all_go_substep_by_substep() -> None:
+    """Where it leaves its reach is not known beforehand; as ever, no bit depends on that."""
+    alone, seen = scattered("verlet"), looked_on(scattered("verlet"))
+    for simulation in (alone, seen):
+        simulation.add(collider=SPHERE, body={"linear_damping": 0.5}, transform={"position": (-9.0, 0.0, 0.0)})
+    for _ in range(3):
+        alone.step(), seen.step()
+        assert state_hash(alone.world) == state_hash(seen.world)
+    assert alone.world[Timings]["kick"].calls >= 3
 
 
 def test_checked_mode_takes_the_same_way() -> None:

@@ -13,6 +13,7 @@ from carom.systems.kernels.crew import ROOM, share
 from carom.systems.kernels.crew_words import describe
 from carom.systems.kernels.flight import predict_middle
 from carom.systems.kernels.flying_on import FOUND, ask_closing, fly_on
+from carom.systems.kernels.free_flight import fly_freely, is_free
 from carom.systems.kernels.impacts import DONE
 from carom.systems.kernels.kernel import kernel, woven
 from carom.systems.kernels.kicking import VERLET, kick_bodies
@@ -79,6 +80,21 @@ def take_substeps(
     stirs, soonest = np.empty((2, len(crew) // ROOM), np.bool_), np.empty((len(crew) // ROOM, 2))
     joined = np.empty(0, np.int64)  # nobody is
     now = nanoseconds()
+    if not (count or len(fast)) and is_free(
+        rows, watched, (substeps - number + 1) * h, drag, stream, center, detected_center, reach, linear, felt
+    ):
+        share(describe(fly_freely, for_rows, (
+            rows, number, substeps, h, scheme, bends, center_of_mass, inverse_mass, inertia, principal_axes, freedom,
+            drag, drag_flow, angular_drag, position, rotation, linear, angular, last_acceleration,
+            last_angular_acceleration, center, time, acceleration, angular_acceleration, felt, decay, angular_decay,
+            flow, touching, held, start_position, start_rotation, start_linear, start_angular, start_center, turned,
+            pull, arc,
+        )))  # fmt: skip
+        for _ in range(number, substeps + 1):
+            for axis in range(3):
+                stream[1, axis] += stream[0, axis] * h
+        note(DRIFT, now, spent)
+        return substeps, flight, rest, cut, looked, given_up, logged, log_pair, log
     for k in range(number, substeps + 1):
         clock = begun + (k - 1) * h
         if k > begins:
