@@ -22,6 +22,7 @@ from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.manifolds import find_manifolds
 from carom.systems.kernels.refilling import refill_groups
 from carom.systems.progress import Progress
+from carom.systems.rehearsal import Rehearsal
 from carom.systems.resting import Resting
 from carom.systems.simulation import Simulation
 
@@ -127,6 +128,7 @@ def stays(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         found.append(1)
 
     monkeypatch.setattr(grouping, "refill_groups", count)
+    monkeypatch.setattr(Rehearsal, "due", False)  # whose groups are others
     return found
 
 
