@@ -24,7 +24,7 @@ from carom.systems.kernels.substeps import take_substeps
 from carom.systems.ledger import Ledger
 from carom.systems.linkage import Linkage
 from carom.systems.progress import Progress, Stop
-from carom.systems.response import contacts_flown_by, log_impacts, note_flight, room_for_log
+from carom.systems.response import contacts_flown_by, note_flight, room_for_log
 from carom.systems.resting import Resting
 from carom.systems.settings import Settings
 from carom.systems.stream import Stream
@@ -87,8 +87,7 @@ def go_on(world: World, dt: float) -> None:
         *contacts_flown_by(world), *world[Fast].columns,
         ledger.pull, ledger.arc, *room_for_log(), spent,
     )  # fmt: skip
-    note_flight(world, cut, looked, given_up)
-    log_impacts(world, count, pair, log)
+    note_flight(world, cut, looked, given_up, count, pair, log)
     resting.forget_poses()
     progress.come_to(number, dt, world)
     progress.gone_on, progress.resting = True, rests

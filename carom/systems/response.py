@@ -170,8 +170,7 @@ def _fly_on(world: World, h: float, since: Stop) -> Stop:
         resting.stale, resting.lanes, resting.bodies, resting.closes,
         *contacts_flown_by(world), *world[Fast].columns, ledger.pull, ledger.arc, 0, *room_for_log(),
     )  # fmt: skip
-    note_flight(world, cut, looked, given_up)
-    log_impacts(world, count, pair, log)
+    note_flight(world, cut, looked, given_up, count, pair, log)
     return Stop(*ends)
 
 
@@ -192,15 +191,16 @@ def room_for_log() -> tuple[Integers, Floats]:
     return np.empty(FEW_IMPACTS, np.int64), np.empty((FEW_IMPACTS, LOG_WIDTH))
 
 
-def note_flight(world: World, cut: int, looked: int, given_up: int) -> None:
-    """Count the impacts of a flight that were let pass, and the looks that were taken and that were given up."""
+def note_flight(
+    world: World, cut: int, looked: int, given_up: int, count: int, pair: Integers, log: Floats
+) -> None:  # fmt: skip
+    """Append what a flight has noted of its impacts to their table; ``cut`` are those that were let pass.
+
+    And count the looks that were taken and that were given up.
+    """
     answered = world[Answered]
     answered.impacts_cut, answered.looks = answered.impacts_cut + cut, answered.looks + looked
     answered.looks_cut += given_up
-
-
-def log_impacts(world: World, count: int, pair: Integers, log: Floats) -> None:
-    """Append what a flight has noted of its impacts to their table."""
     if count:
         contact, impact = world[Contact], world[Impact]
         first = impact.count

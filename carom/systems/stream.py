@@ -21,7 +21,3 @@ class Stream(Resource):
         self.motion: Floats = np.zeros((2, 3))
         self.gone: Floats = np.zeros(3)
         self.passes = 0.0
-
-    def flow(self, span: float) -> None:
-        """Go on for some seconds."""
-        self.motion[1] += self.motion[0] * span

@@ -211,7 +211,7 @@ def test_who_is_struck_is_bounded_as_where_the_stream_came_from() -> None:
         flown = span * stream.motion[0]
         flight.center[: SIDE * SIDE] += flown
         world[Transform].position[: SIDE * SIDE] += flown
-        stream.flow(span)
+        stream.motion[1] += stream.motion[0] * span
         world[Motion].linear[7] = 0.0
         assert detection_holds(world, span)
         pose = world[ColliderPose]

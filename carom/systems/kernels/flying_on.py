@@ -65,7 +65,7 @@ def fly_on(
         if soon < 0.0:
             stray(gone, fast, numbers, rotation, linear, angular, linear, asked)  # planes of contacts stay
             soon = look(
-                h - at, True, True, center, rotation, linear, angular, felt, detected_center, detected_rotation, reach,
+                h - at, True, center, rotation, linear, angular, felt, detected_center, detected_rotation, reach,
                 fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
                 far_bodies, far_normals, gaps, nears, far_places, asked, near, left, times, struck,
             )  # fmt: skip
@@ -117,7 +117,7 @@ def fly_on(
             )  # fmt: skip
             stray(h - at, fast, numbers, rotation, linear, angular, before, asked)
             soon = look(
-                h - at, False, False, center, rotation, linear, angular, felt, detected_center, detected_rotation,
+                h - at, False, center, rotation, linear, angular, felt, detected_center, detected_rotation,
                 reach, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
                 far_bodies, far_normals, gaps, nears, far_places, asked, near, left, times, struck,
             )  # fmt: skip
@@ -139,7 +139,7 @@ def fly_on(
             )  # fmt: skip
             begin_anew(rows, center, start_center, turned)
             soon = look(
-                h - at, False, False, center, rotation, linear, angular, felt, detected_center, detected_rotation,
+                h - at, False, center, rotation, linear, angular, felt, detected_center, detected_rotation,
                 reach, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
                 far_bodies, far_normals, gaps, nears, far_places, asked, near, left, times, struck,
             )  # fmt: skip
@@ -180,26 +180,26 @@ def ask_closing(
 
 @woven
 def look(
-    span, found, first_only, center, rotation, linear, angular, felt, detected_center, detected_rotation, reach,
+    span, found, center, rotation, linear, angular, felt, detected_center, detected_rotation, reach,
     fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
     far_bodies, far_normals, gaps, nears, far_places, asked, near, left, times, struck,
 ):  # fmt: skip
     """Return in how many seconds somebody is to be looked at as all move now; infinity beyond ``span``.
 
-    Contacts have just been ``found``, or what was is trusted for as long as it lasts. Where only the first counts,
-    times of others stay unknown.
+    Contacts have just been ``found``, or what was is trusted for as long as it lasts. In the former case only the first
+    counts, most often there is none, and times of others stay unknown.
     """
     if not len(fast):
         return np.inf
-    if first_only:
+    if found:
         times[:] = 0.0
     struck[:] = False
     soon = foresee(
-        span, first_only, found, center, rotation, linear, angular, felt, detected_center, detected_rotation, reach,
+        span, found, found, center, rotation, linear, angular, felt, detected_center, detected_rotation, reach,
         fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
         asked, near, left, times,
     )  # fmt: skip
-    if first_only:
+    if found:
         times[:] = 0.0
     soon = min(soon, come(span, far_bodies, far_normals, gaps, nears, far_places, center, rotation, linear, angular))
     return soon if soon < span else np.inf
