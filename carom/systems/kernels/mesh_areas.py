@@ -60,9 +60,9 @@ def beyond_bottom(v, loop_vertex, begin, stop, triangles, links, vertices, t, ed
     """Return how far (m) corners of a face that still count are beyond the edge of a triangle in which a valley ends.
 
     Those over its other side, within ``reach`` of the edge and of the triangle's plane, may be over this one the next
-    moment, unless both have one manifold. Those in the ground are over neither side in the wedge beneath: there no
-    other of the ``near`` triangles that are ``close`` is nearer. ``x`` is the way out of the triangle, along which it
-    is measured.
+    moment, unless both have one manifold; in the ground they are held by both, behind both. In the wedge beneath they
+    are over neither side: there no other of the ``near`` triangles that are ``close`` is nearer. ``x`` is the way out
+    of the triangle, along which it is measured.
     """
     a, w = TRIANGLE * t, 3 * links[8 * t + 3 + edge]
     i, j = a + 3 * edge, a + 3 * ((edge + 1) % 3)
@@ -78,13 +78,13 @@ def beyond_bottom(v, loop_vertex, begin, stop, triangles, links, vertices, t, ed
         c = 3 * loop_vertex[k]
         qx, qy, qz = v[c] - triangles[i], v[c + 1] - triangles[i + 1], v[c + 2] - triangles[i + 2]
         gap, out = nx * qx + ny * qy + nz * qz, x * qx + y * qy + z * qz
-        if out <= farthest or out > (reach if gap >= 0.0 else -GORGE * gap):
+        if out <= farthest:
             continue
-        if gap < 0.0:
+        counts = bent and max(gap, out) <= reach and (gap >= 0.0 or mx * qx + my * qy + mz * qz <= 0.0)
+        counts &= ox * qx + oy * qy + oz * qz <= 0.0 and px * qx + py * qy + pz * qz <= 0.0
+        counts &= (ox + px) * (qx - rx) + (oy + py) * (qy - ry) + (oz + pz) * (qz - rz) >= 0.0
+        if out <= -GORGE * gap and not counts:
             counts = is_nearest_beneath(triangles, links, close, near, t, v[c], v[c + 1], v[c + 2])
-        else:
-            counts = bent and gap <= reach and ox * qx + oy * qy + oz * qz <= 0.0 and px * qx + py * qy + pz * qz <= 0.0
-            counts &= (ox + px) * (qx - rx) + (oy + py) * (qy - ry) + (oz + pz) * (qz - rz) >= 0.0
         if counts:
             farthest = out
     return farthest
