@@ -27,7 +27,7 @@ from carom.systems.kernels.fast_pairs import (
 from carom.systems.kernels.left_out import write_left_out
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.swinging import NUMBERS
-from carom.systems.kernels.told import write_told
+from carom.systems.kernels.told import tell_let_go, write_told
 from carom.systems.kernels.trust import find_agreeing, find_trusts
 from carom.systems.looked import NO_PAIRS, NONE_LEFT_OUT, NONE_TOLD, NOWHERE, FastPairs, Land, LeftOut, Looked, Told
 from carom.systems.progress import Progress
@@ -115,6 +115,15 @@ class Fast(Resource):
             contact.normal, contact.depth, contact.point, world[Collider].bound_radius, world[Flight].detected_center,
             world[Transform].rotation, *self.told,
         )  # fmt: skip
+
+    def tell_let_go(self, world: World) -> None:
+        """Write into the table how far apart bodies are where contacts were let go on the way."""
+        contact, center = world[Contact], world[Flight].center
+        if len(self.told.spans):
+            tell_let_go(
+                self.told.spans, contact.body_a, contact.body_b, contact.normal, self.told.around, self.told.places,
+                center, world[Transform].rotation, np.zeros_like(center), contact.depth,
+            )  # fmt: skip
 
     def let_go(self, contact: Contact) -> None:
         """Let contacts strike again of pairs of which one is new, or that are looked after: they may turn onto one."""

@@ -110,10 +110,11 @@ def relax(world: World, dt: float) -> None:
         world[Landings].tell(world, dt)
 
 
-@system(reads=(Settings, Threads, Awake), writes=(Contact, Resting), when=stirs)
+@system(reads=(Transform, Flight, Settings, Threads, Awake, Fast), writes=(Contact, Resting), when=stirs)
 def hand_impulses_over(world: World, dt: float) -> None:
-    """Write what the resting stage has found into the contact table."""
+    """Write what the resting stage has found into the contact table, and how far away is what was let go."""
     world[Resting].hand_over(world)
+    world[Fast].tell_let_go(world)
 
 
 @system(

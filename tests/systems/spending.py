@@ -13,7 +13,7 @@ UPRIGHT = np.tile((0.0, 0.0, 0.0, 1.0), (2, 1))
 PLACES = np.array([[0.0, 0.0, 0.0], [0.0, 3.0, 0.0]])
 
 
-@kernel("left", "times", "asked")
+@kernel("left", "times", "asked", makes_arrays=True)
 def spend_and_ask(
     elapsed, span, ahead, bodies, numbers, center, turns, linear, angular, before, angular_before, struck, left, times,
     asked,
@@ -22,7 +22,7 @@ def spend_and_ask(
     spend_trust(
         elapsed, span, bodies, numbers, center, turns, linear, angular, before, angular_before, struck, left, times
     )
-    ask_straying(ahead, bodies, numbers, turns, linear, angular, before, asked)
+    ask_straying(ahead, span, bodies, numbers, turns, linear, angular, before, asked, np.zeros(len(asked), np.bool_))
 
 
 def spend(

@@ -21,6 +21,7 @@ from carom.systems.detection.bounds import reach_within
 from carom.systems.detection.contacts import detect
 from carom.systems.kernels.kernel import kernel
 from carom.systems.kernels.meeting import foresee_meetings
+from carom.systems.kernels.swinging import TRUSTED
 from carom.systems.kernels.telling import ask_told
 from carom.systems.kernels.told import renew_told
 from carom.systems.looked import Told
@@ -83,7 +84,8 @@ def ask_and_renew(
     if told:
         renew_told(
             count, start, group_of, lane_of, row, stale, row_a, row_b, shape, bound_radius, body_a, body_b, normal,
-            spans, around, places, tells, center, turns, linear, angular, depth, offset_a, offset_b, resting, lanes,
+            spans, around, places, numbers[:, TRUSTED], tells, center, turns, linear, angular, depth, offset_a,
+            offset_b, resting, lanes,
         )  # fmt: skip
     return told
 

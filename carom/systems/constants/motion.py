@@ -38,9 +38,16 @@ ROLLED_ASIDE = 0.005
 # steps to come there.
 MEET = 0.25
 
-# Steps towards a meeting, and detections in the middle of a substep for those who are fast. Fewer: bodies that tumble
-# past others are given up before they meet; those are counted.
-MOST_LOOKS = 64
+# Turn of a body within a substep (rad) beyond which those of its contacts that are too far to be trusted are let go,
+# which are followed straight on. Smaller: more detections. Larger: they strike where nobody is.
+ASTRAY = 1.0
+
+# Steps towards a meeting. Fewer: it is looked at again before.
+STEPS_TO_MEET = 64
+
+# Looks within a substep at those who are fast, of which a detection counts as one. Fewer: bodies that tumble past
+# others are given up before they meet; those are counted.
+MOST_LOOKS = 256
 
 # Pairs of two fast bodies that can both be pushed, up to which they are looked after, and detections in a step up to
 # which they are. More: clouds of fragments are detected again and again. Fewer: some turn off by a tenth.

@@ -16,7 +16,9 @@ from carom.systems.kernels.left_out import when_near as come
 from carom.systems.kernels.meeting import foresee_meetings
 from carom.systems.kernels.reach import find_leaving
 from carom.systems.kernels.settling import finish_drift, sink_contacts, tell_depths
+from carom.systems.kernels.swinging import TRUSTED
 from carom.systems.kernels.telling import ask_told
+from carom.systems.kernels.told import let_astray_go as let_go
 from carom.systems.kernels.told import renew_told
 from carom.systems.kernels.trust import ask_straying as stray
 from carom.systems.kernels.trust import spend_trust as spend
@@ -57,13 +59,18 @@ def fly_on(
     how much looks are more if detection holds, whether anything has been since the last), cut, looks taken and given
     up, impacts logged, pair of each, log).
     """
-    leaving, tells = np.empty(1, np.int64), np.empty(len(fast), np.bool_)
+    leaving, tells, trusted = np.empty(1, np.int64), np.empty(len(fast), np.bool_), numbers[:, TRUSTED]
     soonest = np.empty((len(for_closing) // ROOM, 2))
     cut, looked, given_up = 0, 0, 0
     while True:
         went, had, until = at, events, np.inf
         if soon < 0.0:
-            stray(gone, fast, numbers, rotation, linear, angular, linear, asked)  # planes of contacts stay
+            # Planes of contacts stay, however bodies move.
+            if stray(gone, h, fast, numbers, rotation, linear, angular, linear, asked, tells):
+                let_go(
+                    count, start, group_of, lane_of, row, body_a, body_b, normal, spans, around, places, trusted, tells,
+                    near, center, rotation, linear, angular, depth, resting, lanes,
+                )  # fmt: skip
             soon = look(
                 h - at, True, center, rotation, linear, angular, felt, detected_center, detected_rotation, reach,
                 fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
@@ -115,7 +122,11 @@ def fly_on(
                 at - went, h, fast, numbers, center, rotation, linear, angular, before, angular_before, struck, left,
                 times,
             )  # fmt: skip
-            stray(h - at, fast, numbers, rotation, linear, angular, before, asked)
+            if stray(h - at, h, fast, numbers, rotation, linear, angular, before, asked, tells):
+                let_go(
+                    count, start, group_of, lane_of, row, body_a, body_b, normal, spans, around, places, trusted, tells,
+                    near, center, rotation, linear, angular, depth, resting, lanes,
+                )  # fmt: skip
             soon = look(
                 h - at, False, center, rotation, linear, angular, felt, detected_center, detected_rotation,
                 reach, fast, numbers, cores, roots, local_position, local_rotation, bounds, nodes, triangles, room,
@@ -126,6 +137,8 @@ def fly_on(
                 local_rotation, bounds, nodes, triangles, room, asked, times, body_a, body_b, normal, spans, around,
                 places, left, tells,
             )  # fmt: skip
+        elif reason == TO_LOOK:
+            given_up += 1
         if told:
             share(describe(sink, for_groups, (
                 groups, bound, start_center, center, turned, inverse_mass, index_a, index_b, points, row, fresh, bodies,
@@ -134,8 +147,8 @@ def fly_on(
             share(describe(tell, for_groups, (groups, first, size, row, kind, lanes, depth)))
             renew_told(
                 count, start, group_of, lane_of, row, stale, row_a, row_b, shape, bound_radius, body_a, body_b, normal,
-                spans, around, places, tells, center, rotation, linear, angular, depth, offset_a, offset_b, resting,
-                lanes,
+                spans, around, places, trusted, tells, center, rotation, linear, angular, depth, offset_a, offset_b,
+                resting, lanes,
             )  # fmt: skip
             begin_anew(rows, center, start_center, turned)
             soon = look(

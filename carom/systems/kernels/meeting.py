@@ -11,7 +11,7 @@ from math import sqrt
 import numpy as np
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import CAST_GAP, GLIDING, MEET, MOST_LOOKS
+from carom.systems.constants import CAST_GAP, GLIDING, MEET, STEPS_TO_MEET
 from carom.systems.kernels.arriving import came_since, is_round, somebody_arrives, sought_to
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.cores import AROUND, CORE, HALF_SPACE, KIND, PLACE, write_place
@@ -80,7 +80,7 @@ def meet(
     trust, around, time = numbers[p, TRUSTED], core[AROUND] + core[CORE + AROUND], 0.0
     pull, swing_i, swing_o, most, spent = most_of(p, i, o, limit, numbers, center, turns, linear, angular, felt)
     nx, ny, nz = 0.0, 1.0, 0.0
-    for _ in range(MOST_LOOKS):
+    for _ in range(STEPS_TO_MEET):
         put_both(i, o, time, center, turns, linear, angular, local_position, local_rotation, p, position, rotation)
         write_place(position, rotation, 0, 1, place)
         reach = most * (limit - time) + trust + around

@@ -7,7 +7,7 @@ from carom.systems.kernels import groups as of
 from carom.systems.kernels.blow_points import is_smooth, round_of
 from carom.systems.kernels.fast_pairs import first_of_pairs, is_of_pair
 from carom.systems.kernels.frames import put_on
-from carom.systems.kernels.groups import MANIFOLD_ROWS, POINT_ROWS
+from carom.systems.kernels.groups import ABSENT, MANIFOLD_ROWS, POINT_ROWS
 from carom.systems.kernels.kernel import inlined, kernel
 from carom.systems.kernels.spatial import spun, turn
 
@@ -65,7 +65,7 @@ def gap_told(c, time, body_a, body_b, normal, around, places, center, rotation, 
 @inlined
 def renew_told(
     count, start, group_of, lane_of, row, stale, row_a, row_b, shape, bound_radius, body_a, body_b, normal,
-    spans, around, places, tells, center, rotation, linear, angular, depth, offset_a, offset_b, resting, lanes,
+    spans, around, places, trust, tells, center, rotation, linear, angular, depth, offset_a, offset_b, resting, lanes,
 ):  # fmt: skip
     """Write how deep the contacts of pairs are that tell where these meet, and where on round surfaces; let them go.
 
@@ -81,7 +81,10 @@ def renew_told(
         g, lane = group_of[m], lane_of[m]
         stale[g] |= resting[start[m]]
         for c in range(start[m], start[m + 1]):
-            depth[c] = -gap_told(c, 0.0, body_a, body_b, normal, around, places, center, rotation, linear, angular)
+            gap = gap_told(c, 0.0, body_a, body_b, normal, around, places, center, rotation, linear, angular)
+            if depth[c] == ABSENT and gap > trust[p]:
+                continue
+            depth[c] = -gap
             lanes[row[g] + MANIFOLD_ROWS + POINT_ROWS * (c - start[m]) + of.DEPTH, lane] = depth[c]
             resting[c] = False
             for i, collider, outward, side, offset in (
@@ -92,3 +95,34 @@ def renew_told(
                     rx, ry, rz = round_of(c, collider, outward, normal, bound_radius)
                     offset[c, 0], offset[c, 1] = x - center[i, 0] + rx, y - center[i, 1] + ry
                     offset[c, 2] = z - center[i, 2] + rz
+
+
+@inlined
+def let_astray_go(
+    count, start, group_of, lane_of, row, body_a, body_b, normal, spans, around, places, trust, strays, near,
+    center, rotation, linear, angular, depth, resting, lanes,
+):  # fmt: skip
+    """Let contacts go that are not trusted, of pairs that stray: followed straight on they would be met by chance.
+
+    Those are farther than the ``trust`` (m), and all of who was not ``near`` when they were found.
+    """
+    p = 0
+    for m in range(count):
+        while p < len(spans) and spans[p, 1] <= start[m]:
+            p += 1
+        if p == len(spans) or not strays[p] or start[m] < spans[p, 0] or resting[start[m]]:
+            continue
+        for c in range(start[m], start[m + 1]):
+            gap = gap_told(c, 0.0, body_a, body_b, normal, around, places, center, rotation, linear, angular)
+            if gap > trust[p] or not near[p]:
+                depth[c] = ABSENT
+                lanes[row[group_of[m]] + MANIFOLD_ROWS + POINT_ROWS * (c - start[m]) + of.DEPTH, lane_of[m]] = ABSENT
+
+
+@kernel("depth")
+def tell_let_go(spans, body_a, body_b, normal, around, places, center, rotation, still, depth):
+    """Write how far apart bodies are where contacts of pairs that are looked after were let go; all are ``still``."""
+    for p in range(len(spans)):
+        for c in range(spans[p, 0], spans[p, 1]):
+            if depth[c] == ABSENT:
+                depth[c] = -gap_told(c, 0.0, body_a, body_b, normal, around, places, center, rotation, still, still)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 
 # mypy: disable-error-code="no-untyped-def"
-from carom.systems.constants import APART_MARGIN, GLIDING, MEET
+from carom.systems.constants import APART_MARGIN, ASTRAY, GLIDING, MEET
 from carom.systems.kernels.arriving import sought_to
 from carom.systems.kernels.bodies import length_of
 from carom.systems.kernels.fast_pairs import NEVER, between, motion_of
@@ -108,23 +108,29 @@ def find_agreeing(
 
 
 @inlined
-def ask_straying(time, bodies, numbers, turns, linear, angular, before, asked):
+def ask_straying(time, span, bodies, numbers, turns, linear, angular, before, asked, strays):
     """Let who agreed when pairs were found, as velocities were ``before``, be ``asked`` once it goes another way.
 
     That is by more than at which a contact is found, within the ``time`` (s): as other impacts have it and, without
-    any, precession. Where speed is not to count, it is what it was ``before``.
+    any, precession. Where speed is not to count, it is what it was ``before``. Who is asked and turns by more than
+    ASTRAY in ``span`` (s) ``strays`` from contacts that are too far to be trusted. Tell whether there are any.
     """
+    some = False
     for p in range(len(bodies)):
-        strays = 0.0
+        off, turned = 0.0, 0.0
         for side in range(2):
             i = bodies[p, side]
             if i < 0:
                 continue
+            turned = max(turned, span * length_of(i, angular))
             x, y, z = spin_of(i, turns, angular)
             spin = SPIN + 3 * side
             x, y, z = x - numbers[p, spin], y - numbers[p, spin + 1], z - numbers[p, spin + 2]
-            strays += between(i, i, linear, before) + swing_of(p, side, x, y, z, numbers)
-        asked[p] = asked[p] or strays * time > MEET * numbers[p, TRUSTED]
+            off += between(i, i, linear, before) + swing_of(p, side, x, y, z, numbers)
+        asked[p] = asked[p] or off * time > MEET * numbers[p, TRUSTED]
+        strays[p] = asked[p] and turned > ASTRAY
+        some |= strays[p]
+    return some
 
 
 @inlined
