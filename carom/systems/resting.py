@@ -195,11 +195,12 @@ class Resting(Resource):
         self.forget_poses()
         if not self.groups:
             return
-        flight, contact = world[Flight], world[Contact]
+        flight, contact, body = world[Flight], world[Contact], world[RigidBody]
         sink_contacts(
             crew_for(world, self.count), self.groups, self.rows(world), flight.start_center, flight.center,
-            flight.turned, world[RigidBody].inverse_mass, self.index_a, self.index_b, self.points, self.row,
-            self.fresh, self.bodies, self.lanes,
+            flight.turned, body.inverse_mass, body.inverse_inertia, body.principal_axes, body.freedom,
+            world[Transform].rotation, self.index_a, self.index_b, self.points, self.row, self.fresh, self.bodies,
+            self.lanes,
         )  # fmt: skip
         tell_depths(
             crew_for(world, self.count), self.groups, self.first, self.size, self.row, contact.kind, self.lanes,

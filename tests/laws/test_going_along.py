@@ -64,7 +64,7 @@ def add_busy_capsule(simulation: Simulation) -> None:
         simulation.add(collider={"box": {"size": (0.2, 9.0, 9.0)}}, material=bouncy, transform={"position": (x, 0, 0)})
     simulation.add(
         collider={"capsule": {"radius": 0.1, "length": 0.3}}, body={"mass": 1.0}, material=bouncy,
-        transform={"position": (100.0, 0.0, 0.0)}, motion={"linear": (300.0, 0.0, 0.0), "angular": (0.0, 0.0, 4.5)},
+        transform={"position": (100.0, 0.0, 0.0)}, motion={"linear": (300.0, 0.0, 0.0), "angular": (0.0, 0.0, 30.0)},
     )  # fmt: skip
 
 

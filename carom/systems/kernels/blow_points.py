@@ -34,12 +34,18 @@ def place_points(
                 )  # fmt: skip
             elif not is_smooth(row, shape) or shows_face(c, outward, share):
                 rx, ry, rz = round_of(c, row, outward, normal, bound_radius)
-                x, y, z = turned_back(detected_rotation, i, x - rx, y - ry, z - rz)
-                x, y, z = out_of_frame(rotation, i, x, y, z)
+                x, y, z = on_core(c, i, offset, rx, ry, rz, detected_rotation, rotation)
                 tx, ty, tz = cross(turned[i, 0], turned[i, 1], turned[i, 2], x, y, z)
                 x, y, z = x - tx + rx, y - ty + ry, z - tz + rz
             at[c, 0], at[c, 1], at[c, 2] = x, y, z
         deep[c] = depth[c]
+
+
+@inlined
+def on_core(c, i, offset, rx, ry, rz, detected_rotation, rotation):
+    """Return where contact c is on the core of body i from its centre, by r within the surface: it turns with that."""
+    x, y, z = turned_back(detected_rotation, i, offset[c, 0] - rx, offset[c, 1] - ry, offset[c, 2] - rz)
+    return out_of_frame(rotation, i, x, y, z)
 
 
 @woven
@@ -82,17 +88,22 @@ def depth_now(c, a, b, normal, deep, at_a, at_b, start_center, center, turned):
 
 @inlined
 def meet(
-    c, a, b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, center, turned, share
+    c, a, b, row_a, row_b, shape, bound_radius, normal, offset_a, offset_b, deep, at_a, at_b, start_center, center,
+    turned, detected_rotation, rotation, share,
 ):  # fmt: skip
     """Bring the point of a contact of two bodies to where it is now, so that both are struck at one place.
 
     A corner carries it along the face it glides over, an edge that crosses another half the way of each.
     """
     before = depth_now(c, a, b, normal, deep, at_a, at_b, start_center, center, turned)
-    ax, ay, az = carried(c, a, b, row_a[c], 1.0, shape, bound_radius, normal, at_a, start_center, center, turned, share)
+    ax, ay, az = carried(
+        c, a, b, row_a[c], 1.0, shape, bound_radius, normal, offset_a, at_a, start_center, center, detected_rotation,
+        rotation, share,
+    )  # fmt: skip
     bx, by, bz = carried(
-        c, b, a, row_b[c], -1.0, shape, bound_radius, normal, at_b, start_center, center, turned, share
-    )
+        c, b, a, row_b[c], -1.0, shape, bound_radius, normal, offset_b, at_b, start_center, center, detected_rotation,
+        rotation, share,
+    )  # fmt: skip
     part = share[c] if a >= 0 and b >= 0 else 1.0 if a < 0 else 0.0
     x, y, z = ax + part * (bx - ax), ay + part * (by - ay), az + part * (bz - az)
     for i, at in ((a, at_a), (b, at_b)):
@@ -102,7 +113,10 @@ def meet(
 
 
 @inlined
-def carried(c, i, other, row, outward, shape, bound_radius, normal, at, start_center, center, turned, share):
+def carried(
+    c, i, other, row, outward, shape, bound_radius, normal, offset, at, start_center, center, detected_rotation,
+    rotation, share,
+):  # fmt: skip
     """Return where the point of contact c is that goes with body i; what stands keeps its own."""
     x, y, z = at[c, 0], at[c, 1], at[c, 2]
     if i < 0:
@@ -114,6 +128,6 @@ def carried(c, i, other, row, outward, shape, bound_radius, normal, at, start_ce
         )  # fmt: skip
     elif not is_smooth(row, shape) or shows_face(c, outward, share):
         rx, ry, rz = round_of(c, row, outward, normal, bound_radius)
-        tx, ty, tz = cross(turned[i, 0], turned[i, 1], turned[i, 2], x - rx, y - ry, z - rz)
-        x, y, z = x + tx, y + ty, z + tz
+        x, y, z = on_core(c, i, offset, rx, ry, rz, detected_rotation, rotation)
+        x, y, z = x + rx, y + ry, z + rz
     return x + center[i, 0], y + center[i, 1], z + center[i, 2]

@@ -82,8 +82,8 @@ def foresee_blow(
 def blow(
     first, end, h, struck_before, center, rotation, linear, angular, acceleration, felt,
     inverse_mass, inverse_inertia, principal, freedom,
-    body_a, body_b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, turned, share,
-    surface, friction, restitution, impulse, friction_impulse,
+    body_a, body_b, row_a, row_b, shape, bound_radius, normal, offset_a, offset_b, deep, at_a, at_b, start_center,
+    turned, detected_rotation, share, surface, friction, restitution, impulse, friction_impulse,
 ):  # fmt: skip
     """Let all touching points of a manifold strike at once, within Coulomb's cone over the whole impulse.
 
@@ -102,8 +102,8 @@ def blow(
     for c in range(first, end):
         if -depth_now(c, a, b, normal, deep, at_a, at_b, start_center, center, turned) <= TOUCH:
             meet(
-                c, a, b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, center, turned,
-                share,
+                c, a, b, row_a, row_b, shape, bound_radius, normal, offset_a, offset_b, deep, at_a, at_b, start_center,
+                center, turned, detected_rotation, rotation, share,
             )  # fmt: skip
             touching[n], n = c, n + 1
     touching = touching[:n]

@@ -141,8 +141,8 @@ def fly_on(
             given_up += 1
         if told:
             share(describe(sink, for_groups, (
-                groups, bound, start_center, center, turned, inverse_mass, index_a, index_b, points, row, fresh, bodies,
-                lanes,
+                groups, bound, start_center, center, turned, inverse_mass, inverse_inertia, principal_axes, freedom,
+                rotation, index_a, index_b, points, row, fresh, bodies, lanes,
             )))  # fmt: skip
             share(describe(tell, for_groups, (groups, first, size, row, kind, lanes, depth)))
             renew_told(

@@ -199,8 +199,9 @@ def fly(
             speed, pressed, px, py, pz, fx, fy, fz, together = blow(
                 p, beginning[number[m] + 1], h, strikes[p], center, rotation, linear, angular, acceleration, felt,
                 inverse_mass, inverse_inertia, principal_axes, freedom,
-                body_a, body_b, row_a, row_b, shape, bound_radius, normal, deep, at_a, at_b, start_center, turned,
-                share, surface, friction, restitution, impulse, friction_impulse,
+                body_a, body_b, row_a, row_b, shape, bound_radius, normal, offset_a, offset_b, deep, at_a, at_b,
+                start_center, turned, detected_rotation, share, surface, friction, restitution, impulse,
+                friction_impulse,
             )  # fmt: skip
             fx, fy, fz = -fx, -fy, -fz
             at = i if i >= 0 else o

@@ -147,18 +147,24 @@ def prepare_body(g, r, side, index, masses, lanes, bodies):
 
     Return inverse mass and inertia in the frame, each (tt, tu, uu, tn, un, nn), inverse mass and inertia without locks.
     """
+    keep(lanes, r + of.MASS_A + 3 * side, masses[0], masses[1], masses[2])
+    by_t, by_u, by_n, most = turn_about(g, r, side, index, lanes, bodies)
+    t, u, n = frame_of(r, lanes)
+    along_t, along_u, along_n = scaled(masses, t), scaled(masses, u), scaled(masses, n)
+    return in_frame(t, u, n, along_t, along_u, along_n), in_frame(t, u, n, by_t, by_u, by_n), masses[6], most
+
+
+@woven
+def turn_about(g, r, side, index, lanes, bodies):
+    """Write and return how a body of each manifold turns by twists about the axes; and its largest inverse moment."""
     inertia = gather(bodies[INVERSE], index, g)
     t, u, n = frame_of(r, lanes)
     by_t, by_u, by_n = about(inertia, *t), about(inertia, *u), about(inertia, *n)
     turns = r + of.TURN_A + 9 * side
-    keep(lanes, r + of.MASS_A + 3 * side, masses[0], masses[1], masses[2])
     keep(lanes, turns, by_t[0], by_t[1], by_t[2])
     keep(lanes, turns + 3, by_u[0], by_u[1], by_u[2])
     keep(lanes, turns + 6, by_n[0], by_n[1], by_n[2])
-    along_t, along_u, along_n = scaled(masses, t), scaled(masses, u), scaled(masses, n)
-    return (
-        in_frame(t, u, n, along_t, along_u, along_n), in_frame(t, u, n, by_t, by_u, by_n), masses[6], inertia[6]
-    )  # fmt: skip
+    return by_t, by_u, by_n, inertia[6]
 
 
 @woven

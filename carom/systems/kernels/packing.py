@@ -5,6 +5,7 @@ from __future__ import annotations
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
 import numpy as np
 
+from carom.systems.constants import STALE_TURN
 from carom.systems.kernels.crew import eights_of, shared
 from carom.systems.kernels.freedom import inverse_inertia_of
 from carom.systems.kernels.kernel import inlined, kernel, woven
@@ -107,7 +108,7 @@ def inverse_of(q, axes, ix, iy, iz, uneven, even):
 
 @inlined
 def pack_held(i, inverse_inertia, principal, freedom, rotation, bodies):
-    """Write the inverse inertia of a body with locked axes of rotation."""
+    """Write the inverse inertia of a body, which may have locked axes of rotation."""
     inverse = inverse_inertia_of(i, inverse_inertia, principal, freedom, rotation)
     for k, value in enumerate(inverse):
         bodies[INVERSE, i, k] = value
@@ -182,3 +183,17 @@ def write_ways(rows, start_center, center, turned, inverse_mass, bodies):
             bodies[WAY, i, k], bodies[WAY, i, ANGULAR + k] = center[i, k] - start_center[i, k], turned[i, k]
         turns = turned[i, 0] != 0.0 or turned[i, 1] != 0.0 or turned[i, 2] != 0.0
         bodies[WAY, i, DRIVEN] = turns and inverse_mass[i] == 0.0
+
+
+@woven
+def weigh_anew(rows, turned, inverse_inertia, principal, freedom, rotation, bodies):
+    """Write the inverse inertia of bodies that have turned by more than STALE_TURN.
+
+    As it was it would not fit where contacts are by now: what presses on an axis would turn a rod about that.
+    """
+    for i in rows:
+        x, y, z = first_three(i, turned)
+        if x * x + y * y + z * z > STALE_TURN * STALE_TURN:
+            ix, iy, iz = first_three(i, inverse_inertia)
+            if not (ix == iy and iy == iz):
+                pack_held(i, inverse_inertia, principal, freedom, rotation, bodies)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 # mypy: disable-error-code="no-untyped-def,no-untyped-call"
+from carom.systems.constants import STALE_TURN
 from carom.systems.kernels import groups as of
 from carom.systems.kernels.balls_in_lanes import are_balls
 from carom.systems.kernels.crew import eights_of, part_of, shared, wait_for_all
@@ -11,8 +12,21 @@ from carom.systems.kernels.kernel import inlined, woven
 from carom.systems.kernels.kinematic import keep_course
 from carom.systems.kernels.lane_columns import are_all, in_a_row, load_flat, store_flat
 from carom.systems.kernels.lane_vectors import dot, minus, three
-from carom.systems.kernels.lanes import WIDTH, address, choose, gather, gather_four, load, planes, some, spread, store
-from carom.systems.kernels.packing import WAY, write_ways
+from carom.systems.kernels.lanes import (
+    WIDTH,
+    address,
+    choose,
+    gather,
+    gather_four,
+    larger,
+    load,
+    planes,
+    some,
+    spread,
+    store,
+)
+from carom.systems.kernels.manifolds import turn_about
+from carom.systems.kernels.packing import WAY, weigh_anew, write_ways
 from carom.systems.kernels.resting_balls import are_even
 from carom.systems.kernels.sinking import sink_points
 from carom.systems.kernels.spatial import turn
@@ -80,7 +94,8 @@ def finish_body(
 
 @shared("bodies", "lanes")
 def sink_contacts(
-    crew, groups, rows, start_center, center, turned, inverse_mass, index_a, index_b, points, row, fresh, bodies, lanes
+    crew, groups, rows, start_center, center, turned, inverse_mass, inverse_inertia, principal_axes, freedom, rotation,
+    index_a, index_b, points, row, fresh, bodies, lanes,
 ):  # fmt: skip
     """Write into the lanes of groups how deep contacts have come to be as bodies (rows) moved.
 
@@ -88,6 +103,7 @@ def sink_contacts(
     """
     begin, end = part_of(crew, len(rows))
     write_ways(rows[begin:end], start_center, center, turned, inverse_mass, bodies)
+    weigh_anew(rows[begin:end], turned, inverse_inertia, principal_axes, freedom, rotation, bodies)
     wait_for_all(crew, 1)
     into, moved, index_a, index_b = address(lanes), planes(bodies), address(index_a), address(index_b)
     begin, end = part_of(crew, groups)
@@ -100,6 +116,9 @@ def sink_contacts(
             continue
         a, b = gather(moved[WAY], index_a, g), gather(moved[WAY], index_b, g)
         sink_points(r, points[g], fresh[g], into, a, b)
+        if some(larger(dot(a[4:7], a[4:7]), dot(b[4:7], b[4:7])) - STALE_TURN * STALE_TURN):
+            turn_about(g, r, 0, index_a, into, moved)
+            turn_about(g, r, 1, index_b, into, moved)
 
 
 @shared("depth")

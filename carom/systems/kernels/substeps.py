@@ -187,8 +187,8 @@ def take_substeps(
         )))  # fmt: skip
         if groups:
             share(describe(sink, for_groups, (
-                groups, bound, start_center, center, turned, inverse_mass, index_a, index_b, points, row, fresh, bodies,
-                lanes,
+                groups, bound, start_center, center, turned, inverse_mass, inverse_inertia, principal_axes, freedom,
+                rotation, index_a, index_b, points, row, fresh, bodies, lanes,
             )))  # fmt: skip
             if k == substeps:
                 share(describe(tell, for_groups, (groups, first, size, row, kind, lanes, depth)))
