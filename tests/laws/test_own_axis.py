@@ -72,7 +72,7 @@ def test_no_impact_spins_it_about_its_own_axis(name: str, floor: dict[str, Any],
 def test_nor_does_what_a_capsule_rests_on(collider: dict[str, Any], spin: float, bound: float) -> None:
     """It bounces, slaps down and slides for a second and a half: its inertia is that of where its contacts are.
 
-    What is left is of third order in how far it turns in a substep.
+    What is left comes down with more substeps: from 1.7e-3 to 1e-3 rad/s of a rod at 30 with eight instead of four.
     """
     for seed in range(12):
         simulation, solid = dropped(collider, PLANE, spin, seed, bounce=0.5)
